@@ -1,0 +1,217 @@
+// One Levenberg-Marquardt descent in the unit box, as a state machine: propose a point, be told cost, gradient and
+// Gauss-Newton matrix there, propose the next.
+//   minimise  g.s + s.(H + D/radius).s / 2   subject to  0 <= u + s <= 1,   D = diag(H)
+// by an active set (components that would leave the box are put on it and the rest solved again).
+// Radius as in Ceres: grown by 1/max(1/3, 1 - (2 rho - 1)^3), shrunk by 2, 4, 8, ... on rejection.
+// Coordinates in which the residual is affine are projected out (Golub and Pereyra 1973, doi 10.1137/0710036): at every
+// point told, their optimum in the box is exact from the same matrices, and costs are compared there.
+// Sources: Levenberg 1944; Marquardt 1963, doi 10.1137/0111030; More 1978, doi 10.1007/BFb0067700.
+#pragma once
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace hysteron {
+
+class Descent {
+ public:
+  Descent(Eigen::VectorXd start, const std::vector<bool>& linear) : next_(std::move(start)) {
+    for (std::size_t k = 0; k < linear.size(); ++k) {
+      if (linear[k]) {
+        linear_.push_back(static_cast<Eigen::Index>(k));
+      }
+    }
+  }
+
+  [[nodiscard]] const Eigen::VectorXd& next() const { return next_; }
+  [[nodiscard]] bool finished() const { return !reason_.empty(); }
+  [[nodiscard]] const std::string& reason() const { return reason_; }
+  [[nodiscard]] double cost() const { return cost_; }
+
+  // `diverged` points count as rejected; a diverged start ends the descent.
+  void tell(double cost, bool diverged, Eigen::VectorXd gradient, const Eigen::MatrixXd& matrix) {
+    ++told_;
+    if (diverged) {
+      if (told_ == 1) {
+        reason_ = "start diverged";
+        return;
+      }
+      reject();
+      return;
+    }
+    Eigen::VectorXd point = next_;
+    const double raw = cost * cost;
+    double squares = raw;
+    project(point, squares, gradient, matrix);
+    const bool first = told_ == 1;
+    if (first && raw - squares > 0.01 * raw) {
+      // The other columns were taken at the start's values of the projected coordinates: take them again.
+      next_ = point;
+      told_ = 1;
+      best_squares_ = raw;
+      settle_ = true;
+      at_ = next_;
+      gradient_ = gradient;
+      matrix_ = matrix;
+      cost_ = cost;
+      return;
+    }
+    if (first || settle_ || squares < best_squares_) {
+      const double gained = first || settle_ ? 0.0 : best_squares_ - squares;
+      const bool was_step = !(first || settle_);
+      const double rho = predicted_ > 0.0 ? gained / predicted_ : 1.0;
+      at_ = point;
+      gradient_ = gradient;
+      matrix_ = matrix;
+      const double before = best_squares_;
+      best_squares_ = squares;
+      cost_ = std::sqrt(squares);
+      settle_ = false;
+      if (was_step) {
+        radius_ = std::min(1e12, radius_ / std::max(1.0 / 3.0, 1.0 - std::pow(2.0 * std::min(rho, 2.0) - 1.0, 3.0)));
+        shrink_ = 2.0;
+        quiet_ = gained < 1e-8 * before ? quiet_ + 1 : 0;
+        if (quiet_ >= 2) {
+          reason_ = "relative decrease of the squared cost < 1e-8 twice";
+          return;
+        }
+      }
+      step();
+    } else {
+      reject();
+    }
+  }
+
+ private:
+  void reject() {
+    if (settle_) {
+      settle_ = false;
+    }
+    radius_ /= shrink_;
+    shrink_ *= 2.0;
+    if (radius_ < 1e-12) {
+      reason_ = "damping grew beyond 1e12 without a decrease";
+      return;
+    }
+    step();
+  }
+
+  // Minimiser over the box of the quadratic with matrix A and gradient g from `point`, in the given coordinates.
+  static Eigen::VectorXd bounded_step(const Eigen::MatrixXd& a, const Eigen::VectorXd& g, const Eigen::VectorXd& point) {
+    const Eigen::Index d = g.size();
+    Eigen::VectorXd s = Eigen::VectorXd::Zero(d);
+    std::vector<char> held(static_cast<std::size_t>(d), 0);
+    for (Eigen::Index pass = 0; pass <= d; ++pass) {
+      std::vector<Eigen::Index> free;
+      for (Eigen::Index k = 0; k < d; ++k) {
+        if (held[static_cast<std::size_t>(k)] == 0) {
+          free.push_back(k);
+        }
+      }
+      if (free.empty()) {
+        break;
+      }
+      const auto m = static_cast<Eigen::Index>(free.size());
+      Eigen::MatrixXd sub(m, m);
+      Eigen::VectorXd right(m);
+      for (Eigen::Index i = 0; i < m; ++i) {
+        right[i] = -g[free[static_cast<std::size_t>(i)]];
+        for (Eigen::Index k = 0; k < d; ++k) {
+          if (held[static_cast<std::size_t>(k)] != 0) {
+            right[i] -= a(free[static_cast<std::size_t>(i)], k) * s[k];
+          }
+        }
+        for (Eigen::Index j = 0; j < m; ++j) {
+          sub(i, j) = a(free[static_cast<std::size_t>(i)], free[static_cast<std::size_t>(j)]);
+        }
+      }
+      const Eigen::VectorXd solved = sub.ldlt().solve(right);
+      bool moved = false;
+      for (Eigen::Index i = 0; i < m; ++i) {
+        const Eigen::Index k = free[static_cast<std::size_t>(i)];
+        const double wanted = std::isfinite(solved[i]) ? point[k] + solved[i] : point[k];
+        s[k] = std::clamp(wanted, 0.0, 1.0) - point[k];
+        if (wanted < 0.0 || wanted > 1.0) {
+          held[static_cast<std::size_t>(k)] = 1;
+          moved = true;
+        }
+      }
+      if (!moved) {
+        break;
+      }
+    }
+    return s;
+  }
+
+  // Moves the affine coordinates to their optimum in the box, with cost and gradient to match.
+  void project(Eigen::VectorXd& point, double& squares, Eigen::VectorXd& gradient, const Eigen::MatrixXd& matrix) const {
+    const auto m = static_cast<Eigen::Index>(linear_.size());
+    if (m == 0) {
+      return;
+    }
+    Eigen::MatrixXd sub(m, m);
+    Eigen::VectorXd g(m);
+    Eigen::VectorXd at(m);
+    for (Eigen::Index i = 0; i < m; ++i) {
+      const Eigen::Index k = linear_[static_cast<std::size_t>(i)];
+      g[i] = gradient[k];
+      at[i] = point[k];
+      for (Eigen::Index j = 0; j < m; ++j) {
+        sub(i, j) = matrix(k, linear_[static_cast<std::size_t>(j)]);
+      }
+    }
+    sub.diagonal() *= 1.0 + 1e-12;
+    const Eigen::VectorXd s = bounded_step(sub, g, at);
+    const double change = 2.0 * g.dot(s) + s.dot(sub * s);
+    if (!(change < 0.0) || squares + change <= 0.0) {
+      return;
+    }
+    squares += change;
+    for (Eigen::Index i = 0; i < m; ++i) {
+      const Eigen::Index k = linear_[static_cast<std::size_t>(i)];
+      point[k] += s[i];
+      gradient += matrix.col(k) * s[i];
+    }
+  }
+
+  void step() {
+    for (int attempt = 0; attempt < 60; ++attempt) {
+      Eigen::MatrixXd damped = matrix_;
+      for (Eigen::Index k = 0; k < damped.rows(); ++k) {
+        damped(k, k) += std::max(matrix_(k, k), 1e-12) / radius_;
+      }
+      const Eigen::VectorXd s = bounded_step(damped, gradient_, at_);
+      predicted_ = -(2.0 * gradient_.dot(s) + s.dot(matrix_ * s));
+      if (s.lpNorm<Eigen::Infinity>() < 1e-9) {
+        reason_ = "step < 1e-9 of the box";
+        return;
+      }
+      if (predicted_ > 0.0) {
+        next_ = at_ + s;
+        return;
+      }
+      radius_ /= 4.0;
+    }
+    reason_ = "no descent direction";
+  }
+
+  std::vector<Eigen::Index> linear_;
+  Eigen::VectorXd next_;
+  Eigen::VectorXd at_;
+  Eigen::VectorXd gradient_;
+  Eigen::MatrixXd matrix_;
+  std::string reason_;
+  double best_squares_ = 0.0;
+  double cost_ = 1e300;
+  double radius_ = 10.0;
+  double shrink_ = 2.0;
+  double predicted_ = 0.0;
+  int quiet_ = 0;
+  int told_ = 0;
+  bool settle_ = false;
+};
+
+}  // namespace hysteron

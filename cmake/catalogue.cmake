@@ -1,0 +1,30 @@
+# The file is the registration: collects FOLDER/*.cpp and writes a source with the catalogue of the symbols
+# PREFIX_<stem> they define. A file whose symbol does not match its name fails to link, naming the symbol.
+function(hysteron_catalogue folder prefix type header accessor out_sources)
+  file(GLOB files CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/${folder}/*.cpp")
+  list(SORT files)
+  set(declarations "")
+  set(rows "")
+  foreach(path IN LISTS files)
+    get_filename_component(stem "${path}" NAME_WE)
+    string(APPEND declarations "extern const ${type} ${prefix}_${stem};\n")
+    string(APPEND rows "    &${prefix}_${stem},\n")
+  endforeach()
+  set(generated "${PROJECT_BINARY_DIR}/generated/${prefix}_catalogue.cpp")
+  file(CONFIGURE OUTPUT "${generated}" CONTENT
+"#include <array>
+
+#include \"@header@\"
+
+namespace hysteron {
+@declarations@
+namespace {
+constexpr std::array rows = {
+@rows@};
+}  // namespace
+
+std::span<const @type@* const> @accessor@() { return rows; }
+}  // namespace hysteron
+" @ONLY)
+  set(${out_sources} ${files} "${generated}" PARENT_SCOPE)
+endfunction()

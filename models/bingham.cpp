@@ -1,0 +1,37 @@
+// Bingham: Coulomb element parallel to a dashpot.
+//   F = fc sgn(v) + c0 v + f0
+// with sgn(v) replaced by tanh(v / v_s), v_s = 1 mm/s, so that the force is a function of velocity at rest too.
+// Source: Stanway, Sproston, Stevens 1987, doi 10.1016/0304-3886(87)90056-8.
+#include "simulate/compile.hpp"
+
+namespace hysteron {
+namespace {
+
+struct Bingham {
+  static constexpr std::string_view id = "bingham";
+  static constexpr std::string_view title = "Bingham: Coulomb friction and dashpot";
+  static constexpr std::string_view reference =
+      "Stanway, Sproston, Stevens, J. Electrostatics 20 (1987) 167-184, doi 10.1016/0304-3886(87)90056-8";
+  static constexpr std::string_view equations[] = {"F = fc tanh(v / v_s) + c0 v + f0"};
+  static constexpr int states = 0;
+  static constexpr Parameter parameters[] = {
+      {"fc", "f_c", "N", "yield force", 0.0, 3.0e3, 5.0e2, Scale::linear, {1, 0, 0}, true},
+      {"c0", "c0", "N s/m", "viscous damping", 0.0, 2.0e4, 5.0e2, Scale::linear, {1, 0, -1}, true},
+      {"f0", "f0", "N", "offset force", -1.5e3, 1.5e3, 0.0, Scale::linear, {1, 0, 0}, true},
+      {"v_s", "v_s", "m/s", "speed at which the sign function is rounded", 1.0e-4, 1.0e-1, 1.0e-3, Scale::logarithmic,
+       {0, 0, 1}, false, true},
+  };
+
+  template <class T>
+  static T force(const std::array<T, 4>& p, const std::array<T, 0>& /*s*/, const Input<T>& in, const T& /*below*/) {
+    const auto& [fc, c0, f0, v_s] = p;
+    return fc * tanh(in.v / v_s) + c0 * in.v + f0;
+  }
+};
+
+}  // namespace
+
+extern const Part model_bingham;
+constexpr Part model_bingham = compile<Bingham>();
+
+}  // namespace hysteron

@@ -1,0 +1,59 @@
+// Bouc-Wen hysteresis in parallel with a spring, a dashpot and an offset.
+//   F  = c0 v + k0 x + alpha z + f0
+//   z' = (v - |z|^n (share |v| sgn(z) + (1 - share) v)) / x_y
+// Normal form: z is dimensionless and |z| <= 1, so the scale redundancy of the original is gone. With the parameters of
+//   z0' = A v - beta |v| z0 |z0|^(n-1) - gamma v |z0|^n,   F = ... + alpha0 z0:
+//   Z = (A / (beta + gamma))^(1/n), alpha = alpha0 Z, x_y = Z / A, share = beta / (beta + gamma);
+// a displacement offset x0 of k0 (x - x0) is f0 = -k0 x0.
+// Source: Wen, J. Eng. Mech. Div. 102 (1976) 249-263, doi 10.1061/JMCEA3.0002106.
+#include "simulate/compile.hpp"
+
+namespace hysteron {
+namespace {
+
+struct BoucWen {
+  static constexpr std::string_view id = "bouc-wen";
+  static constexpr std::string_view title = "Bouc-Wen";
+  static constexpr std::string_view reference = "Wen, J. Eng. Mech. Div. 102 (1976) 249-263, doi 10.1061/JMCEA3.0002106";
+  static constexpr std::string_view equations[] = {"F = c0 v + k0 x + alpha z + f0",
+                                                   "z' = (v - |z|^n (share |v| sgn(z) + (1 - share) v)) / x_y"};
+  static constexpr int states = 1;
+  static constexpr Parameter parameters[] = {
+      {"alpha", "alpha", "N", "yield force: force of the saturated hysteresis", 0.0, 3.0e3, 5.0e2, Scale::linear,
+       {1, 0, 0}, true},
+      {"c0", "c0", "N s/m", "viscous damping", 0.0, 2.0e4, 5.0e2, Scale::linear, {1, 0, -1}, true},
+      {"k0", "k0", "N/m", "stiffness", -2.0e4, 1.0e5, 0.0, Scale::linear, {1, -1, 0}, true},
+      {"f0", "f0", "N", "offset force, -k0 x0", -1.5e3, 1.5e3, 0.0, Scale::linear, {1, 0, 0}, true},
+      {"x_y", "x_y", "m", "yield displacement", 5.0e-5, 2.5e-2, 1.0e-3, Scale::logarithmic, {0, 1, 0}},
+      {"share", "beta/(beta+gamma)", "1", "share of the |v| z term: loop shape, 0.5 gives straight unloading", 0.1, 1.5,
+       0.5},
+      {"n", "n", "1", "sharpness of the knee", 1.0, 4.0, 1.5},
+  };
+
+  template <class T>
+  static std::array<T, 1> rate(const std::array<T, 7>& p, const std::array<T, 1>& s, const Input<T>& in) {
+    const T& x_y = p[4];
+    const T& share = p[5];
+    const T& n = p[6];
+    const T& z = s[0];
+    const T grip = power_law(abs(z), n);
+    const T against = share * select(z < T(0.0), -abs(in.v), abs(in.v)) + (T(1.0) - share) * in.v;
+    return {(in.v - grip * against) * (T(1.0) / x_y)};
+  }
+  template <class T>
+  static T stiffness(const std::array<T, 7>& p, double speed) {
+    const T steepest = max(T(1.0), abs(T(1.0) - T(2.0) * p[5]));
+    return T(speed) * p[6] * steepest / p[4];
+  }
+  template <class T>
+  static T force(const std::array<T, 7>& p, const std::array<T, 1>& s, const Input<T>& in, const T& /*below*/) {
+    return p[1] * in.v + p[2] * in.x + p[0] * s[0] + p[3];
+  }
+};
+
+}  // namespace
+
+extern const Part model_bouc_wen;
+constexpr Part model_bouc_wen = compile<BoucWen>();
+
+}  // namespace hysteron

@@ -1,0 +1,44 @@
+// The force differs between the two directions of motion.
+//   F <- F (1 + e tanh(v / v_s)),   v_s = 1 mm/s
+// It acts on all of the force below, so e is not linear together with the forces of the law.
+// Source: standard; the passive damper literature writes separate coefficients for compression and rebound.
+#include "simulate/compile.hpp"
+
+namespace hysteron {
+namespace {
+
+struct Asymmetry {
+  static constexpr std::string_view id = "asymmetry";
+  static constexpr std::string_view title = "Compression-rebound asymmetry";
+  static constexpr std::string_view reference = "standard; separate coefficients for compression and rebound";
+  static constexpr std::string_view equations[] = {"F <- F (1 + e tanh(v / v_s))"};
+  static constexpr int states = 0;
+  static constexpr Parameter parameters[] = {
+      {"e", "e", "1", "relative difference of either direction from the mean", -0.8, 0.8, 0.0, Scale::linear, {}},
+      {"v_s",
+       "v_s",
+       "m/s",
+       "speed at which the sign function is rounded",
+       1.0e-4,
+       1.0e-1,
+       1.0e-3,
+       Scale::logarithmic,
+       {0, 0, 1},
+       false,
+       true},
+  };
+
+  template <class T>
+  static T force(const std::array<T, 2>& p, const std::array<T, 0>& /*s*/, const Input<T>& in, const T& below) {
+    const T& e = p[0];
+    const T& v_s = p[1];
+    return below * (T(1.0) + e * tanh(in.v / v_s));
+  }
+};
+
+}  // namespace
+
+extern const Part effect_asymmetry;
+constexpr Part effect_asymmetry = compile<Asymmetry>();
+
+}  // namespace hysteron

@@ -1,0 +1,31 @@
+// A cubic spring in parallel: a stiffness that grows (or falls) towards both ends of the stroke.
+//   F <- F + k3 x^3
+// Source: standard (Duffing).
+#include "simulate/compile.hpp"
+
+namespace hysteron {
+namespace {
+
+struct CubicStiffness {
+  static constexpr std::string_view id = "cubic-stiffness";
+  static constexpr std::string_view title = "Cubic stiffness";
+  static constexpr std::string_view reference = "standard Duffing spring";
+  static constexpr std::string_view equations[] = {"F <- F + k3 x^3"};
+  static constexpr int states = 0;
+  static constexpr Parameter parameters[] = {
+      {"k3", "k3", "N/m^3", "cubic stiffness", -1.0e8, 1.0e8, 0.0, Scale::linear, {1, -3, 0}, true},
+  };
+
+  template <class T>
+  static T force(const std::array<T, 1>& p, const std::array<T, 0>& /*s*/, const Input<T>& in, const T& below) {
+    const T& k3 = p[0];
+    return below + k3 * in.x * in.x * in.x;
+  }
+};
+
+}  // namespace
+
+extern const Part effect_cubic_stiffness;
+constexpr Part effect_cubic_stiffness = compile<CubicStiffness>();
+
+}  // namespace hysteron

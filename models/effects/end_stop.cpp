@@ -1,0 +1,58 @@
+// Bump stops at both ends of the stroke.
+//   F <- F + k_b (d(x - x_up) - d(-x - x_low)),   d(y) = y (y / 1 mm)^(p - 1) for y > 0, 0 otherwise
+// k_b is the secant stiffness at a deflection of 1 mm. A stop that the motion does not reach has no influence.
+// Source: standard (unilateral spring; p = 1.5 Hertz contact).
+#include "simulate/compile.hpp"
+
+namespace hysteron {
+namespace {
+
+struct EndStop {
+  static constexpr std::string_view id = "end-stop";
+  static constexpr std::string_view title = "End stop";
+  static constexpr std::string_view reference = "unilateral contact at both ends of the stroke";
+  static constexpr std::string_view equations[] = {
+      "F <- F + k_b (d_up - d_low)",
+      "d_up = max(x - x_up, 0) (max(x - x_up, 0) / 1 mm)^(p - 1), d_low likewise of -x - x_low"};
+  static constexpr int states = 0;
+  static constexpr Parameter parameters[] = {
+      {"k_b", "k_b", "N/m", "secant stiffness of a stop at 1 mm", 0.0, 3.0e5, 0.0, Scale::linear, {1, -1, 0}, true},
+      {"x_up",
+       "x_up",
+       "m",
+       "displacement at which the upper stop touches",
+       1.0e-2,
+       2.4e-2,
+       2.0e-2,
+       Scale::linear,
+       {0, 1, 0}},
+      {"x_low",
+       "x_low",
+       "m",
+       "distance from zero at which the lower stop touches",
+       1.0e-2,
+       2.4e-2,
+       2.0e-2,
+       Scale::linear,
+       {0, 1, 0}},
+      {"p", "p", "1", "exponent of the stop", 1.0, 2.5, 1.5, Scale::linear, {}},
+  };
+
+  template <class T>
+  static T force(const std::array<T, 4>& p, const std::array<T, 0>& /*s*/, const Input<T>& in, const T& below) {
+    const T& k_b = p[0];
+    const T& x_up = p[1];
+    const T& x_low = p[2];
+    const T upper = max(in.x - x_up, T(0.0));
+    const T lower = max(-in.x - x_low, T(0.0));
+    const T power = p[3] - T(1.0);
+    return below + k_b * (upper * pow(upper * T(1.0e3), power) - lower * pow(lower * T(1.0e3), power));
+  }
+};
+
+}  // namespace
+
+extern const Part effect_end_stop;
+constexpr Part effect_end_stop = compile<EndStop>();
+
+}  // namespace hysteron

@@ -1,0 +1,31 @@
+// The zero of the load cell drifts in time.
+//   F <- F + r t
+// Source: standard.
+#include "simulate/compile.hpp"
+
+namespace hysteron {
+namespace {
+
+struct ForceDrift {
+  static constexpr std::string_view id = "force-drift";
+  static constexpr std::string_view title = "Drift of the load cell";
+  static constexpr std::string_view reference = "standard";
+  static constexpr std::string_view equations[] = {"F <- F + r t"};
+  static constexpr int states = 0;
+  static constexpr Parameter parameters[] = {
+      {"r", "r", "N/s", "drift of the force", -1.0e2, 1.0e2, 0.0, Scale::linear, {1, -1, 1}, true},
+  };
+
+  template <class T>
+  static T force(const std::array<T, 1>& p, const std::array<T, 0>& /*s*/, const Input<T>& in, const T& below) {
+    const T& r = p[0];
+    return below + r * in.time;
+  }
+};
+
+}  // namespace
+
+extern const Part effect_force_drift;
+constexpr Part effect_force_drift = compile<ForceDrift>();
+
+}  // namespace hysteron

@@ -1,0 +1,46 @@
+// Gas charge of the accumulator acting on the rod's cross-section A.
+//   F <- F + f_g (1 - g x)^(-kappa),   f_g = p0 A, g = A / V0
+// p0 and V0 are pressure and gas volume at x = 0. Stiffness at x = 0: kappa f_g g. Both f_g and g are negative where
+// positive displacement extends the damper. kappa is 1 for slow, 1.4 for fast strokes and is held at 1.2. 1 - g x is
+// kept above 0.05.
+// Source: polytropic gas law.
+#include "simulate/compile.hpp"
+
+namespace hysteron {
+namespace {
+
+struct GasSpring {
+  static constexpr std::string_view id = "gas-spring";
+  static constexpr std::string_view title = "Gas spring of the accumulator";
+  static constexpr std::string_view reference = "polytropic gas law";
+  static constexpr std::string_view equations[] = {"F <- F + f_g (1 - g x)^(-kappa)"};
+  static constexpr int states = 0;
+  static constexpr Parameter parameters[] = {
+      {"f_g", "f_g", "N", "gas force at x = 0", -1.0e3, 1.0e3, 0.0, Scale::linear, {1, 0, 0}, true},
+      {"g",
+       "A/V0",
+       "1/m",
+       "swept fraction of the gas volume per length",
+       -2.0e1,
+       2.0e1,
+       4.0,
+       Scale::linear,
+       {0, -1, 0}},
+      {"kappa", "kappa", "1", "polytropic exponent", 1.0, 1.67, 1.2, Scale::linear, {}, false, true},
+  };
+
+  template <class T>
+  static T force(const std::array<T, 3>& p, const std::array<T, 0>& /*s*/, const Input<T>& in, const T& below) {
+    const T& f_g = p[0];
+    const T& g = p[1];
+    const T& kappa = p[2];
+    return below + f_g * pow(max(T(1.0) - g * in.x, T(0.05)), -kappa);
+  }
+};
+
+}  // namespace
+
+extern const Part effect_gas_spring;
+constexpr Part effect_gas_spring = compile<GasSpring>();
+
+}  // namespace hysteron

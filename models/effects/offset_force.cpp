@@ -1,0 +1,30 @@
+// A constant force, as of a gas accumulator's charge or an unbalanced load cell.
+//   F <- F + f0
+// Source: added to the modified Bouc-Wen model as its equation (15) in the PSO identification of the RD-8040-1.
+#include "simulate/compile.hpp"
+
+namespace hysteron {
+namespace {
+
+struct OffsetForce {
+  static constexpr std::string_view id = "offset-force";
+  static constexpr std::string_view title = "Constant offset force";
+  static constexpr std::string_view reference = "accumulator pre-charge; load-cell zero";
+  static constexpr std::string_view equations[] = {"F <- F + f0"};
+  static constexpr int states = 0;
+  static constexpr Parameter parameters[] = {
+      {"f0", "f0", "N", "offset force", -1.5e3, 1.5e3, 0.0, Scale::linear, {1, 0, 0}, true},
+  };
+
+  template <class T>
+  static T force(const std::array<T, 1>& p, const std::array<T, 0>& /*s*/, const Input<T>& /*in*/, const T& below) {
+    return below + p[0];
+  }
+};
+
+}  // namespace
+
+extern const Part effect_offset_force;
+constexpr Part effect_offset_force = compile<OffsetForce>();
+
+}  // namespace hysteron

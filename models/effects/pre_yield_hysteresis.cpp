@@ -1,0 +1,43 @@
+// A second hysteresis with its own yield displacement in parallel, as of seals or particle chains that deform before
+// they yield.
+//   F <- F + f_h z,   z' = (v - |v| z) / x_y
+// Source: Dahl, Aerospace Corp. report TOR-0158(3107-18)-1, 1968.
+#include "simulate/compile.hpp"
+
+namespace hysteron {
+namespace {
+
+struct PreYieldHysteresis {
+  static constexpr std::string_view id = "pre-yield-hysteresis";
+  static constexpr std::string_view title = "Pre-yield hysteresis (parallel Dahl element)";
+  static constexpr std::string_view reference = "Dahl, Aerospace Corp. TOR-0158(3107-18)-1, 1968";
+  static constexpr std::string_view equations[] = {"F <- F + f_h z", "z' = (v - |v| z) / x_y"};
+  static constexpr int states = 1;
+  static constexpr Parameter parameters[] = {
+      {"f_h", "f_h", "N", "force of the saturated element", 0.0, 2.0e3, 0.0, Scale::linear, {1, 0, 0}, true},
+      {"x_y", "x_y", "m", "its yield displacement", 5.0e-5, 2.5e-2, 5.0e-3, Scale::logarithmic, {0, 1, 0}},
+  };
+
+  template <class T>
+  static std::array<T, 1> rate(const std::array<T, 2>& p, const std::array<T, 1>& s, const Input<T>& in) {
+    const T& x_y = p[1];
+    return {(in.v - abs(in.v) * s[0]) / x_y};
+  }
+  template <class T>
+  static T stiffness(const std::array<T, 2>& p, double speed) {
+    const T& x_y = p[1];
+    return T(speed) / x_y;
+  }
+  template <class T>
+  static T force(const std::array<T, 2>& p, const std::array<T, 1>& s, const Input<T>& /*in*/, const T& below) {
+    const T& f_h = p[0];
+    return below + f_h * s[0];
+  }
+};
+
+}  // namespace
+
+extern const Part effect_pre_yield_hysteresis;
+constexpr Part effect_pre_yield_hysteresis = compile<PreYieldHysteresis>();
+
+}  // namespace hysteron

@@ -1,0 +1,33 @@
+// Pressure drop of turbulent flow through an orifice.
+//   F <- F + d2 v |v|
+// To first order it is the opposite of shear thinning: the sign of the curvature of force over velocity tells them
+// apart.
+// Source: standard (Bernoulli).
+#include "simulate/compile.hpp"
+
+namespace hysteron {
+namespace {
+
+struct QuadraticDamping {
+  static constexpr std::string_view id = "quadratic-damping";
+  static constexpr std::string_view title = "Quadratic (orifice) damping";
+  static constexpr std::string_view reference = "standard turbulent orifice flow";
+  static constexpr std::string_view equations[] = {"F <- F + d2 v |v|"};
+  static constexpr int states = 0;
+  static constexpr Parameter parameters[] = {
+      {"d2", "d2", "N s^2/m^2", "quadratic damping", 0.0, 2.0e4, 0.0, Scale::linear, {1, 0, -2}, true},
+  };
+
+  template <class T>
+  static T force(const std::array<T, 1>& p, const std::array<T, 0>& /*s*/, const Input<T>& in, const T& below) {
+    const T& d2 = p[0];
+    return below + d2 * in.v * abs(in.v);
+  }
+};
+
+}  // namespace
+
+extern const Part effect_quadratic_damping;
+constexpr Part effect_quadratic_damping = compile<QuadraticDamping>();
+
+}  // namespace hysteron

@@ -1,0 +1,39 @@
+// Shear thinning: a part c_t of the viscous damping disappears above the speed v_c.
+//   c(v) = c0 - c_t (1 - (1 + (v / v_c)^2)^((m - 1) / 2)),   F <- F + (c(v) - c0) v
+// With c_t = c0 this is the Carreau law of flow index m, a power law far above v_c (Herschel-Bulkley with a yield
+// force).
+// Source: Carreau, Trans. Soc. Rheol. 16 (1972) 99-127, doi 10.1122/1.549276.
+#include "simulate/compile.hpp"
+
+namespace hysteron {
+namespace {
+
+struct ShearThinning {
+  static constexpr std::string_view id = "shear-thinning";
+  static constexpr std::string_view title = "Shear thinning";
+  static constexpr std::string_view reference = "Carreau, Trans. Soc. Rheol. 16 (1972) 99-127, doi 10.1122/1.549276";
+  static constexpr std::string_view equations[] = {"F <- F - c_t v (1 - (1 + (v / v_c)^2)^((m - 1) / 2))"};
+  static constexpr int states = 0;
+  static constexpr Parameter parameters[] = {
+      {"c_t", "c_t", "N s/m", "damping that thins out", 0.0, 2.0e4, 0.0, Scale::linear, {1, 0, -1}, true},
+      {"v_c", "v_c", "m/s", "speed at which thinning sets in", 5.0e-3, 1.0, 5.0e-2, Scale::logarithmic, {0, 0, 1}},
+      {"m", "m", "1", "flow index: 1 is Newtonian", 0.0, 0.9, 0.5, Scale::linear, {}},
+  };
+
+  template <class T>
+  static T force(const std::array<T, 3>& p, const std::array<T, 0>& /*s*/, const Input<T>& in, const T& below) {
+    const T& c_t = p[0];
+    const T& v_c = p[1];
+    const T& m = p[2];
+    const T relative = in.v / v_c;
+    const T left = pow(T(1.0) + relative * relative, T(0.5) * (m - T(1.0)));
+    return below - c_t * in.v * (T(1.0) - left);
+  }
+};
+
+}  // namespace
+
+extern const Part effect_shear_thinning;
+constexpr Part effect_shear_thinning = compile<ShearThinning>();
+
+}  // namespace hysteron

@@ -1,0 +1,42 @@
+// After a rest the first travel needs more force: settled particles, thixotropy, dry seals.
+//   F <- F (1 + a exp(-s / L)),   s' = |v|
+// s is the travelled distance since the start of the recording. a is not linear together with the forces of the law.
+// Source: no accepted form is known; the exponential is the simplest that fades with travel.
+#include "simulate/compile.hpp"
+
+namespace hysteron {
+namespace {
+
+struct Stiction {
+  static constexpr std::string_view id = "stiction";
+  static constexpr std::string_view title = "First-travel stiction";
+  static constexpr std::string_view reference = "no accepted form; exponential in the travelled distance";
+  static constexpr std::string_view equations[] = {"F <- F (1 + a exp(-s / L))", "s' = |v|"};
+  static constexpr int states = 1;
+  static constexpr Parameter parameters[] = {
+      {"a", "a", "1", "relative excess of the force at the start", -0.5, 2.0, 0.0, Scale::linear, {}},
+      {"L", "L", "m", "distance over which it fades", 1.0e-3, 1.0, 5.0e-2, Scale::logarithmic, {0, 1, 0}},
+  };
+
+  template <class T>
+  static std::array<T, 1> rate(const std::array<T, 2>& /*p*/, const std::array<T, 1>& /*s*/, const Input<T>& in) {
+    return {abs(in.v)};
+  }
+  template <class T>
+  static T stiffness(const std::array<T, 2>& /*p*/, double /*speed*/) {
+    return T(0.0);
+  }
+  template <class T>
+  static T force(const std::array<T, 2>& p, const std::array<T, 1>& s, const Input<T>& /*in*/, const T& below) {
+    const T& a = p[0];
+    const T& L = p[1];
+    return below * (T(1.0) + a * exp(-s[0] / L));
+  }
+};
+
+}  // namespace
+
+extern const Part effect_stiction;
+constexpr Part effect_stiction = compile<Stiction>();
+
+}  // namespace hysteron

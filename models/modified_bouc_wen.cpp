@@ -1,0 +1,69 @@
+// Modified Bouc-Wen: the hysteresis, a spring k0 and a dashpot c0 in series with a dashpot c1, all parallel to k1.
+//   F  = c1 y' + k1 (x - x0)
+//   y' = (alpha z + c0 v + k0 (x - y)) / (c0 + c1)
+//   z' = (u - |z|^n (share |u| sgn(z) + (1 - share) u)) / x_y,   u = v - y'
+// marched in e = x - y, e' = u = (c1 v - k0 e - alpha z) / (c0 + c1), which needs no absolute position; e starts at 0.
+// Normal form of z as in bouc-wen: Z = (A / (beta + gamma))^(1/n), alpha = alpha0 Z, x_y = Z / A and, in the notation of
+// the source, where gamma multiplies |u| z, share = gamma / (beta + gamma).
+// k0 < 0 lets e grow without bound, so the identification box starts at zero.
+// Source: Spencer, Dyke, Sain, Carlson, J. Eng. Mech. 123 (1997) 230-238, doi 10.1061/(ASCE)0733-9399(1997)123:3(230).
+#include "simulate/compile.hpp"
+
+namespace hysteron {
+namespace {
+
+struct ModifiedBoucWen {
+  static constexpr std::string_view id = "modified-bouc-wen";
+  static constexpr std::string_view title = "Modified Bouc-Wen (Spencer)";
+  static constexpr std::string_view reference =
+      "Spencer, Dyke, Sain, Carlson, J. Eng. Mech. 123 (1997) 230-238, doi 10.1061/(ASCE)0733-9399(1997)123:3(230)";
+  static constexpr std::string_view equations[] = {
+      "F = c1 y' + k1 (x - x0)", "y' = (alpha z + c0 v + k0 (x - y)) / (c0 + c1)",
+      "z' = (u - |z|^n (share |u| sgn(z) + (1 - share) u)) / x_y, u = v - y'"};
+  static constexpr int states = 2;
+  static constexpr Parameter parameters[] = {
+      {"alpha", "alpha", "N", "yield force: force of the saturated hysteresis", 0.0, 3.0e3, 5.0e2, Scale::linear,
+       {1, 0, 0}},
+      {"c0", "c0", "N s/m", "viscous damping at high speed", 0.0, 2.0e4, 5.0e2, Scale::linear, {1, 0, -1}},
+      {"c1", "c1", "N s/m", "series dashpot: roll-off at low speed", 5.0e2, 1.0e6, 2.0e4, Scale::logarithmic,
+       {1, 0, -1}},
+      {"k0", "k0", "N/m", "stiffness at high speed", 0.0, 1.0e5, 1.0e3, Scale::linear, {1, -1, 0}},
+      {"k1", "k1", "N/m", "accumulator stiffness", -2.0e4, 1.0e5, 0.0, Scale::linear, {1, -1, 0}, true},
+      {"x_y", "x_y", "m", "yield displacement", 1.0e-4, 2.5e-2, 1.0e-3, Scale::logarithmic, {0, 1, 0}},
+      {"share", "gamma/(beta+gamma)", "1", "share of the |u| z term: loop shape", 0.1, 1.5, 0.5},
+      {"n", "n", "1", "sharpness of the knee", 1.0, 4.0, 1.5},
+      {"x0", "x0", "m", "initial deflection of the accumulator spring", -5.0e-2, 5.0e-2, 0.0, Scale::linear,
+       {0, 1, 0}, false, true},
+  };
+
+  template <class T>
+  static T slip(const std::array<T, 9>& p, const std::array<T, 2>& s, const T& v) {
+    return (p[2] * v - p[3] * s[0] - p[0] * s[1]) * (T(1.0) / (p[1] + p[2]));
+  }
+  template <class T>
+  static std::array<T, 2> rate(const std::array<T, 9>& p, const std::array<T, 2>& s, const Input<T>& in) {
+    const T u = slip(p, s, in.v);
+    const T& z = s[1];
+    const T& share = p[6];
+    const T grip = power_law(abs(z), p[7]);
+    const T against = share * select(z < T(0.0), -abs(u), abs(u)) + (T(1.0) - share) * u;
+    return {u, (u - grip * against) * (T(1.0) / p[5])};
+  }
+  template <class T>
+  static T stiffness(const std::array<T, 9>& p, double speed) {
+    const T steepest = max(T(1.0), abs(T(1.0) - T(2.0) * p[6]));
+    const T series = p[1] + p[2];
+    return (abs(p[3]) + abs(p[0]) * (T(1.0) + steepest) / p[5]) / series + T(speed) * p[7] * steepest / p[5];
+  }
+  template <class T>
+  static T force(const std::array<T, 9>& p, const std::array<T, 2>& s, const Input<T>& in, const T& /*below*/) {
+    return p[2] * (in.v - slip(p, s, in.v)) + p[4] * (in.x - p[8]);
+  }
+};
+
+}  // namespace
+
+extern const Part model_modified_bouc_wen;
+constexpr Part model_modified_bouc_wen = compile<ModifiedBoucWen>();
+
+}  // namespace hysteron

@@ -1,0 +1,105 @@
+// Polynomial of the velocity on either branch of the loop.
+//   F = w sum_i rise_i r^i + (1 - w) sum_i fall_i r^i,   r = v / v_ref, i = 0 .. 6
+//   w = (1 + tanh(a / a_s)) / 2: 1 while the velocity rises, 0 while it falls
+// The source multiplies powers of v; v_ref makes every coefficient a force. A polynomial of sixth degree says nothing
+// beyond the speeds it was fitted on.
+// The acceleration is that of models/motion_filter.hpp with tau = 2 ms; a_s = 0.2 m/s^2 rounds the change of branch.
+// Source: Choi, Lee, Park, J. Sound Vib. 245 (2001) 375-383, doi 10.1006/jsvi.2000.3539.
+#include "models/motion_filter.hpp"
+#include "simulate/compile.hpp"
+
+namespace hysteron {
+namespace {
+
+constexpr Parameter coefficient(std::string_view name, std::string_view meaning, double initial) {
+  return {name, name, "N", meaning, -1.0e4, 1.0e4, initial, Scale::linear, {1, 0, 0}, true};
+}
+
+struct PolynomialHysteresis {
+  static constexpr std::string_view id = "polynomial-hysteresis";
+  static constexpr std::string_view title = "Polynomial of velocity per branch (Choi)";
+  static constexpr std::string_view reference =
+      "Choi, Lee, Park, J. Sound Vib. 245 (2001) 375-383, doi 10.1006/jsvi.2000.3539";
+  static constexpr std::string_view equations[] = {
+      "F = w sum_i rise_i (v / v_ref)^i + (1 - w) sum_i fall_i (v / v_ref)^i, i = 0 .. 6",
+      "w = (1 + tanh(a / a_s)) / 2", "a from h' = (v - h) / tau"};
+  static constexpr int states = 1;
+  static constexpr int terms = 7;
+  static constexpr Parameter parameters[] = {
+      coefficient("rise_0", "rising velocity, constant term", 0.0),
+      coefficient("rise_1", "rising velocity, coefficient of r", 5.0e2),
+      coefficient("rise_2", "rising velocity, coefficient of r^2", 0.0),
+      coefficient("rise_3", "rising velocity, coefficient of r^3", 0.0),
+      coefficient("rise_4", "rising velocity, coefficient of r^4", 0.0),
+      coefficient("rise_5", "rising velocity, coefficient of r^5", 0.0),
+      coefficient("rise_6", "rising velocity, coefficient of r^6", 0.0),
+      coefficient("fall_0", "falling velocity, constant term", 0.0),
+      coefficient("fall_1", "falling velocity, coefficient of r", 5.0e2),
+      coefficient("fall_2", "falling velocity, coefficient of r^2", 0.0),
+      coefficient("fall_3", "falling velocity, coefficient of r^3", 0.0),
+      coefficient("fall_4", "falling velocity, coefficient of r^4", 0.0),
+      coefficient("fall_5", "falling velocity, coefficient of r^5", 0.0),
+      coefficient("fall_6", "falling velocity, coefficient of r^6", 0.0),
+      {"v_ref",
+       "v_ref",
+       "m/s",
+       "speed that normalises the velocity",
+       1.0e-1,
+       1.0,
+       3.0e-1,
+       Scale::logarithmic,
+       {0, 0, 1},
+       false,
+       true},
+      {"tau",
+       "tau",
+       "s",
+       "time constant of the acceleration estimate",
+       5.0e-4,
+       2.0e-2,
+       2.0e-3,
+       Scale::logarithmic,
+       {0, 1, -1},
+       false,
+       true},
+      {"a_s",
+       "a_s",
+       "m/s^2",
+       "acceleration at which its sign is rounded",
+       1.0e-2,
+       5.0,
+       2.0e-1,
+       Scale::logarithmic,
+       {0, -1, 2},
+       false,
+       true},
+  };
+
+  template <class T>
+  static std::array<T, 1> rate(const std::array<T, 17>& p, const std::array<T, 1>& s, const Input<T>& in) {
+    return {(in.v - s[0]) / p[15]};
+  }
+  template <class T>
+  static T stiffness(const std::array<T, 17>& p, double /*speed*/) {
+    return T(1.0) / p[15];
+  }
+  template <class T>
+  static T force(const std::array<T, 17>& p, const std::array<T, 1>& s, const Input<T>& in, const T& /*below*/) {
+    const T r = in.v / p[14];
+    T rise = p[terms - 1];
+    T fall = p[2 * terms - 1];
+    for (std::size_t i = terms - 1; i-- > 0;) {
+      rise = rise * r + p[i];
+      fall = fall * r + p[terms + i];
+    }
+    const T rising = T(0.5) + T(0.5) * tanh(acceleration(in.v, s[0], p[15], in.time) / p[16]);
+    return rising * rise + (T(1.0) - rising) * fall;
+  }
+};
+
+}  // namespace
+
+extern const Part model_polynomial_hysteresis;
+constexpr Part model_polynomial_hysteresis = compile<PolynomialHysteresis>();
+
+}  // namespace hysteron

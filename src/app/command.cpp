@@ -1,0 +1,168 @@
+#include "app/command.hpp"
+
+#include <fmt/format.h>
+#include <omp.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+
+#include "core/error.hpp"
+#include "io/campaign.hpp"
+
+namespace hysteron::app {
+namespace {
+
+volatile std::sig_atomic_t interrupt_seen = 0;
+std::string typed;
+
+double now() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+}  // namespace
+
+void add_data_options(CLI::App& command, DataOptions& options) {
+  command.add_option("DATA", options.data, "CSV or MAT files, or folders of them with an optional campaign.toml")
+      ->required();
+  command.add_option("--column", options.columns, "channel=NAME [UNIT] of a column, e.g. force=\"CH1 [kgf]\"; repeatable")
+      ->allow_extra_args(false);
+}
+
+Campaign load(const DataOptions& options, bool force_required) {
+  ReadOptions read;
+  read.force_required = force_required;
+  for (const std::string& mapping : options.columns) {
+    const auto equals = mapping.find('=');
+    if (equals == std::string::npos || equals == 0 || equals + 1 == mapping.size()) {
+      throw InputError("--column: '" + mapping + "' is not a mapping, expected CHANNEL=NAME, e.g. force=\"CH1 [kgf]\"");
+    }
+    read.columns[mapping.substr(0, equals)] = mapping.substr(equals + 1);
+  }
+  return load_campaign(options.data, read);
+}
+
+void add_common_options(CLI::App& command, CommonOptions& options) {
+  command.add_option("--seed", options.seed, "seed of every random stream")->capture_default_str();
+  command.add_option("--threads", options.threads, "worker threads; 0 takes OMP_NUM_THREADS or all cores")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  command.add_flag("--quiet", options.quiet, "no progress on standard error");
+  command.add_option("--normalisation", options.normalisation, "what RMSE is divided by: max-abs, range, std, mean-abs")
+      ->capture_default_str();
+  command.add_option("--weighting", options.weighting, "per-recording: each recording weighs the same; pooled: each sample")
+      ->check(CLI::IsMember({"per-recording", "pooled"}))
+      ->capture_default_str();
+  command.add_option("--tolerance", options.tolerance, "relative force error allowed to the integration")
+      ->check(CLI::Range(1e-10, 1e-2))
+      ->capture_default_str();
+}
+
+ObjectiveOptions objective_options(const CommonOptions& options) {
+  ObjectiveOptions result;
+  result.normalisation = normalisation_of(options.normalisation);
+  result.weighting = options.weighting == "pooled" ? Weighting::pooled : Weighting::per_recording;
+  result.tolerance = options.tolerance;
+  result.threads = options.threads;
+  return result;
+}
+
+std::map<std::string, int> parse_orders(const std::string& option, const std::string& text) {
+  std::map<std::string, int> result;
+  std::size_t begin = 0;
+  while (begin < text.size()) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    const std::string word = text.substr(begin, end - begin);
+    const std::size_t colon = word.find(':');
+    const std::string order = colon == std::string::npos ? "" : word.substr(colon + 1);
+    if (colon == 0 || order.size() != 1 || order[0] < '0' || order[0] > '5') {
+      throw InputError(option + ": '" + word + "' is wrong, expected PARAMETER:ORDER with an order from 0 to 5, e.g. alpha:1,c0:1");
+    }
+    result[word.substr(0, colon)] = order[0] - '0';
+    begin = end + 1;
+  }
+  return result;
+}
+
+bool interrupted() { return interrupt_seen != 0; }
+
+void catch_interrupts() {
+  struct sigaction action {};
+  action.sa_handler = [](int) { interrupt_seen = 1; };
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+}
+
+ProgressLine::ProgressLine(bool quiet) : quiet_(quiet), terminal_(isatty(STDERR_FILENO) == 1) {}
+
+ProgressLine::~ProgressLine() { finish(); }
+
+void ProgressLine::show(const std::string& stage, double share, const std::string& detail) {
+  if (quiet_) {
+    return;
+  }
+  const double time = now();
+  const bool fresh = stage != stage_;
+  if (fresh) {
+    finish();
+    stage_ = stage;
+    begun_ = time;
+    shown_ = 0.0;
+    if (!terminal_) {
+      fmt::print(stderr, "{}\n", stage);
+    }
+  }
+  if (!terminal_ || time - shown_ < 0.1) {
+    return;
+  }
+  shown_ = time;
+  const double spent = time - begun_;
+  const double left = share > 0.0 ? spent * (1.0 - share) / share : 0.0;
+  fmt::print(stderr, "\r\033[K{}  {:3.0f} %  {}  at most {:.0f} s left", stage, 100.0 * share, detail, left);
+  std::fflush(stderr);
+}
+
+void ProgressLine::finish() {
+  if (!quiet_ && terminal_ && !stage_.empty()) {
+    fmt::print(stderr, "\r\033[K");
+    std::fflush(stderr);
+  }
+  stage_.clear();
+}
+
+std::string json_text(const nlohmann::json& value) { return value.dump(2) + "\n"; }
+
+nlohmann::json environment(int threads, double seconds) {
+  char host[256] = {};
+  gethostname(host, sizeof host - 1);
+  return {{"schema", "hysteron.environment/1"},
+          {"host", host},
+          {"threads", threads > 0 ? threads : omp_get_max_threads()},
+          {"wall_seconds", seconds},
+          {"lanes_vector_bytes", vector_bytes},
+          {"compiler", __VERSION__}};
+}
+
+void remember_command(int count, char** arguments) {
+  typed = "hysteron";
+  // --threads and --out do not change results and would make identical runs differ.
+  for (int k = 1; k < count; ++k) {
+    std::string word = arguments[k];
+    if (word == "--threads" || word == "--out") {
+      ++k;
+      continue;
+    }
+    if (word.starts_with("--threads=") || word.starts_with("--out=")) {
+      continue;
+    }
+    if (word.starts_with("/")) {
+      word = std::filesystem::path(word).filename().string();
+    }
+    typed += " " + (word.find(' ') == std::string::npos ? word : "'" + word + "'");
+  }
+}
+
+const std::string& command_line() { return typed; }
+
+}  // namespace hysteron::app

@@ -1,0 +1,78 @@
+// What the subcommands share: options, input, progress, output files.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "core/recording.hpp"
+#include "fit/identify.hpp"
+
+namespace hysteron::app {
+
+// Options of every command that reads recordings.
+struct DataOptions {
+  std::vector<std::string> data;
+  std::vector<std::string> columns;  // force="CH1 [kgf]"
+};
+void add_data_options(CLI::App& command, DataOptions& options);
+Campaign load(const DataOptions& options, bool force_required = true);
+
+struct CommonOptions {
+  std::uint64_t seed = 1;
+  int threads = 0;
+  bool quiet = false;
+  std::string normalisation = "max-abs";
+  std::string weighting = "per-recording";
+  double tolerance = 1e-4;
+};
+void add_common_options(CLI::App& command, CommonOptions& options);
+ObjectiveOptions objective_options(const CommonOptions& options);
+
+// "alpha:1,c0:2" -> orders; InputError naming the option and the word that is wrong.
+std::map<std::string, int> parse_orders(const std::string& option, const std::string& text);
+
+// Set by SIGINT and SIGTERM; long work checks it between generations.
+bool interrupted();
+void catch_interrupts();
+
+// Progress on standard error: a line rewritten in place on a terminal, one plain line a stage otherwise.
+class ProgressLine {
+ public:
+  explicit ProgressLine(bool quiet);
+  ~ProgressLine();
+  ProgressLine(const ProgressLine&) = delete;
+  ProgressLine& operator=(const ProgressLine&) = delete;
+  ProgressLine(ProgressLine&&) = delete;
+  ProgressLine& operator=(ProgressLine&&) = delete;
+  void show(const std::string& stage, double share, const std::string& detail);
+  void finish();
+
+ private:
+  bool quiet_;
+  bool terminal_;
+  std::string stage_;
+  double begun_ = 0.0;
+  double shown_ = 0.0;
+};
+
+// JSON text of a result file: two-space indent, shortest round-trip numbers, final newline.
+std::string json_text(const nlohmann::json& value);
+
+// Facts that vary between identical runs: host, threads, wall time.
+nlohmann::json environment(int threads, double seconds);
+
+// The command line as typed, without the folder of the program.
+void remember_command(int count, char** arguments);
+const std::string& command_line();
+
+void add_fit(CLI::App& program);
+void add_simulate(CLI::App& program);
+void add_score(CLI::App& program);
+void add_catalogue(CLI::App& program);
+void add_generate(CLI::App& program);
+
+}  // namespace hysteron::app

@@ -1,0 +1,367 @@
+// hysteron fit: identifies one parameter set over recordings, writes model.json, fit.json and report.html.
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+#include <memory>
+
+#include "app/command.hpp"
+#include "app/model_file.hpp"
+#include "core/error.hpp"
+#include "io/output.hpp"
+#include "report/html.hpp"
+#include "report/terminal.hpp"
+
+namespace hysteron::app {
+namespace {
+
+using nlohmann::json;
+
+struct FitOptions {
+  DataOptions data;
+  CommonOptions common;
+  std::string model;
+  std::vector<std::string> solvers;
+  std::vector<std::string> effects;
+  std::size_t budget = 20000;
+  std::string by_current;
+  std::string by_frequency;
+  std::vector<std::string> fix;
+  std::vector<std::string> bounds;
+  std::vector<std::string> settings;
+  std::string out;
+};
+
+double parse_number(const std::string& option, const std::string& text) {
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  if (text.empty() || *end != '\0' || !std::isfinite(value)) {
+    throw InputError(option + ": '" + text + "' is not a finite number");
+  }
+  return value;
+}
+
+std::pair<std::string, std::string> split_pair(const std::string& option, const std::string& text,
+                                               const std::string& expected) {
+  const auto equals = text.find('=');
+  if (equals == std::string::npos || equals == 0) {
+    throw InputError(option + ": '" + text + "' is wrong, expected " + expected);
+  }
+  return {text.substr(0, equals), text.substr(equals + 1)};
+}
+
+IdentifyOptions identify_options(const FitOptions& options, const Campaign& campaign) {
+  IdentifyOptions result;
+  if (!options.solvers.empty()) {
+    result.solvers = options.solvers;
+  }
+  result.budget = options.budget;
+  result.seed = options.common.seed;
+  result.effects = options.effects;
+  result.objective = objective_options(options.common);
+  result.layout.by_current =
+      options.by_current.empty() ? campaign.by_current : parse_orders("--by-current", options.by_current);
+  result.layout.by_frequency =
+      options.by_frequency.empty() ? campaign.by_frequency : parse_orders("--by-frequency", options.by_frequency);
+  for (const std::string& text : options.fix) {
+    const auto [name, value] = split_pair("--fix", text, "PARAMETER=VALUE in SI units");
+    result.layout.fix[name] = parse_number("--fix", value);
+  }
+  for (const std::string& text : options.bounds) {
+    const auto [name, range] = split_pair("--bounds", text, "PARAMETER=LOWER:UPPER in SI units");
+    const auto colon = range.find(':');
+    if (colon == std::string::npos) {
+      throw InputError("--bounds: '" + text + "' is wrong, expected PARAMETER=LOWER:UPPER in SI units");
+    }
+    const double lower = parse_number("--bounds", range.substr(0, colon));
+    const double upper = parse_number("--bounds", range.substr(colon + 1));
+    if (!(lower < upper)) {
+      throw InputError("--bounds: '" + text + "' is empty, expected LOWER below UPPER");
+    }
+    result.layout.bounds[name] = {lower, upper};
+  }
+  for (const std::string& text : options.settings) {
+    const auto [name, value] = split_pair("--set", text, "SETTING=NUMBER, see `hysteron describe SOLVER`");
+    result.settings[name] = parse_number("--set", value);
+  }
+  return result;
+}
+
+struct Prediction {
+  std::vector<double> force;
+  Score score;
+};
+
+// At most this many points of a recording go into the page: enough for a screen, small enough for a phone.
+constexpr std::size_t page_points = 1500;
+
+json recording_json(const Recording& recording, const Prediction& prediction, const std::string& role) {
+  json row;
+  row["file"] = recording.file;
+  row["role"] = role;
+  row["drive"] = recording.drive.empty() ? std::string("-")
+                                         : fmt::format("{:.3g} {}", recording.drive[recording.size() / 2],
+                                                       recording.drive_kind == DriveKind::voltage ? "V" : "A");
+  row["nrmse"] = prediction.score.nrmse;
+  row["rmse_n"] = prediction.score.rmse;
+  row["fit_percent"] = prediction.score.fit_percent;
+  const std::size_t stride = (recording.size() + page_points - 1) / page_points;
+  for (const char* key : {"time", "displacement_mm", "velocity_mm_s", "force_n", "predicted_n"}) {
+    row[key] = json::array();
+  }
+  for (std::size_t n = 0; n < recording.size(); n += stride) {
+    row["time"].push_back(recording.time[n]);
+    row["displacement_mm"].push_back(1e3 * recording.displacement[n]);
+    row["velocity_mm_s"].push_back(1e3 * recording.velocity[n]);
+    row["force_n"].push_back(recording.force[n]);
+    row["predicted_n"].push_back(prediction.force[n]);
+  }
+  return row;
+}
+
+json trace_json(const RunResult& run) {
+  json trace = json::array();
+  for (const TracePoint& point : run.trace) {
+    if (point.best < diverged_cost) {
+      trace.push_back({point.evaluations, point.best});
+    }
+  }
+  return trace;
+}
+
+json solver_json(const Identification& result, std::size_t k) {
+  const SolverOutcome& outcome = result.solvers[k];
+  return {{"id", outcome.run.solver},
+          {"title", find_solver(outcome.run.solver)->title},
+          {"cost", outcome.run.cost},
+          {"nrmse_heldout", outcome.nrmse_heldout ? json(*outcome.nrmse_heldout) : json(nullptr)},
+          {"evaluations", outcome.run.evaluations},
+          {"budget", outcome.run.budget},
+          {"diverged", outcome.run.diverged},
+          {"stopped", outcome.run.stopped},
+          {"chosen", k == result.chosen},
+          {"trace", trace_json(outcome.run)}};
+}
+
+json estimate_json(const Estimate& estimate, const Layout& layout) {
+  const Parameter& card = layout.cards()[estimate.term.parameter];
+  const bool constant = estimate.term.drive_power + estimate.term.frequency_power == 0;
+  json row = {{"name", estimate.name},
+              {"symbol", card.symbol},
+              {"unit", estimate.unit},
+              {"meaning", estimate.meaning},
+              {"value", estimate.term.value},
+              {"std_error", nullptr},
+              {"ci95", nullptr},
+              {"at_bound", estimate.at_bound ? json(*estimate.at_bound) : json(nullptr)},
+              {"identifiable", estimate.identifiable}};
+  row["lower"] = constant ? json(estimate.lower) : json(nullptr);
+  row["upper"] = constant ? json(estimate.upper) : json(nullptr);
+  if (estimate.std_error) {
+    row["std_error"] = *estimate.std_error;
+    row["ci95"] = {estimate.term.value - 1.96 * *estimate.std_error, estimate.term.value + 1.96 * *estimate.std_error};
+  }
+  return row;
+}
+
+void run(const FitOptions& options) {
+  const auto begun = std::chrono::steady_clock::now();
+  const Campaign campaign = load(options.data);
+  const std::string model = options.model.empty() ? campaign.model : options.model;
+  if (model.empty()) {
+    throw InputError("no model: expected --model NAME or a model in campaign.toml, see `hysteron list models`");
+  }
+  const IdentifyOptions identify_with = identify_options(options, campaign);
+  // Wrong names are told before a folder is made.
+  make_model(model, identify_with.effects);
+  normaliser(campaign.recordings.front(), identify_with.objective.normalisation);
+
+  ProgressLine progress(options.common.quiet);
+  const Identification result =
+      identify(campaign, model, identify_with, [&](const std::string& stage, const RunResult& run) {
+        progress.show(stage, static_cast<double>(run.evaluations) / static_cast<double>(run.budget),
+                      fmt::format("{} of {} evaluations, best NRMSE {}", run.evaluations, run.budget,
+                                  run.cost < diverged_cost ? format_number(run.cost, 4) : "-"));
+        return !interrupted();
+      });
+  progress.finish();
+  make_output_folder(options.out);
+
+  std::vector<Prediction> predictions;
+  for (const Recording& recording : campaign.recordings) {
+    const Target target = make_target(recording, identify_with.objective);
+    Prediction prediction;
+    prediction.force = predict(result.layout.model(), result.layout.held(), result.terms, target);
+    prediction.score = score(prediction.force, recording, identify_with.objective.normalisation);
+    predictions.push_back(std::move(prediction));
+  }
+  const auto was_heldout = [&](std::size_t k) {
+    return std::ranges::find(result.heldout, k) != result.heldout.end();
+  };
+  const auto role = [&](std::size_t k) {
+    return std::string(was_heldout(k) && result.roles_given ? "validate" : "fit");
+  };
+
+  const std::string normalisation(word_of(identify_with.objective.normalisation));
+  json warnings = result.warnings;
+  if (interrupted()) {
+    warnings.push_back("interrupted: the solvers did not use their whole budget");
+  }
+  json heldout_files = json::array();
+  std::string heldout_names;
+  for (const std::size_t k : result.heldout) {
+    heldout_files.push_back(campaign.recordings[k].file);
+    heldout_names += (heldout_names.empty() ? "" : ", ") + campaign.recordings[k].file;
+  }
+
+  const json model_file = model_json(result, campaign, identify_with);
+  json rows = json::array();
+  json data = json::array();
+  for (std::size_t k = 0; k < predictions.size(); ++k) {
+    rows.push_back({{"file", campaign.recordings[k].file},
+                    {"role", role(k)},
+                    {"held_out_in_check", was_heldout(k)},
+                    {"nrmse", predictions[k].score.nrmse},
+                    {"rmse_n", predictions[k].score.rmse},
+                    {"fit_percent", predictions[k].score.fit_percent}});
+    data.push_back({{"file", campaign.recordings[k].file}, {"sha256", campaign.recordings[k].sha256}});
+  }
+  json solvers = json::array();
+  for (std::size_t k = 0; k < result.solvers.size(); ++k) {
+    solvers.push_back(solver_json(result, k));
+  }
+  json estimates = json::array();
+  for (const Estimate& estimate : result.estimates) {
+    estimates.push_back(estimate_json(estimate, result.layout));
+  }
+  const json fit_file = {{"schema", "hysteron.fit/1"},
+                         {"model", model_file["model"]},
+                         {"effects", model_file["effects"]},
+                         {"normalisation", normalisation},
+                         {"weighting", options.common.weighting},
+                         {"nrmse", model_file["nrmse"]},
+                         {"held_out", heldout_files},
+                         {"held_out_by", result.roles_given ? "campaign.toml" : "the program; final fit uses all recordings"},
+                         {"solvers", solvers},
+                         {"parameters", estimates},
+                         {"recordings", rows},
+                         {"warnings", warnings},
+                         {"provenance", model_file["provenance"]}};
+
+  json page = fit_file;
+  page["title"] = "Identification of " + std::string(result.layout.model().law->title);
+  page["subtitle"] = fmt::format("{} recordings, {} free parameters", campaign.recordings.size(), result.layout.dimension());
+  page["version"] = HYSTERON_VERSION;
+  page["command"] = command_line();
+  page["seed"] = options.common.seed;
+  std::vector<std::string> equations(result.layout.model().law->equations.begin(), result.layout.model().law->equations.end());
+  for (const Part* effect : result.layout.model().effects) {
+    equations.insert(equations.end(), effect->equations.begin(), effect->equations.end());
+  }
+  page["model"] = {{"id", result.layout.model().law->id},
+                   {"title", result.layout.model().law->title},
+                   {"equations", equations},
+                   {"reference", result.layout.model().law->reference}};
+  page["summary"] = json::array();
+  page["summary"].push_back({{"label", "NRMSE, fitted recordings"},
+                             {"value", format_number(result.cost, 3)},
+                             {"note", "root mean square over recordings, normalised by " + normalisation}});
+  if (result.nrmse_heldout) {
+    page["summary"].push_back({{"label", "NRMSE, held-out recordings"},
+                               {"value", format_number(*result.nrmse_heldout, 3)},
+                               {"note", "fitted without " + heldout_names}});
+  }
+  page["summary"].push_back({{"label", "Evaluations"},
+                             {"value", std::to_string(result.solvers[result.chosen].run.evaluations)},
+                             {"note", result.solvers[result.chosen].run.solver + ": " + result.solvers[result.chosen].run.stopped}});
+  page["recordings"] = json::array();
+  for (std::size_t k = 0; k < predictions.size(); ++k) {
+    page["recordings"].push_back(recording_json(campaign.recordings[k], predictions[k], role(k)));
+  }
+  page["data"] = data;
+  page["notes"] = {"Standard errors come from the curvature at the optimum with the effective sample size of the "
+                   "correlated residual; they do not cover what the model leaves out.",
+                   "Fit [%] = 100 (1 - RMSE / standard deviation of the measured force).",
+                   "A derivative evaluation is charged as 1 + number of free parameters evaluations."};
+  page["diagnosis"] = nullptr;
+
+  const std::filesystem::path out(options.out);
+  write_file_atomically(out / "model.json", json_text(model_file));
+  write_file_atomically(out / "fit.json", json_text(fit_file));
+  write_file_atomically(out / "report.html", fit_report_html(page));
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+  write_file_atomically(out / "environment.json", json_text(environment(options.common.threads, seconds)));
+
+  std::vector<std::vector<std::string>> table_rows;
+  for (std::size_t k = 0; k < result.solvers.size(); ++k) {
+    const SolverOutcome& outcome = result.solvers[k];
+    table_rows.push_back({outcome.run.solver, format_number(outcome.run.cost, 4),
+                          outcome.nrmse_heldout ? format_number(*outcome.nrmse_heldout, 4) : "-",
+                          std::to_string(outcome.run.evaluations), std::to_string(outcome.run.diverged),
+                          outcome.run.stopped});
+  }
+  fmt::print("{}\n", table({"solver", "NRMSE fit", "NRMSE held out", "evaluations", "diverged", "stopped"}, table_rows));
+  table_rows.clear();
+  for (const Estimate& estimate : result.estimates) {
+    std::string remark = estimate.at_bound ? "at " + *estimate.at_bound + " bound" : "";
+    if (!estimate.identifiable) {
+      remark += (remark.empty() ? "" : ", ") + std::string("not identifiable");
+    }
+    table_rows.push_back({estimate.name, format_number(estimate.term.value, 4),
+                          estimate.std_error ? format_number(*estimate.std_error, 2) : "-", estimate.unit, remark});
+  }
+  fmt::print("{}\n", table({"parameter", "value", "std error", "unit", "remark"}, table_rows));
+  table_rows.clear();
+  for (std::size_t k = 0; k < predictions.size(); ++k) {
+    table_rows.push_back({campaign.recordings[k].file, format_number(predictions[k].score.nrmse, 4),
+                          format_number(predictions[k].score.rmse, 4),
+                          fmt::format("{:.1f}", predictions[k].score.fit_percent),
+                          was_heldout(k) ? (result.roles_given ? "validate" : "held out in the check") : ""});
+  }
+  fmt::print("{}\n", table({"recording", "NRMSE", "RMSE [N]", "fit [%]", "remark"}, table_rows));
+  if (!result.heldout.empty() && !result.roles_given) {
+    fmt::print("solvers compared on the {} other recordings; final fit on all {}\n",
+               campaign.recordings.size() - result.heldout.size(), campaign.recordings.size());
+  }
+  fmt::print("overall NRMSE {} ({} weighting, normalised by {})", format_number(result.cost, 4),
+             options.common.weighting, normalisation);
+  if (result.nrmse_heldout) {
+    fmt::print(", {} on held-out recordings", format_number(*result.nrmse_heldout, 4));
+  }
+  fmt::print("\nreport: {}\n", (out / "report.html").string());
+  for (const auto& warning : warnings) {
+    fmt::print(stderr, "warning: {}\n", warning.get<std::string>());
+  }
+}
+
+}  // namespace
+
+void add_fit(CLI::App& program) {
+  auto options = std::make_shared<FitOptions>();
+  CLI::App* command = program.add_subcommand("fit", "identifies one parameter set over all recordings given");
+  add_data_options(*command, options->data);
+  command->add_option("--model", options->model, "damper law, see `hysteron list models`");
+  command->add_option("--effects", options->effects, "effects put behind the law, see `hysteron list effects`")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  command->add_option("--solver", options->solvers, "solvers, compared when several; default multistart-lm")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  command->add_option("--budget", options->budget, "evaluations each solver may use")
+      ->check(CLI::Range(std::size_t{1}, std::size_t{1000000000}))
+      ->capture_default_str();
+  command->add_option("--by-current", options->by_current, "parameters that are polynomials in the drive, e.g. alpha:1,c0:1");
+  command->add_option("--by-frequency", options->by_frequency, "parameters that are polynomials in frequency");
+  command->add_option("--fix", options->fix, "PARAMETER=VALUE held, SI units; repeatable")->allow_extra_args(false);
+  command->add_option("--bounds", options->bounds, "PARAMETER=LOWER:UPPER instead of the default box; repeatable")
+      ->allow_extra_args(false);
+  command->add_option("--set", options->settings, "SETTING=NUMBER of the solver; repeatable")->allow_extra_args(false);
+  command->add_option("--out", options->out, "folder for model.json, fit.json, report.html")->required();
+  add_common_options(*command, options->common);
+  command->footer(
+      "Example:\n  hysteron fit recordings/ --model bouc-wen --by-current alpha:1,c0:1 --out out\n"
+      "  hysteron fit recordings/ --model modified-bouc-wen --effects offset-force --solver pso,ga,multistart-lm --out out");
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace hysteron::app

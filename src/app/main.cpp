@@ -1,0 +1,49 @@
+// The command line: exit status 0 done, 1 the work failed, 2 wrong input, 130 interrupted.
+#include <fmt/format.h>
+
+#include "app/command.hpp"
+#include "core/error.hpp"
+
+int main(int count, char** arguments) {
+  using namespace hysteron;
+  app::remember_command(count, arguments);
+  app::catch_interrupts();
+  CLI::App program{
+      "Hysteron identifies damper models from recordings, compares identification algorithms, and finds missing physics."};
+  program.set_version_flag("--version", "hysteron " HYSTERON_VERSION);
+  program.require_subcommand(1);
+  program.footer(
+      "Examples:\n"
+      "  hysteron generate rd8040-twin --out twin\n"
+      "  hysteron fit twin --model modified-bouc-wen --effects offset-force --by-current alpha:2,c0:2 --out out\n"
+      "  hysteron score out/model.json twin\n"
+      "Every command has its own --help.");
+  app::add_fit(program);
+  app::add_simulate(program);
+  app::add_score(program);
+  app::add_catalogue(program);
+  app::add_generate(program);
+  try {
+    program.parse(count, arguments);
+  } catch (const CLI::Success& success) {
+    return program.exit(success);
+  } catch (const CLI::ParseError& error) {
+    std::string message = error.what();
+    std::ranges::replace(message, '\n', ' ');
+    fmt::print(stderr, "error: {} (see hysteron --help)\n", message);
+    return 2;
+  } catch (const InputError& error) {
+    fmt::print(stderr, "error: {}\n", error.what());
+    return 2;
+  } catch (const WorkError& error) {
+    fmt::print(stderr, "error: {}\n", error.what());
+    return app::interrupted() ? 130 : 1;
+  } catch (const std::bad_alloc&) {
+    fmt::print(stderr, "error: out of memory\n");
+    return 1;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "error: internal: {}\n", error.what());
+    return 1;
+  }
+  return app::interrupted() ? 130 : 0;
+}

@@ -1,0 +1,61 @@
+// hysteron score: how well an identified model predicts recordings.
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "app/command.hpp"
+#include "app/model_file.hpp"
+#include "report/terminal.hpp"
+
+namespace hysteron::app {
+
+void add_score(CLI::App& program) {
+  struct Options {
+    std::string model;
+    DataOptions data;
+    CommonOptions common;
+    bool json = false;
+  };
+  auto options = std::make_shared<Options>();
+  CLI::App* command = program.add_subcommand("score", "errors of a fitted model on recordings it need not have seen");
+  command->add_option("MODEL", options->model, "model.json written by fit or diagnose")->required();
+  add_data_options(*command, options->data);
+  add_common_options(*command, options->common);
+  command->add_flag("--json", options->json, "JSON on standard output");
+  command->footer("Example:\n  hysteron score out/model.json other-recordings/ --json");
+  command->callback([options] {
+    const ObjectiveOptions objective = objective_options(options->common);
+    const StoredModel stored = read_model(options->model);
+    const Campaign campaign = load(options->data);
+    std::vector<Score> scores;
+    for (const Recording& recording : campaign.recordings) {
+      const Target target = make_target(recording, objective);
+      scores.push_back(
+          score(predict(stored.model, stored.held, stored.terms, target), recording, objective.normalisation));
+    }
+    const double total = overall(scores, campaign.recordings, objective.normalisation, objective.weighting);
+    if (options->json) {
+      nlohmann::json rows = nlohmann::json::array();
+      for (std::size_t k = 0; k < scores.size(); ++k) {
+        rows.push_back({{"file", campaign.recordings[k].file},
+                        {"nrmse", scores[k].nrmse},
+                        {"rmse_n", scores[k].rmse},
+                        {"fit_percent", scores[k].fit_percent}});
+      }
+      fmt::print("{}", json_text({{"normalisation", word_of(objective.normalisation)},
+                                  {"overall", {{"nrmse", total}}},
+                                  {"recordings", rows}}));
+      return;
+    }
+    std::vector<std::vector<std::string>> rows;
+    for (std::size_t k = 0; k < scores.size(); ++k) {
+      rows.push_back({campaign.recordings[k].file, format_number(scores[k].nrmse, 4), format_number(scores[k].rmse, 4),
+                      fmt::format("{:.1f}", scores[k].fit_percent)});
+    }
+    fmt::print("{}\noverall NRMSE {} ({} weighting, normalised by {})\n",
+               table({"recording", "NRMSE", "RMSE [N]", "fit [%]"}, rows), format_number(total, 4),
+               options->common.weighting, word_of(objective.normalisation));
+  });
+}
+
+}  // namespace hysteron::app

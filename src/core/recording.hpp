@@ -1,0 +1,42 @@
+// A measured recording and a campaign of them: plain values in SI units.
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace hysteron {
+
+// What the drive channel of a recording measures. `none` when the recording has neither.
+enum class DriveKind { none, current, voltage };
+
+// One test of one damper. All channels have the length of `time`; absent optional channels are empty.
+struct Recording {
+  std::string file;                  // as the user named it, relative to the campaign folder, forward slashes
+  std::string sha256;                // of the file's bytes, lower-case hex
+  std::vector<double> time;          // s, strictly increasing
+  std::vector<double> displacement;  // m
+  std::vector<double> velocity;      // m/s, measured or derived (see velocity_measured)
+  std::vector<double> force;         // N; empty only where a motion without force is allowed (simulate)
+  std::vector<double> acceleration;  // m/s^2, optional
+  std::vector<double> drive;         // A or V, optional
+  std::vector<double> temperature;   // degC, optional
+  DriveKind drive_kind = DriveKind::none;
+  bool velocity_measured = false;
+
+  [[nodiscard]] std::size_t size() const { return time.size(); }
+};
+
+enum class Role { unassigned, fit, validate };
+
+// Recordings that belong together, with what campaign.toml says of them.
+struct Campaign {
+  std::vector<Recording> recordings;
+  std::vector<Role> roles;                  // one per recording
+  std::string model;                        // default for --model, may be empty
+  std::map<std::string, int> by_current;    // parameter -> polynomial order in the drive
+  std::map<std::string, int> by_frequency;  // parameter -> polynomial order in frequency
+};
+
+}  // namespace hysteron

@@ -1,0 +1,36 @@
+// The evaluation loop around a solver: one external counter, the budget cut exactly, best and trace kept.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "fit/solver.hpp"
+
+namespace hysteron {
+
+struct TracePoint {
+  std::size_t evaluations;
+  double best;
+};
+
+struct RunResult {
+  std::string solver;
+  std::vector<double> best;  // unit coordinates
+  double cost = 0.0;
+  std::size_t evaluations = 0;
+  std::size_t budget = 0;
+  std::size_t diverged = 0;
+  std::vector<TracePoint> trace;  // at every improvement
+  std::string stopped;            // "budget", the solver's own reason, or "interrupted"
+};
+
+using Evaluate = std::function<Response(const Request&)>;
+// Called after every answer; false stops the run.
+using Observer = std::function<bool(const RunResult&)>;
+
+// A request with derivatives is charged 1 + dimension evaluations a point, as finite differences would be.
+RunResult run_solver(const SolverEntry& entry, const Problem& problem, const Evaluate& evaluate,
+                     const Observer& observer = {});
+
+}  // namespace hysteron

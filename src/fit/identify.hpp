@@ -1,0 +1,65 @@
+// Identification of one parameter set over a campaign: held-out check, final fit, uncertainty.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/recording.hpp"
+#include "fit/driver.hpp"
+#include "fit/objective.hpp"
+
+namespace hysteron {
+
+struct IdentifyOptions {
+  std::vector<std::string> solvers{"multistart-lm"};  // the best result is kept
+  std::size_t budget = 20000;
+  std::uint64_t seed = 1;
+  std::map<std::string, double> settings;  // of the solvers that know them
+  ObjectiveOptions objective;
+  LayoutOptions layout;
+  std::vector<std::string> effects;
+};
+
+// An identified term with what the data say of it.
+struct Estimate {
+  Term term;
+  std::string name;
+  std::string unit;
+  std::string meaning;
+  std::optional<double> std_error;    // absent when the data do not determine it
+  std::optional<std::string> at_bound;  // "lower" or "upper": the node value that sits on the box
+  bool identifiable = true;
+  double lower;
+  double upper;
+};
+
+struct SolverOutcome {
+  RunResult run;
+  std::optional<double> nrmse_heldout;
+};
+
+struct Identification {
+  Layout layout;
+  std::vector<Term> terms;
+  std::vector<Estimate> estimates;
+  std::vector<SolverOutcome> solvers;  // in the order asked
+  std::size_t chosen = 0;
+  double cost = 0.0;                   // overall NRMSE over the fitted recordings
+  std::optional<double> nrmse_heldout;
+  std::vector<std::size_t> fitted;
+  std::vector<std::size_t> heldout;
+  bool roles_given = false;            // else held-out recordings were chosen here, and the final fit uses all
+  std::vector<std::string> warnings;
+};
+
+// Which recordings to hold out when no roles are given: about a fifth, spread over drive level and severity.
+std::vector<std::size_t> choose_heldout(const std::vector<Recording>& recordings);
+
+using Progress = std::function<bool(const std::string& stage, const RunResult& run)>;
+
+// Throws InputError for options that do not fit the data, WorkError when no candidate simulates.
+Identification identify(const Campaign& campaign, const std::string& model, const IdentifyOptions& options,
+                        const Progress& progress);
+
+}  // namespace hysteron

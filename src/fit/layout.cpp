@@ -1,0 +1,320 @@
+#include "fit/layout.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "core/suggest.hpp"
+
+namespace hysteron {
+namespace {
+
+std::vector<double> nodes(double low, double high, int order) {
+  std::vector<double> result;
+  for (int k = 0; k <= order; ++k) {
+    result.push_back(order == 0 ? 0.5 * (low + high) : low + (high - low) * k / order);
+  }
+  return result;
+}
+
+std::vector<double> lagrange(const std::vector<double>& at, double x) {
+  std::vector<double> weight(at.size(), 1.0);
+  for (std::size_t k = 0; k < at.size(); ++k) {
+    for (std::size_t m = 0; m < at.size(); ++m) {
+      if (m != k) {
+        weight[k] *= (x - at[m]) / (at[k] - at[m]);
+      }
+    }
+  }
+  return weight;
+}
+
+// Power-basis coefficients of the Lagrange polynomial of node k.
+std::vector<double> lagrange_coefficients(const std::vector<double>& at, std::size_t k) {
+  std::vector<double> c{1.0};
+  for (std::size_t m = 0; m < at.size(); ++m) {
+    if (m == k) {
+      continue;
+    }
+    const double scale = 1.0 / (at[k] - at[m]);
+    std::vector<double> next(c.size() + 1, 0.0);
+    for (std::size_t i = 0; i < c.size(); ++i) {
+      next[i + 1] += c[i] * scale;
+      next[i] -= c[i] * at[m] * scale;
+    }
+    c = next;
+  }
+  return c;
+}
+
+void check_known(const std::vector<std::string>& names, const std::string& name, const std::string& option) {
+  if (std::ranges::find(names, name) == names.end()) {
+    std::string list;
+    for (const std::string& known : names) {
+      list += (list.empty() ? "" : ", ") + known;
+    }
+    throw InputError(option + ": the model has no parameter '" + name + "'" + suggestion(name, names) +
+                     ", expected one of " + list);
+  }
+}
+
+}  // namespace
+
+double dominant_frequency(const Recording& recording) {
+  const auto& x = recording.displacement;
+  if (x.size() < 3) {
+    return 0.0;
+  }
+  const auto [low, high] = std::ranges::minmax(x);
+  const double threshold = 0.1 * (high - low);
+  if (!(threshold > 0.0)) {
+    return 0.0;
+  }
+  std::vector<double> turns;
+  double extreme = x[0];
+  std::size_t at = 0;
+  int direction = 0;
+  for (std::size_t n = 1; n < x.size(); ++n) {
+    const bool further = direction >= 0 ? x[n] > extreme : x[n] < extreme;
+    if (direction == 0) {
+      if (std::fabs(x[n] - x[0]) > threshold) {
+        direction = x[n] > x[0] ? 1 : -1;
+        extreme = x[n];
+        at = n;
+      }
+    } else if (further) {
+      extreme = x[n];
+      at = n;
+    } else if (std::fabs(x[n] - extreme) > threshold) {
+      turns.push_back(recording.time[at]);
+      direction = -direction;
+      extreme = x[n];
+      at = n;
+    }
+  }
+  if (turns.size() < 2) {
+    return 0.0;
+  }
+  std::vector<double> halves;
+  for (std::size_t k = 1; k < turns.size(); ++k) {
+    halves.push_back(turns[k] - turns[k - 1]);
+  }
+  std::ranges::nth_element(halves, halves.begin() + static_cast<std::ptrdiff_t>(halves.size() / 2));
+  return 0.5 / halves[halves.size() / 2];
+}
+
+DataScale scale_of(const std::vector<Recording>& recordings) {
+  DataScale scale{0.0, 0.0, 0.0};
+  bool first = true;
+  for (const Recording& recording : recordings) {
+    for (const double force : recording.force) {
+      scale.force = std::max(scale.force, std::fabs(force));
+    }
+    for (const double velocity : recording.velocity) {
+      scale.velocity = std::max(scale.velocity, std::fabs(velocity));
+    }
+    const auto [low, high] = std::ranges::minmax(recording.displacement);
+    scale.length = std::max(scale.length, 0.5 * (high - low));
+    double drive_low = 0.0;
+    double drive_high = 0.0;
+    if (!recording.drive.empty()) {
+      const auto range = std::ranges::minmax(recording.drive);
+      drive_low = range.min;
+      drive_high = range.max;
+    }
+    const double frequency = dominant_frequency(recording);
+    scale.drive_low = first ? drive_low : std::min(scale.drive_low, drive_low);
+    scale.drive_high = first ? drive_high : std::max(scale.drive_high, drive_high);
+    scale.frequency_low = first ? frequency : std::min(scale.frequency_low, frequency);
+    scale.frequency_high = first ? frequency : std::max(scale.frequency_high, frequency);
+    first = false;
+  }
+  return scale;
+}
+
+Layout::Layout(CompositeModel model, const DataScale& scale, const LayoutOptions& options)
+    : model_(std::move(model)), cards_(model_.parameters()), names_(model_.parameter_names()) {
+  for (const auto& [name, order] : options.by_current) {
+    check_known(names_, name, "--by-current");
+  }
+  for (const auto& [name, order] : options.by_frequency) {
+    check_known(names_, name, "--by-frequency");
+  }
+  for (const auto& [name, value] : options.fix) {
+    check_known(names_, name, "--fix");
+  }
+  for (const auto& [name, range] : options.bounds) {
+    check_known(names_, name, "--bounds");
+  }
+  for (std::size_t j = 0; j < cards_.size(); ++j) {
+    Parameter& card = cards_[j];
+    const double factor = std::pow(scale.force / 1000.0, card.dimension.force) *
+                          std::pow(scale.length / 0.025, card.dimension.length) *
+                          std::pow(scale.velocity / 0.3, card.dimension.velocity);
+    if (!card.fixed) {
+      card.lower *= factor;
+      card.upper *= factor;
+      card.initial *= factor;
+    }
+    if (const auto own = options.bounds.find(names_[j]); own != options.bounds.end()) {
+      card.lower = own->second.first;
+      card.upper = own->second.second;
+      card.initial = std::clamp(card.initial, card.lower, card.upper);
+      card.fixed = false;
+      if (card.scale == Scale::logarithmic && card.lower <= 0.0) {
+        card.scale = Scale::linear;
+      }
+    }
+    if (const auto fixed = options.fix.find(names_[j]); fixed != options.fix.end()) {
+      card.fixed = true;
+      card.initial = fixed->second;
+    }
+    held_.push_back(card.initial);
+    const auto drive_law = options.by_current.find(names_[j]);
+    const auto frequency_law = options.by_frequency.find(names_[j]);
+    const int drive_order = drive_law == options.by_current.end() ? 0 : drive_law->second;
+    const int frequency_order = frequency_law == options.by_frequency.end() ? 0 : frequency_law->second;
+    if (drive_order > 0 && !(scale.drive_high > scale.drive_low)) {
+      throw InputError("--by-current " + names_[j] + ":" + std::to_string(drive_order) +
+                       ": the recordings hold only one current or voltage level, expected at least two");
+    }
+    if (frequency_order > 0 && !(scale.frequency_high > scale.frequency_low)) {
+      throw InputError("--by-frequency " + names_[j] + ":" + std::to_string(frequency_order) +
+                       ": the recordings hold only one frequency, expected at least two");
+    }
+    if (card.fixed) {
+      if (drive_order + frequency_order > 0) {
+        throw InputError("parameter '" + names_[j] + "' is fixed and cannot follow a law, expected --bounds for it");
+      }
+      continue;
+    }
+    ParameterLaw law{j, nodes(scale.drive_low, scale.drive_high, drive_order),
+                     nodes(scale.frequency_low, scale.frequency_high, frequency_order), coordinates_.size()};
+    const std::size_t count = law.drive_nodes.size() * law.frequency_nodes.size();
+    for (std::size_t node = 0; node < count; ++node) {
+      coordinates_.push_back({j, node, card.scale, card.lower, card.upper,
+                              card.linear && card.scale == Scale::linear});
+    }
+    laws_.push_back(std::move(law));
+  }
+}
+
+std::vector<bool> Layout::linear() const {
+  std::vector<bool> result;
+  for (const Coordinate& coordinate : coordinates_) {
+    result.push_back(coordinate.linear);
+  }
+  return result;
+}
+
+double Layout::physical(std::size_t c, double u) const {
+  const Coordinate& k = coordinates_[c];
+  if (k.scale == Scale::logarithmic) {
+    return k.lower * exp(u * log(k.upper / k.lower));
+  }
+  return k.lower + u * (k.upper - k.lower);
+}
+
+double Layout::slope(std::size_t c, double u) const {
+  const Coordinate& k = coordinates_[c];
+  return k.scale == Scale::logarithmic ? physical(c, u) * log(k.upper / k.lower) : k.upper - k.lower;
+}
+
+double Layout::unit(std::size_t c, double value) const {
+  const Coordinate& k = coordinates_[c];
+  const double u = k.scale == Scale::logarithmic
+                       ? log(std::max(value, k.lower) / k.lower) / log(k.upper / k.lower)
+                       : (value - k.lower) / (k.upper - k.lower);
+  return std::clamp(u, 0.0, 1.0);
+}
+
+std::vector<double> Layout::weights(const ParameterLaw& law, double drive, double frequency) {
+  const std::vector<double> by_drive = lagrange(law.drive_nodes, drive);
+  const std::vector<double> by_frequency = lagrange(law.frequency_nodes, frequency);
+  std::vector<double> result;
+  for (const double wf : by_frequency) {
+    for (const double wd : by_drive) {
+      result.push_back(wd * wf);
+    }
+  }
+  return result;
+}
+
+std::vector<double> Layout::initial() const {
+  std::vector<double> u;
+  for (std::size_t c = 0; c < coordinates_.size(); ++c) {
+    u.push_back(unit(c, cards_[coordinates_[c].parameter].initial));
+  }
+  return u;
+}
+
+std::vector<double> Layout::term_matrix() const {
+  const std::size_t d = dimension();
+  std::vector<double> matrix(d * d, 0.0);  // as many terms as nodes
+  for (const ParameterLaw& law : laws_) {
+    const std::size_t nd = law.drive_nodes.size();
+    const std::size_t nf = law.frequency_nodes.size();
+    for (std::size_t b = 0; b < nf; ++b) {
+      const auto by_frequency = lagrange_coefficients(law.frequency_nodes, b);
+      for (std::size_t a = 0; a < nd; ++a) {
+        const auto by_drive = lagrange_coefficients(law.drive_nodes, a);
+        for (std::size_t q = 0; q < nf; ++q) {
+          for (std::size_t p = 0; p < nd; ++p) {
+            matrix[(law.first + q * nd + p) * d + law.first + b * nd + a] = by_drive[p] * by_frequency[q];
+          }
+        }
+      }
+    }
+  }
+  return matrix;
+}
+
+std::vector<Term> Layout::terms(const std::vector<double>& u) const {
+  const std::size_t d = dimension();
+  const std::vector<double> matrix = term_matrix();
+  std::vector<Term> result;
+  for (const ParameterLaw& law : laws_) {
+    const std::size_t nd = law.drive_nodes.size();
+    for (std::size_t k = 0; k < nd * law.frequency_nodes.size(); ++k) {
+      double value = 0.0;
+      for (std::size_t c = 0; c < d; ++c) {
+        value += matrix[(law.first + k) * d + c] * physical(c, u[c]);
+      }
+      result.push_back({law.parameter, static_cast<int>(k % nd), static_cast<int>(k / nd), value});
+    }
+  }
+  return result;
+}
+
+std::vector<double> parameters_at(const std::vector<double>& held, const std::vector<Term>& terms, double drive,
+                                  double frequency) {
+  std::vector<double> result = held;
+  for (const Term& term : terms) {
+    result[term.parameter] = 0.0;
+  }
+  for (const Term& term : terms) {
+    double power = 1.0;
+    for (int k = 0; k < term.drive_power; ++k) {
+      power *= drive;
+    }
+    for (int k = 0; k < term.frequency_power; ++k) {
+      power *= frequency;
+    }
+    result[term.parameter] += term.value * power;
+  }
+  return result;
+}
+
+std::string term_name(const std::string& parameter, int drive_power, int frequency_power) {
+  std::string name = parameter;
+  const auto add = [&](const char* symbol, int power) {
+    if (power > 0) {
+      name += std::string("*") + symbol + (power > 1 ? "^" + std::to_string(power) : "");
+    }
+  };
+  add("i", drive_power);
+  add("f", frequency_power);
+  return name;
+}
+
+}  // namespace hysteron

@@ -1,0 +1,454 @@
+#include "fit/objective.hpp"
+
+#include <omp.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "core/error.hpp"
+#include "simulate/march.hpp"
+
+namespace hysteron {
+namespace {
+
+constexpr std::size_t block_samples = 128;
+
+double mean_of(const std::vector<double>& values) {
+  double sum = 0.0;
+  for (const double value : values) {
+    sum += value;
+  }
+  return sum / static_cast<double>(values.size());
+}
+
+double standard_deviation(const std::vector<double>& values) {
+  const double mean = mean_of(values);
+  double sum = 0.0;
+  for (const double value : values) {
+    sum += (value - mean) * (value - mean);
+  }
+  return std::sqrt(sum / static_cast<double>(values.size()));
+}
+
+// Lanes of unit coordinate c of the points [first, first + count), the last repeated in unused lanes.
+Lanes lanes_of(const std::vector<double>& points, std::size_t dimension, std::size_t first, std::size_t count,
+               const Layout& layout, std::size_t c, bool slope) {
+  Lanes result;
+  for (int lane = 0; lane < lane_count; ++lane) {
+    const std::size_t row = first + std::min(static_cast<std::size_t>(lane), count - 1);
+    const double u = points[row * dimension + c];
+    result.set_lane(lane, slope ? layout.slope(c, u) : layout.physical(c, u));
+  }
+  return result;
+}
+
+// Parameters of a pack at one drive level: nodes weighted by the law. For duals, the directions of this sweep are the
+// coordinates [sweep, sweep + sweep_directions).
+template <class T>
+void parameters_of_pack(const Layout& layout, const std::vector<T>& nodes, double drive, double frequency, T* p) {
+  for (std::size_t j = 0; j < layout.cards().size(); ++j) {
+    p[j] = T(layout.held()[j]);
+  }
+  for (const ParameterLaw& law : layout.laws()) {
+    const std::vector<double> weights = Layout::weights(law, drive, frequency);
+    T value = T(weights[0]) * nodes[law.first];
+    for (std::size_t k = 1; k < weights.size(); ++k) {
+      value = fma(T(weights[k]), nodes[law.first + k], value);
+    }
+    p[law.parameter] = weights.size() == 1 ? nodes[law.first] : value;
+  }
+}
+
+// Marches a target block by block and hands (first sample, count, force) to the sink.
+template <class T, class Parameters, class Sink>
+void march_target(const CompositeModel& model, const Target& target, const Parameters& parameters_at_drive,
+                  Sink&& sink) {
+  const std::size_t samples = target.force.size();
+  const std::size_t width = model.parameter_count();
+  const std::size_t stride = target.drive_varies ? width : 0;
+  std::vector<T> p(target.drive_varies ? width * (block_samples + 1) : width);
+  std::vector<T> state(max_states);
+  std::vector<T> out(block_samples);
+  const auto block = [&](std::size_t begin, std::size_t end) {
+    if (target.drive_varies) {
+      for (std::size_t n = begin; n < end; ++n) {
+        parameters_at_drive(target.motion.drive[n], p.data() + (n - begin) * width);
+      }
+    }
+    model.march<T>(target.motion, p.data(), stride, begin, end, state.data(), out.data());
+  };
+  if (!target.drive_varies) {
+    parameters_at_drive(target.drive, p.data());
+  }
+  for (std::size_t begin = 0; begin < target.preroll; begin += block_samples) {
+    block(begin, std::min(begin + block_samples, target.preroll));
+  }
+  for (std::size_t begin = 0; begin < samples; begin += block_samples) {
+    const std::size_t end = std::min(begin + block_samples, samples);
+    block(begin, end);
+    sink(begin, end - begin, out.data());
+  }
+}
+
+// Samples of the first period when a recording starts in mid-motion and the motion comes back to where it started, so
+// that marching them first brings the hysteresis into its cycle; 0 when it starts at rest or never returns.
+std::size_t preroll_samples(const Recording& recording, double frequency) {
+  if (!(frequency > 0.0)) {
+    return 0;
+  }
+  double peak = 0.0;
+  for (const double velocity : recording.velocity) {
+    peak = std::max(peak, std::fabs(velocity));
+  }
+  const auto [low, high] = std::ranges::minmax(recording.displacement);
+  const double stroke = high - low;
+  if (std::fabs(recording.velocity[0]) < 0.05 * peak) {
+    // At a turning point of a running motion the velocity is small too: at rest it stays small.
+    const double quarter = recording.time[0] + 0.125 / frequency;
+    bool moves = false;
+    for (std::size_t n = 0; n < recording.size() && recording.time[n] < quarter; ++n) {
+      moves = moves || std::fabs(recording.velocity[n]) > 0.3 * peak;
+    }
+    if (!moves) {
+      return 0;
+    }
+  }
+  const double expected = recording.time[0] + 1.0 / frequency;
+  std::size_t best = 0;
+  double best_distance = 0.1;
+  for (std::size_t n = 1; n < recording.size() && recording.time[n] < expected + 0.25 / frequency; ++n) {
+    if (recording.time[n] < expected - 0.25 / frequency) {
+      continue;
+    }
+    const double distance = std::fabs(recording.displacement[n] - recording.displacement[0]) / stroke +
+                            std::fabs(recording.velocity[n] - recording.velocity[0]) / peak;
+    if (distance < best_distance) {
+      best_distance = distance;
+      best = n;
+    }
+  }
+  return best;
+}
+
+}  // namespace
+
+Normalisation normalisation_of(const std::string& word) {
+  if (word == "max-abs") {
+    return Normalisation::max_abs;
+  }
+  if (word == "range") {
+    return Normalisation::range;
+  }
+  if (word == "std") {
+    return Normalisation::standard_deviation;
+  }
+  if (word == "mean-abs") {
+    return Normalisation::mean_abs;
+  }
+  throw InputError("--normalisation: unknown '" + word + "', expected max-abs, range, std or mean-abs");
+}
+
+std::string_view word_of(Normalisation normalisation) {
+  switch (normalisation) {
+    case Normalisation::range:
+      return "range";
+    case Normalisation::standard_deviation:
+      return "std";
+    case Normalisation::mean_abs:
+      return "mean-abs";
+    case Normalisation::max_abs:
+      break;
+  }
+  return "max-abs";
+}
+
+double normaliser(const Recording& recording, Normalisation normalisation) {
+  double result = 0.0;
+  switch (normalisation) {
+    case Normalisation::max_abs:
+      for (const double force : recording.force) {
+        result = std::max(result, std::fabs(force));
+      }
+      break;
+    case Normalisation::range: {
+      const auto [low, high] = std::ranges::minmax(recording.force);
+      result = high - low;
+      break;
+    }
+    case Normalisation::standard_deviation:
+      result = standard_deviation(recording.force);
+      break;
+    case Normalisation::mean_abs:
+      for (const double force : recording.force) {
+        result += std::fabs(force);
+      }
+      result /= static_cast<double>(recording.force.size());
+      break;
+  }
+  if (!(result > 0.0)) {
+    throw InputError(recording.file, 0,
+                     "the force is zero or constant throughout, expected a signal to normalise by (" +
+                         std::string(word_of(normalisation)) + ")");
+  }
+  return result;
+}
+
+Target make_target(const Recording& recording, const ObjectiveOptions& options) {
+  Target target;
+  target.motion = make_motion(recording.time, recording.displacement, recording.velocity, recording.drive,
+                              options.tolerance);
+  target.force = recording.force;
+  target.frequency = dominant_frequency(recording);
+  if (!recording.drive.empty()) {
+    target.drive = mean_of(recording.drive);
+    const auto [low, high] = std::ranges::minmax(recording.drive);
+    target.drive_varies = high - low > 0.02 * std::max(std::fabs(low), std::fabs(high));
+  }
+  target.preroll = preroll_samples(recording, target.frequency);
+  return target;
+}
+
+Objective::Objective(const Layout& layout, const std::vector<Recording>& recordings, const ObjectiveOptions& options)
+    : layout_(layout), threads_(options.threads) {
+  double total = 0.0;
+  double pooled_normaliser = 0.0;
+  for (const Recording& recording : recordings) {
+    Target target = make_target(recording, options);
+    target.normaliser = normaliser(recording, options.normalisation);
+    pooled_normaliser = std::max(pooled_normaliser, target.normaliser);
+    total += static_cast<double>(recording.size());
+    targets_.push_back(std::move(target));
+  }
+  for (Target& target : targets_) {
+    if (options.weighting == Weighting::pooled) {
+      target.weight = 1.0 / (total * pooled_normaliser * pooled_normaliser);
+    } else {
+      target.weight = 1.0 / (static_cast<double>(target.force.size()) * static_cast<double>(targets_.size()) *
+                             target.normaliser * target.normaliser);
+    }
+  }
+}
+
+std::size_t Objective::samples() const {
+  std::size_t total = 0;
+  for (const Target& target : targets_) {
+    total += target.force.size();
+  }
+  return total;
+}
+
+namespace {
+
+// What a task of one pack and one target returns: weighted sum of squares and samples alive, then gradient and upper
+// triangle of the Gauss-Newton matrix, each for eight lanes.
+std::size_t sums_size(std::size_t dimension, bool derivatives) {
+  return 2 + (derivatives ? dimension + dimension * (dimension + 1) / 2 : 0);
+}
+
+}  // namespace
+
+template <>
+void Objective::run_pack<Lanes>(const std::vector<double>& points, std::size_t first, std::size_t count,
+                                const Target& target, bool /*derivatives*/, double* sums) const {
+  const std::size_t d = layout_.dimension();
+  std::vector<Lanes> nodes(d);
+  for (std::size_t c = 0; c < d; ++c) {
+    nodes[c] = lanes_of(points, d, first, count, layout_, c, false);
+  }
+  Lanes squares;
+  Lanes alive;
+  march_target<Lanes>(
+      layout_.model(), target,
+      [&](double drive, Lanes* p) { parameters_of_pack(layout_, nodes, drive, target.frequency, p); },
+      [&](std::size_t begin, std::size_t samples, const Lanes* out) {
+        for (std::size_t k = 0; k < samples; ++k) {
+          const Lanes residual = out[k] - Lanes(target.force[begin + k]);
+          squares = fma(residual, residual, squares);
+          alive += select(abs(residual) < Lanes(1e12 * target.normaliser), Lanes(1.0), Lanes(0.0));
+        }
+      });
+  for (int lane = 0; lane < lane_count; ++lane) {
+    sums[lane] = squares.lane(lane) * target.weight;
+    sums[lane_count + lane] = alive.lane(lane);
+  }
+}
+
+template <>
+void Objective::run_pack<LaneDual>(const std::vector<double>& points, std::size_t first, std::size_t count,
+                                   const Target& target, bool /*derivatives*/, double* sums) const {
+  const std::size_t d = layout_.dimension();
+  const std::size_t sweeps = (d + sweep_directions - 1) / sweep_directions;
+  const std::size_t samples = target.force.size();
+  std::vector<Lanes> jacobian(samples * d);
+  std::vector<Lanes> residual(samples);
+  std::vector<LaneDual> nodes(d);
+  Lanes squares;
+  Lanes alive;
+  for (std::size_t sweep = 0; sweep < sweeps; ++sweep) {
+    const std::size_t low = sweep * sweep_directions;
+    const std::size_t high = std::min(low + sweep_directions, d);
+    for (std::size_t c = 0; c < d; ++c) {
+      nodes[c] = LaneDual(lanes_of(points, d, first, count, layout_, c, false));
+      if (c >= low && c < high) {
+        nodes[c].d[c - low] = lanes_of(points, d, first, count, layout_, c, true);
+      }
+    }
+    march_target<LaneDual>(
+        layout_.model(), target,
+        [&](double drive, LaneDual* p) { parameters_of_pack(layout_, nodes, drive, target.frequency, p); },
+        [&](std::size_t begin, std::size_t block, const LaneDual* out) {
+          for (std::size_t k = 0; k < block; ++k) {
+            for (std::size_t c = low; c < high; ++c) {
+              jacobian[(begin + k) * d + c] = out[k].d[c - low];
+            }
+            if (sweep == 0) {
+              const Lanes r = out[k].v - Lanes(target.force[begin + k]);
+              residual[begin + k] = r;
+              squares = fma(r, r, squares);
+              alive += select(abs(r) < Lanes(1e12 * target.normaliser), Lanes(1.0), Lanes(0.0));
+            }
+          }
+        });
+  }
+  std::vector<Lanes> gradient(d);
+  std::vector<Lanes> matrix(d * (d + 1) / 2);
+  for (std::size_t n = 0; n < samples; ++n) {
+    const Lanes* row = jacobian.data() + n * d;
+    std::size_t at = 0;
+    for (std::size_t a = 0; a < d; ++a) {
+      const Lanes ja = row[a];
+      gradient[a] = fma(ja, residual[n], gradient[a]);
+      for (std::size_t b = a; b < d; ++b, ++at) {
+        matrix[at] = fma(ja, row[b], matrix[at]);
+      }
+    }
+  }
+  const auto store = [&](std::size_t slot, const Lanes& value, double factor) {
+    for (int lane = 0; lane < lane_count; ++lane) {
+      sums[slot * lane_count + static_cast<std::size_t>(lane)] = value.lane(lane) * factor;
+    }
+  };
+  store(0, squares, target.weight);
+  store(1, alive, 1.0);
+  for (std::size_t a = 0; a < d; ++a) {
+    store(2 + a, gradient[a], target.weight);
+  }
+  for (std::size_t k = 0; k < matrix.size(); ++k) {
+    store(2 + d + k, matrix[k], target.weight);
+  }
+}
+
+Response Objective::evaluate(const Request& request) const {
+  const std::size_t d = layout_.dimension();
+  const std::size_t points = request.points.size() / d;
+  const std::size_t packs = (points + lane_count - 1) / lane_count;
+  const std::size_t size = sums_size(d, request.derivatives) * lane_count;
+  const std::size_t tasks = packs * targets_.size();
+  std::vector<double> sums(tasks * size);
+  const int threads = threads_ > 0 ? threads_ : omp_get_max_threads();
+#pragma omp parallel for schedule(dynamic) num_threads(threads)
+  for (std::size_t task = 0; task < tasks; ++task) {
+    const std::size_t first = task / targets_.size() * lane_count;
+    const std::size_t count = std::min(static_cast<std::size_t>(lane_count), points - first);
+    const Target& target = targets_[task % targets_.size()];
+    if (request.derivatives) {
+      run_pack<LaneDual>(request.points, first, count, target, true, sums.data() + task * size);
+    } else {
+      run_pack<Lanes>(request.points, first, count, target, false, sums.data() + task * size);
+    }
+  }
+  const auto total = static_cast<double>(samples());
+  Response response;
+  response.cost.resize(points);
+  if (request.derivatives) {
+    response.gradient.assign(points * d, 0.0);
+    response.gauss_newton.assign(points * d * d, 0.0);
+  }
+  for (std::size_t row = 0; row < points; ++row) {
+    const std::size_t lane = row % lane_count;
+    double squares = 0.0;
+    double alive = 0.0;
+    const auto sum = [&](std::size_t target, std::size_t slot) {
+      return sums[(row / lane_count * targets_.size() + target) * size + slot * lane_count + lane];
+    };
+    for (std::size_t target = 0; target < targets_.size(); ++target) {
+      squares += sum(target, 0);
+      alive += sum(target, 1);
+    }
+    // A candidate that ran away is worse the earlier it did so.
+    const bool finite = alive == total && squares < diverged_cost;
+    response.cost[row] = finite ? std::sqrt(squares) : diverged_cost * (2.0 - alive / total);
+    if (!request.derivatives || !finite) {
+      continue;
+    }
+    for (std::size_t target = 0; target < targets_.size(); ++target) {
+      std::size_t slot = 2;
+      for (std::size_t a = 0; a < d; ++a) {
+        response.gradient[row * d + a] += sum(target, slot++);
+      }
+      for (std::size_t a = 0; a < d; ++a) {
+        for (std::size_t b = a; b < d; ++b) {
+          response.gauss_newton[(row * d + a) * d + b] += sum(target, slot++);
+        }
+      }
+    }
+    for (std::size_t a = 0; a < d; ++a) {
+      for (std::size_t b = 0; b < a; ++b) {
+        response.gauss_newton[(row * d + a) * d + b] = response.gauss_newton[(row * d + b) * d + a];
+      }
+    }
+  }
+  return response;
+}
+
+std::vector<double> predict(const CompositeModel& model, const std::vector<double>& held,
+                            const std::vector<Term>& terms, const Target& target) {
+  Target motion_only = target;
+  motion_only.force.resize(target.motion.time.size());
+  std::vector<double> force(motion_only.force.size());
+  march_target<double>(
+      model, motion_only,
+      [&](double drive, double* p) {
+        const std::vector<double> values = parameters_at(held, terms, drive, target.frequency);
+        std::ranges::copy(values, p);
+      },
+      [&](std::size_t begin, std::size_t count, const double* out) {
+        std::memcpy(force.data() + begin, out, count * sizeof(double));
+      });
+  return force;
+}
+
+Score score(const std::vector<double>& predicted, const Recording& recording, Normalisation normalisation) {
+  double squares = 0.0;
+  for (std::size_t n = 0; n < predicted.size(); ++n) {
+    const double residual = predicted[n] - recording.force[n];
+    squares += residual * residual;
+  }
+  Score result{};
+  result.rmse = std::sqrt(squares / static_cast<double>(predicted.size()));
+  result.nrmse = result.rmse / normaliser(recording, normalisation);
+  result.fit_percent = 100.0 * (1.0 - result.rmse / standard_deviation(recording.force));
+  return result;
+}
+
+double overall(const std::vector<Score>& scores, const std::vector<Recording>& recordings, Normalisation normalisation,
+               Weighting weighting) {
+  double sum = 0.0;
+  double total = 0.0;
+  double largest = 0.0;
+  for (std::size_t r = 0; r < scores.size(); ++r) {
+    const auto samples = static_cast<double>(recordings[r].size());
+    if (weighting == Weighting::pooled) {
+      sum += scores[r].rmse * scores[r].rmse * samples;
+      total += samples;
+      largest = std::max(largest, normaliser(recordings[r], normalisation));
+    } else {
+      sum += scores[r].nrmse * scores[r].nrmse;
+      total += 1.0;
+    }
+  }
+  return std::sqrt(sum / total) / (weighting == Weighting::pooled ? largest : 1.0);
+}
+
+}  // namespace hysteron

@@ -1,0 +1,79 @@
+// The one objective of all identification: NRMSE of the simulated force over the recordings.
+//   cost = sqrt( mean over recordings of NRMSE_r^2 ),  NRMSE_r = RMSE_r / normaliser_r
+// (or pooled over samples). Batches are the only evaluation path: packs of eight candidates, threads over packs and
+// recordings, sums in time order per candidate, so that results do not depend on threads or company.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "fit/layout.hpp"
+#include "fit/solver.hpp"
+
+namespace hysteron {
+
+enum class Normalisation { max_abs, range, standard_deviation, mean_abs };
+enum class Weighting { per_recording, pooled };
+
+// Throws InputError for an unknown word.
+Normalisation normalisation_of(const std::string& word);
+std::string_view word_of(Normalisation normalisation);
+// What a force signal is divided by; throws InputError naming the file when it is zero.
+double normaliser(const Recording& recording, Normalisation normalisation);
+
+struct ObjectiveOptions {
+  Normalisation normalisation = Normalisation::max_abs;
+  Weighting weighting = Weighting::per_recording;
+  double tolerance = 1e-4;
+  int threads = 0;  // 0: OpenMP's default
+};
+
+// A recording as the objective sees it.
+struct Target {
+  Motion motion;
+  std::vector<double> force;
+  double normaliser = 1.0;
+  double weight = 1.0;      // of a squared residual in cost^2
+  double frequency = 0.0;   // Hz
+  double drive = 0.0;       // mean level; used when the drive is constant
+  bool drive_varies = false;
+  std::size_t preroll = 0;  // samples of the first period marched beforehand when the recording starts in motion
+};
+
+Target make_target(const Recording& recording, const ObjectiveOptions& options);
+
+class Objective {
+ public:
+  Objective(const Layout& layout, const std::vector<Recording>& recordings, const ObjectiveOptions& options);
+
+  [[nodiscard]] const Layout& layout() const { return layout_; }
+  [[nodiscard]] const std::vector<Target>& targets() const { return targets_; }
+  [[nodiscard]] std::size_t samples() const;
+  // Costs (and derivatives with respect to unit coordinates) of the request's points.
+  [[nodiscard]] Response evaluate(const Request& request) const;
+
+ private:
+  template <class T>
+  void run_pack(const std::vector<double>& points, std::size_t first, std::size_t count, const Target& target,
+                bool derivatives, double* sums) const;
+
+  Layout layout_;
+  std::vector<Target> targets_;
+  int threads_;
+};
+
+// Predicted force of one parameter set on a recording's motion.
+std::vector<double> predict(const CompositeModel& model, const std::vector<double>& held,
+                            const std::vector<Term>& terms, const Target& target);
+
+struct Score {
+  double nrmse;
+  double rmse;         // N
+  double fit_percent;  // 100 (1 - RMSE / standard deviation)
+};
+Score score(const std::vector<double>& predicted, const Recording& recording, Normalisation normalisation);
+// Over recordings: root mean square of NRMSE, or pooled over samples.
+double overall(const std::vector<Score>& scores, const std::vector<Recording>& recordings, Normalisation normalisation,
+               Weighting weighting);
+
+}  // namespace hysteron

@@ -1,0 +1,176 @@
+#include "io/campaign.hpp"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <string_view>
+#include <utility>
+
+#include "core/error.hpp"
+#include "io/campaign_file.hpp"
+#include "io/csv.hpp"
+#include "io/file.hpp"
+#include "io/mat.hpp"
+#include "io/sha256.hpp"
+#include "io/text.hpp"
+
+namespace hysteron {
+namespace {
+
+namespace fs = std::filesystem;
+
+// A recording to load: where it is and how it is named in results.
+struct Item {
+  fs::path path;
+  std::string name;  // relative to `base`
+  fs::path base;     // absolute folder, for telling equal names apart
+  Role role = Role::unassigned;
+};
+
+std::string extension_of(const fs::path& path) { return lower_case(path.extension().string()); }
+
+bool is_folder(const fs::path& path) {
+  std::error_code code;
+  return fs::is_directory(path, code);
+}
+
+// The recordings of a folder in bytewise order of name; hidden files are not recordings.
+std::vector<std::string> names_in(const fs::path& folder) {
+  std::vector<std::string> names;
+  std::error_code code;
+  for (fs::directory_iterator at(folder, code), end; !code && at != end; at.increment(code)) {
+    const std::string name = at->path().filename().string();
+    const auto extension = extension_of(at->path());
+    if ((extension == ".csv" || extension == ".mat") && !name.starts_with('.') && !is_folder(at->path())) {
+      names.push_back(name);
+    }
+  }
+  if (code)
+    throw InputError(folder.string(), 0, "the folder cannot be read (" + code.message() + "), expected recordings");
+  std::ranges::sort(names);
+  return names;
+}
+
+fs::path absolute_folder(const fs::path& folder) {
+  std::error_code code;
+  auto result = fs::weakly_canonical(folder.empty() ? fs::path(".") : folder, code);
+  return code ? folder : result;
+}
+
+void merge_orders(std::map<std::string, int>& into, const std::map<std::string, int>& from, const std::string& file,
+                  std::string_view table) {
+  for (const auto& [parameter, order] : from) {
+    const auto [at, added] = into.emplace(parameter, order);
+    if (!added && at->second != order) {
+      throw InputError(file, 0,
+                       "order " + std::to_string(order) + " of " + in_quotes(parameter) + " in [" + std::string(table) +
+                           "] contradicts order " + std::to_string(at->second) +
+                           " of another folder, expected the same");
+    }
+  }
+}
+
+void merge(Campaign& campaign, const CampaignFile& declared, const std::string& file) {
+  if (!declared.model.empty()) {
+    if (!campaign.model.empty() && campaign.model != declared.model) {
+      throw InputError(file, 0,
+                       "model " + in_quotes(declared.model) + " contradicts " + in_quotes(campaign.model) +
+                           " of another folder, expected the same");
+    }
+    campaign.model = declared.model;
+  }
+  merge_orders(campaign.by_current, declared.by_current, file, "by_current");
+  merge_orders(campaign.by_frequency, declared.by_frequency, file, "by_frequency");
+}
+
+void add_folder(const fs::path& folder, Campaign& campaign, std::vector<Item>& items) {
+  const fs::path base = absolute_folder(folder);
+  const fs::path toml = folder / "campaign.toml";
+  std::error_code code;
+  CampaignFile declared;
+  if (fs::exists(toml, code)) {
+    declared = read_campaign_file(toml);
+    merge(campaign, declared, toml.string());
+  }
+  for (const auto& entry : declared.entries) {
+    const fs::path path = folder / entry.file;
+    if (!fs::exists(path, code) || is_folder(path)) {
+      throw InputError(toml.string(), entry.line,
+                       "there is no recording " + in_quotes(entry.file) + " in the folder, expected a CSV or MAT file");
+    }
+    items.push_back({path, entry.file, base, entry.role});
+  }
+  if (!declared.entries.empty()) return;
+  const auto names = names_in(folder);
+  if (names.empty())
+    throw InputError(folder.string(), 0, "the folder holds no recordings, expected .csv or .mat files");
+  for (const auto& name : names) items.push_back({folder / name, name, base, Role::unassigned});
+}
+
+void refuse_repeats(const std::vector<Item>& items) {
+  std::set<std::string> seen;
+  for (const auto& item : items) {
+    std::error_code code;
+    auto path = fs::weakly_canonical(item.path, code);
+    if (!seen.insert((code ? item.path : path).string()).second) {
+      throw InputError(item.path.string(), 0, "the recording is given twice, expected each once");
+    }
+  }
+}
+
+// Puts parent folders before equal names until all differ. Never reaches an absolute path: the files are different.
+void tell_apart(std::vector<Item>& items) {
+  for (bool changed = true; changed;) {
+    changed = false;
+    std::map<std::string, int> count;
+    for (const auto& item : items) ++count[item.name];
+    for (auto& item : items) {
+      if (count[item.name] < 2 || !item.base.has_filename()) continue;
+      item.name = item.base.filename().string() + "/" + item.name;
+      item.base = item.base.parent_path();
+      changed = true;
+    }
+  }
+}
+
+}  // namespace
+
+Recording load_recording(const fs::path& path, const ReadOptions& options) {
+  const auto extension = extension_of(path);
+  constexpr std::string_view text_extensions[] = {".csv", ".txt", ".tsv", ".dat"};
+  const bool is_mat = extension == ".mat";
+  const std::string bytes = read_file(path);
+  if (!is_mat && std::ranges::find(text_extensions, extension) == std::end(text_extensions)) {
+    throw InputError(path.string(), 0,
+                     "unknown kind of file " + in_quotes(extension) +
+                         ", expected .csv, .txt, .tsv, .dat or .mat, or a folder of recordings");
+  }
+  Recording recording = is_mat ? read_mat(path, options) : parse_csv(bytes, path.string(), options);
+  recording.file = path.filename().string();
+  recording.sha256 = sha256_hex(bytes);
+  return recording;
+}
+
+Campaign load_campaign(const std::vector<std::string>& data, const ReadOptions& options) {
+  if (data.empty()) throw InputError("no recordings given, expected CSV or MAT files or folders of them");
+  Campaign campaign;
+  std::vector<Item> items;
+  for (const auto& argument : data) {
+    const fs::path path(argument);
+    if (is_folder(path)) {
+      add_folder(path, campaign, items);
+    } else {
+      items.push_back({path, path.filename().string(), absolute_folder(path.parent_path()), Role::unassigned});
+    }
+  }
+  refuse_repeats(items);
+  tell_apart(items);
+  for (const auto& item : items) {
+    campaign.recordings.push_back(load_recording(item.path, options));
+    campaign.recordings.back().file = item.name;
+    campaign.roles.push_back(item.role);
+  }
+  return campaign;
+}
+
+}  // namespace hysteron

@@ -1,0 +1,134 @@
+#include "io/campaign_file.hpp"
+
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <initializer_list>
+#include <set>
+#include <string_view>
+
+#include "core/error.hpp"
+#include "io/file.hpp"
+#include "io/text.hpp"
+
+namespace hysteron {
+namespace {
+
+constexpr std::string_view schema = "hysteron.campaign/1";
+constexpr std::int64_t highest_order = 9;  // beyond it a polynomial in the drive means nothing
+
+class CampaignParser {
+ public:
+  explicit CampaignParser(const std::filesystem::path& path) : file_(path.string()) {}
+
+  CampaignFile run(const std::string& text) {
+    const toml::table root = parse(text);
+    check_schema(root);
+    check_keys(root, {"schema", "model", "by_current", "by_frequency", "recording"}, "");
+    CampaignFile result;
+    if (const auto* node = root.get("model")) {
+      result.model = text_of(*node, "model");
+      if (result.model.empty()) fail(*node, "'model' is empty, expected the name of a model");
+    }
+    if (const auto* node = root.get("by_current")) result.by_current = orders_of(*node, "by_current");
+    if (const auto* node = root.get("by_frequency")) result.by_frequency = orders_of(*node, "by_frequency");
+    if (const auto* node = root.get("recording")) result.entries = entries_of(*node);
+    return result;
+  }
+
+ private:
+  [[noreturn]] void fail_at(int line, const std::string& message) const { throw InputError(file_, line, message); }
+  [[noreturn]] void fail(const toml::node& node, const std::string& message) const { fail_at(line_of(node), message); }
+
+  static int line_of(const toml::node& node) { return static_cast<int>(node.source().begin.line); }
+
+  [[nodiscard]] toml::table parse(const std::string& text) const {
+    try {
+      return toml::parse(text);
+    } catch (const toml::parse_error& error) {
+      std::string reason(error.description());
+      std::ranges::replace(reason, '\n', ' ');
+      fail_at(static_cast<int>(error.source().begin.line), "not valid TOML (" + reason + "), expected TOML 1.0");
+    }
+  }
+
+  void check_schema(const toml::table& root) const {
+    const auto* node = root.get("schema");
+    if (node == nullptr) fail_at(1, "no 'schema', expected schema = \"" + std::string(schema) + "\"");
+    const auto value = text_of(*node, "schema");
+    if (value != schema) fail(*node, "unknown schema " + in_quotes(value) + ", expected '" + std::string(schema) + "'");
+  }
+
+  void check_keys(const toml::table& table, std::initializer_list<std::string_view> known,
+                  const std::string& of) const {
+    for (const auto& [key, node] : table) {
+      if (std::ranges::find(known, key.str()) != known.end()) continue;
+      std::string expected;
+      for (const auto name : known) expected += (expected.empty() ? "" : ", ") + std::string(name);
+      fail_at(static_cast<int>(key.source().begin.line),
+              "unknown key " + in_quotes(key.str()) + of + ", expected one of " + expected);
+    }
+  }
+
+  [[nodiscard]] std::string text_of(const toml::node& node, const std::string& name) const {
+    if (const auto* text = node.as_string()) return text->get();
+    fail(node, "'" + name + "' is not text, expected a string in double quotes");
+  }
+
+  [[nodiscard]] std::map<std::string, int> orders_of(const toml::node& node, const std::string& name) const {
+    const auto* table = node.as_table();
+    if (table == nullptr) fail(node, "'" + name + "' is not a table, expected [" + name + "] with PARAMETER = ORDER");
+    std::map<std::string, int> orders;
+    for (const auto& [key, value] : *table) {
+      const auto* order = value.as_integer();
+      if (order == nullptr || order->get() < 0 || order->get() > highest_order) {
+        fail(value, "the order of " + in_quotes(key.str()) + " in [" + name + "] is not a whole number from 0 to " +
+                        std::to_string(highest_order) + ", expected for example 1");
+      }
+      orders[std::string(key.str())] = static_cast<int>(order->get());
+    }
+    return orders;
+  }
+
+  [[nodiscard]] std::vector<CampaignEntry> entries_of(const toml::node& node) const {
+    const auto* array = node.as_array();
+    if (array == nullptr) fail(node, "'recording' is not an array of tables, expected [[recording]]");
+    std::vector<CampaignEntry> entries;
+    std::set<std::string> seen;
+    for (const auto& element : *array) {
+      const auto* table = element.as_table();
+      if (table == nullptr) fail(element, "'recording' is not an array of tables, expected [[recording]]");
+      check_keys(*table, {"file", "role"}, " in [[recording]]");
+      const auto* file = table->get("file");
+      if (file == nullptr) fail(element, "[[recording]] without 'file', expected file = \"NAME.csv\"");
+      CampaignEntry entry;
+      entry.line = line_of(*file);
+      const std::filesystem::path path(text_of(*file, "file"));
+      if (path.empty() || path.is_absolute()) {
+        fail(*file, "'file' is " + in_quotes(path.string()) + ", expected a name relative to the folder");
+      }
+      entry.file = path.lexically_normal().generic_string();
+      if (!seen.insert(entry.file).second) {
+        fail(*file, "recording " + in_quotes(entry.file) + " is listed twice, expected each once");
+      }
+      if (const auto* role = table->get("role")) entry.role = role_of(*role);
+      entries.push_back(std::move(entry));
+    }
+    return entries;
+  }
+
+  [[nodiscard]] Role role_of(const toml::node& node) const {
+    const auto role = text_of(node, "role");
+    if (role == "fit") return Role::fit;
+    if (role == "validate") return Role::validate;
+    fail(node, "unknown role " + in_quotes(role) + ", expected 'fit' or 'validate'");
+  }
+
+  std::string file_;
+};
+
+}  // namespace
+
+CampaignFile read_campaign_file(const std::filesystem::path& path) { return CampaignParser(path).run(read_file(path)); }
+
+}  // namespace hysteron

@@ -1,0 +1,29 @@
+// The file campaign.toml, schema "hysteron.campaign/1".
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/recording.hpp"
+
+namespace hysteron {
+
+struct CampaignEntry {
+  std::string file;  // relative to the folder, forward slashes
+  Role role = Role::unassigned;
+  int line = 0;  // of the entry, for messages
+};
+
+struct CampaignFile {
+  std::string model;  // may be empty
+  std::map<std::string, int> by_current;
+  std::map<std::string, int> by_frequency;
+  std::vector<CampaignEntry> entries;  // empty: all recordings of the folder
+};
+
+// Unknown keys, wrong types and values are InputErrors at file:line. Whether the files exist is not looked at.
+[[nodiscard]] CampaignFile read_campaign_file(const std::filesystem::path& path);
+
+}  // namespace hysteron

@@ -1,0 +1,221 @@
+#include "io/channels.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/error.hpp"
+#include "io/text.hpp"
+#include "io/velocity.hpp"
+
+namespace hysteron {
+namespace {
+
+constexpr std::pair<std::string_view, Quantity> synonyms[] = {
+    {"time", Quantity::time},
+    {"t", Quantity::time},
+    {"displacement", Quantity::displacement},
+    {"disp", Quantity::displacement},
+    {"x", Quantity::displacement},
+    {"position", Quantity::displacement},
+    {"stroke", Quantity::displacement},
+    {"velocity", Quantity::velocity},
+    {"vel", Quantity::velocity},
+    {"v", Quantity::velocity},
+    {"xdot", Quantity::velocity},
+    {"speed", Quantity::velocity},
+    {"acceleration", Quantity::acceleration},
+    {"acc", Quantity::acceleration},
+    {"a", Quantity::acceleration},
+    {"accel", Quantity::acceleration},
+    {"force", Quantity::force},
+    {"f", Quantity::force},
+    {"load", Quantity::force},
+    {"current", Quantity::current},
+    {"i", Quantity::current},
+    {"amps", Quantity::current},
+    {"voltage", Quantity::voltage},
+    {"u", Quantity::voltage},
+    {"volt", Quantity::voltage},
+    {"volts", Quantity::voltage},
+    {"temperature", Quantity::temperature},
+    {"temp", Quantity::temperature},
+};
+
+std::string names_of(Quantity quantity) {
+  std::string result;
+  for (const auto& [name, of] : synonyms) {
+    if (of == quantity) result += (result.empty() ? "" : ", ") + std::string(name);
+  }
+  return result;
+}
+
+std::string list_of(const std::vector<Column>& columns) {
+  constexpr std::size_t most = 20;
+  std::string result;
+  for (std::size_t i = 0; i < std::min(columns.size(), most); ++i) {
+    result += (i > 0 ? ", " : "") + in_quotes(columns[i].text);
+  }
+  if (columns.size() > most) result += " and " + std::to_string(columns.size() - most) + " more";
+  return result;
+}
+
+std::string list_of_channels() {
+  std::string result;
+  for (int i = 0; i < quantity_count; ++i) {
+    result += (i > 0 ? ", " : "") + std::string(quantity_name(static_cast<Quantity>(i)));
+  }
+  return result;
+}
+
+// A bare `v` may be a voltage and a bare `a` a current: the unit tells.
+std::optional<Quantity> quantity_of_column(const Column& column) {
+  const auto quantity = quantity_of_name(column.name);
+  if (!quantity || column.unit.empty()) return quantity;
+  if (lower_case(column.name) == "v" && find_unit(Quantity::voltage, column.unit)) return Quantity::voltage;
+  if (lower_case(column.name) == "a" && find_unit(Quantity::current, column.unit)) return Quantity::current;
+  return quantity;
+}
+
+class Assigner {
+ public:
+  Assigner(const std::vector<Column>& columns, const ReadOptions& options, const std::string& file, int line)
+      : columns_(columns), options_(options), file_(file), line_(line), taken_(columns.size(), false) {}
+
+  Sources run() {
+    for (const auto& [channel, value] : options_.columns) map(channel, value);
+    for (std::size_t i = 0; i < columns_.size(); ++i) match(i);
+    require(Quantity::time);
+    require(Quantity::displacement);
+    if (options_.force_required) require(Quantity::force);
+    return sources_;
+  }
+
+ private:
+  Source& source(Quantity quantity) { return sources_[static_cast<std::size_t>(quantity)]; }
+
+  [[noreturn]] void fail(const std::string& message) const { throw InputError(file_, line_, message); }
+
+  // The columns `text` names: those with exactly this text, else without case, else by name or alias.
+  [[nodiscard]] std::vector<std::size_t> matches(std::string_view text) const {
+    const std::string lower = lower_case(text);
+    for (int attempt = 0; attempt < 3; ++attempt) {
+      std::vector<std::size_t> found;
+      for (std::size_t i = 0; i < columns_.size(); ++i) {
+        const auto& column = columns_[i];
+        const bool same = attempt == 0   ? column.text == text
+                          : attempt == 1 ? lower_case(column.text) == lower
+                                         : lower_case(column.name) == lower || column.alias == text;
+        if (same) found.push_back(i);
+      }
+      if (!found.empty()) return found;
+    }
+    return {};
+  }
+
+  void map(const std::string& channel, const std::string& value) {
+    const auto quantity = quantity_of_name(channel);
+    if (!quantity) {
+      throw InputError("--column " + channel + "=" + value + ": unknown channel " + in_quotes(channel) +
+                       ", expected one of " + list_of_channels());
+    }
+    const std::string name(quantity_name(*quantity));
+    const Column wanted = split_column(value);
+    auto found = matches(trimmed(value));
+    if (found.empty()) found = matches(wanted.name);
+    if (found.empty()) {
+      fail("no column " + in_quotes(wanted.name) + " for " + name + ", expected one of " + list_of(columns_));
+    }
+    if (found.size() > 1) {
+      fail(std::to_string(found.size()) + " columns are named " + in_quotes(wanted.name) + " for " + name +
+           ", expected one; the columns are " + list_of(columns_));
+    }
+    if (source(*quantity).column >= 0) fail("two mappings for " + name + ", expected one");
+    assign(*quantity, found.front(), wanted.unit);
+  }
+
+  void match(std::size_t i) {
+    if (taken_[i]) return;
+    const auto quantity = quantity_of_column(columns_[i]);
+    if (!quantity) return;
+    const auto& present = source(*quantity);
+    const std::string name(quantity_name(*quantity));
+    if (present.column < 0) {
+      assign(*quantity, i, {});
+      return;
+    }
+    const bool mapped = std::ranges::any_of(
+        options_.columns, [&](const auto& entry) { return quantity_of_name(entry.first) == *quantity; });
+    if (mapped) return;
+    fail("two columns for " + name + " (" + in_quotes(columns_[static_cast<std::size_t>(present.column)].text) +
+         " and " + in_quotes(columns_[i].text) + "), expected one, or --column " + name + "=NAME to choose");
+  }
+
+  void assign(Quantity quantity, std::size_t i, const std::string& unit) {
+    const std::string& text = unit.empty() ? columns_[i].unit : unit;
+    source(quantity) = {static_cast<int>(i),
+                        text.empty() ? UnitConversion{} : parse_unit(quantity, text, file_, line_)};
+    taken_[i] = true;
+  }
+
+  void require(Quantity quantity) {
+    if (source(quantity).column >= 0) return;
+    const std::string name(quantity_name(quantity));
+    fail("no " + name + " column, expected one named " + names_of(quantity) + ", or --column " + name +
+         "=NAME; the columns are " + list_of(columns_));
+  }
+
+  const std::vector<Column>& columns_;
+  const ReadOptions& options_;
+  const std::string& file_;
+  int line_;
+  std::vector<bool> taken_;
+  Sources sources_;
+};
+
+}  // namespace
+
+std::optional<Quantity> quantity_of_name(std::string_view name) {
+  const std::string lower = lower_case(trimmed(name));
+  for (const auto& [synonym, quantity] : synonyms) {
+    if (lower == synonym) return quantity;
+  }
+  return std::nullopt;
+}
+
+Column split_column(std::string_view text) {
+  text = trimmed(text);
+  Column column{std::string(text), std::string(text), {}, {}};
+  if (text.empty() || (text.back() != ']' && text.back() != ')')) return column;
+  const auto open = text.rfind(text.back() == ']' ? '[' : '(');
+  if (open == std::string_view::npos) return column;
+  column.name = trimmed(text.substr(0, open));
+  column.unit = trimmed(text.substr(open + 1, text.size() - open - 2));
+  return column;
+}
+
+Sources assign_columns(const std::vector<Column>& columns, const ReadOptions& options, const std::string& file,
+                       int line) {
+  return Assigner(columns, options, file, line).run();
+}
+
+Recording make_recording(Channels&& channels) {
+  const auto take = [&](Quantity quantity) { return std::move(channels[static_cast<std::size_t>(quantity)]); };
+  Recording recording;
+  recording.time = take(Quantity::time);
+  recording.displacement = take(Quantity::displacement);
+  recording.velocity = take(Quantity::velocity);
+  recording.acceleration = take(Quantity::acceleration);
+  recording.force = take(Quantity::force);
+  recording.temperature = take(Quantity::temperature);
+  recording.velocity_measured = !recording.velocity.empty();
+  if (!recording.velocity_measured) recording.velocity = derive_velocity(recording.time, recording.displacement);
+  recording.drive = take(Quantity::current);
+  recording.drive_kind = DriveKind::current;
+  if (recording.drive.empty()) {
+    recording.drive = take(Quantity::voltage);
+    recording.drive_kind = recording.drive.empty() ? DriveKind::none : DriveKind::voltage;
+  }
+  return recording;
+}
+
+}  // namespace hysteron

@@ -1,0 +1,56 @@
+// From named columns to the channels of a recording: synonyms, mappings, units. Shared by the CSV and MAT readers.
+#pragma once
+
+#include <array>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/recording.hpp"
+#include "io/units.hpp"
+
+namespace hysteron {
+
+struct ReadOptions {
+  // Channel -> column, e.g. "force" -> "CH1 [kgf]": the column's full text or name; a unit given here overrides
+  // the file's. In MAT files also a column number "3 [kN]" or "MATRIX:3 [kN]", counted from 1.
+  std::map<std::string, std::string> columns;
+  bool force_required = true;
+};
+
+// A column as the file names it.
+struct Column {
+  std::string text;   // as written, shown in messages
+  std::string name;   // without the unit
+  std::string unit;   // empty: SI
+  std::string alias;  // another name it answers to in a mapping, or empty
+};
+
+// Where a channel comes from; column -1 when the file does not have it.
+struct Source {
+  int column = -1;
+  UnitConversion unit;
+};
+
+using Sources = std::array<Source, quantity_count>;
+using Channels = std::array<std::vector<double>, quantity_count>;
+
+inline constexpr std::size_t fewest_rows = 8;
+
+// The channel a column name stands for, by its usual synonyms and without case.
+[[nodiscard]] std::optional<Quantity> quantity_of_name(std::string_view name);
+
+// "force [kN]" or "force (kN)" -> name and unit; the unit is empty when there is none.
+[[nodiscard]] Column split_column(std::string_view text);
+
+// Finds each channel's column. Time, displacement and (if required) force must be there; every failure is an
+// InputError at file:line that lists the columns present.
+[[nodiscard]] Sources assign_columns(const std::vector<Column>& columns, const ReadOptions& options,
+                                     const std::string& file, int line);
+
+// Checked channels in SI -> recording: a missing velocity is derived, current goes before voltage as the drive.
+[[nodiscard]] Recording make_recording(Channels&& channels);
+
+}  // namespace hysteron

@@ -1,0 +1,18 @@
+// Recordings from CSV text: comma, semicolon or tab, a header row with names and units, # comments.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "core/recording.hpp"
+#include "io/channels.hpp"
+
+namespace hysteron {
+
+// A recording in SI from the text of a CSV file; `file` names it in messages. The first row that is neither blank nor
+// a comment holds names, with units in [] or () or in a row of their own below (none at all: SI). Columns that are no
+// channel may hold anything. Decimal commas are read where the comma does not separate columns. Recording::file and
+// sha256 are left empty. Everything wrong is an InputError with the line.
+[[nodiscard]] Recording parse_csv(std::string_view text, const std::string& file, const ReadOptions& options = {});
+
+}  // namespace hysteron

@@ -1,0 +1,17 @@
+// Recordings from MATLAB files, level 5 and 7.3 (HDF5), by matio.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "core/recording.hpp"
+#include "io/channels.hpp"
+
+namespace hysteron {
+
+// A recording in SI. Channels are numeric vectors named as CSV columns are; an optional struct `units` holds their
+// units as text (none: SI). A matrix is read by mapping channels to its columns: "3 [kN]" when it is the only matrix,
+// else "NAME:3 [kN]". Recording::file and sha256 are left empty. Everything wrong is an InputError.
+[[nodiscard]] Recording read_mat(const std::filesystem::path& path, const ReadOptions& options = {});
+
+}  // namespace hysteron

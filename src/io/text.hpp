@@ -1,0 +1,17 @@
+// Small text helpers of the readers: ASCII only, independent of the locale.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace hysteron {
+
+// Without spaces and tabs at both ends.
+[[nodiscard]] std::string_view trimmed(std::string_view text);
+
+[[nodiscard]] std::string lower_case(std::string_view text);
+
+// In single quotes for a one-line message: control bytes shown as '?', long text shortened.
+[[nodiscard]] std::string in_quotes(std::string_view text);
+
+}  // namespace hysteron

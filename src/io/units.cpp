@@ -1,0 +1,163 @@
+#include "io/units.hpp"
+
+#include <array>
+#include <span>
+#include <utility>
+
+#include "core/error.hpp"
+#include "io/text.hpp"
+
+namespace hysteron {
+namespace {
+
+struct BaseUnit {
+  std::string_view symbol;
+  double factor;
+  bool prefixed;  // takes SI prefixes
+};
+
+// Exact by definition: inch, foot (1959 agreement), pound-force, kilogram-force, standard gravity.
+constexpr double standard_gravity = 9.80665;
+constexpr double pound_force = 4.4482216152605;
+
+constexpr BaseUnit time_units[] = {
+    {"s", 1.0, true},     {"sec", 1.0, false},  {"second", 1.0, false}, {"seconds", 1.0, false},
+    {"min", 60.0, false}, {"h", 3600.0, false}, {"msec", 1e-3, false},  {"usec", 1e-6, false},
+};
+constexpr BaseUnit length_units[] = {
+    {"m", 1.0, true},        {"meter", 1.0, false}, {"meters", 1.0, false},  {"metre", 1.0, false},
+    {"metres", 1.0, false},  {"in", 0.0254, false}, {"inch", 0.0254, false}, {"inches", 0.0254, false},
+    {"mil", 2.54e-5, false}, {"ft", 0.3048, false},
+};
+constexpr BaseUnit force_units[] = {
+    {"N", 1.0, true},
+    {"newton", 1.0, false},
+    {"newtons", 1.0, false},
+    {"lbf", pound_force, false},
+    {"lb", pound_force, false},
+    {"lbs", pound_force, false},
+    {"kip", 1000.0 * pound_force, false},
+    {"kips", 1000.0 * pound_force, false},
+    {"kgf", standard_gravity, false},
+    {"gf", 1e-3 * standard_gravity, false},
+    {"tf", 1e3 * standard_gravity, false},
+};
+constexpr BaseUnit current_units[] = {{"A", 1.0, true}, {"amp", 1.0, false}, {"amps", 1.0, false}};
+constexpr BaseUnit voltage_units[] = {{"V", 1.0, true}, {"volt", 1.0, false}, {"volts", 1.0, false}};
+constexpr BaseUnit gravity_units[] = {{"g", standard_gravity, false}, {"mg", 1e-3 * standard_gravity, false}};
+
+// Both code points of the micro sign occur in files.
+constexpr std::pair<std::string_view, double> prefixes[] = {
+    {"da", 1e1},  {"\xC2\xB5", 1e-6}, {"\xCE\xBC", 1e-6}, {"q", 1e-30}, {"r", 1e-27}, {"y", 1e-24}, {"z", 1e-21},
+    {"a", 1e-18}, {"f", 1e-15},       {"p", 1e-12},       {"n", 1e-9},  {"u", 1e-6},  {"m", 1e-3},  {"c", 1e-2},
+    {"d", 1e-1},  {"h", 1e2},         {"k", 1e3},         {"M", 1e6},   {"G", 1e9},   {"T", 1e12},  {"P", 1e15},
+    {"E", 1e18},  {"Z", 1e21},        {"Y", 1e24},        {"R", 1e27},  {"Q", 1e30},
+};
+
+std::optional<double> find_factor(std::span<const BaseUnit> units, std::string_view text) {
+  for (const auto& unit : units) {
+    if (text == unit.symbol) return unit.factor;
+  }
+  for (const auto& unit : units) {
+    if (!unit.prefixed || !text.ends_with(unit.symbol)) continue;
+    const auto head = text.substr(0, text.size() - unit.symbol.size());
+    for (const auto& [prefix, factor] : prefixes) {
+      if (head == prefix) return factor * unit.factor;
+    }
+  }
+  return std::nullopt;
+}
+
+// "mm/s", "in/s", "km/h".
+std::optional<double> find_velocity(std::string_view text) {
+  const auto slash = text.find('/');
+  if (slash == std::string_view::npos) return std::nullopt;
+  const auto length = find_factor(length_units, text.substr(0, slash));
+  const auto time = find_factor(time_units, text.substr(slash + 1));
+  if (!length || !time) return std::nullopt;
+  return *length / *time;
+}
+
+// "m/s^2" in its usual spellings, or multiples of standard gravity.
+std::optional<double> find_acceleration(std::string_view text) {
+  if (const auto gravity = find_factor(gravity_units, text)) return gravity;
+  for (const std::string_view tail : {"/s^2", "/s2", "/s\xC2\xB2", "/s/s", "/s**2", "/sec^2"}) {
+    if (text.ends_with(tail)) return find_factor(length_units, text.substr(0, text.size() - tail.size()));
+  }
+  return std::nullopt;
+}
+
+std::optional<UnitConversion> find_temperature(std::string_view text) {
+  for (const std::string_view name : {"degC",
+                                      "\xC2\xB0"
+                                      "C",
+                                      "C", "celsius"}) {
+    if (text == name) return UnitConversion{};
+  }
+  if (text == "K") return UnitConversion{1.0, -273.15};
+  for (const std::string_view name : {"degF",
+                                      "\xC2\xB0"
+                                      "F",
+                                      "F", "fahrenheit"}) {
+    if (text == name) return UnitConversion{5.0 / 9.0, -160.0 / 9.0};
+  }
+  return std::nullopt;
+}
+
+std::optional<UnitConversion> plain(std::optional<double> factor) {
+  if (!factor) return std::nullopt;
+  return UnitConversion{*factor, 0.0};
+}
+
+}  // namespace
+
+std::string_view quantity_name(Quantity quantity) {
+  static constexpr std::array<std::string_view, quantity_count> names = {
+      "time", "displacement", "velocity", "acceleration", "force", "current", "voltage", "temperature"};
+  return names[static_cast<std::size_t>(quantity)];
+}
+
+std::string_view accepted_units(Quantity quantity) {
+  static constexpr std::array<std::string_view, quantity_count> units = {"s, ms, us, min, h",
+                                                                         "m, mm, cm, um, in, ft",
+                                                                         "m/s, mm/s, cm/s, in/s, ft/s",
+                                                                         "m/s^2, mm/s^2, in/s^2, g",
+                                                                         "N, kN, MN, daN, mN, lbf, lb, kip, kgf",
+                                                                         "A, mA",
+                                                                         "V, mV",
+                                                                         "degC, K, degF"};
+  return units[static_cast<std::size_t>(quantity)];
+}
+
+std::optional<UnitConversion> find_unit(Quantity quantity, std::string_view text) {
+  text = trimmed(text);
+  switch (quantity) {
+    case Quantity::time:
+      return plain(find_factor(time_units, text));
+    case Quantity::displacement:
+      return plain(find_factor(length_units, text));
+    case Quantity::velocity:
+      return plain(find_velocity(text));
+    case Quantity::acceleration:
+      return plain(find_acceleration(text));
+    case Quantity::force:
+      return plain(find_factor(force_units, text));
+    case Quantity::current:
+      return plain(find_factor(current_units, text));
+    case Quantity::voltage:
+      return plain(find_factor(voltage_units, text));
+    case Quantity::temperature:
+      return find_temperature(text);
+  }
+  return std::nullopt;
+}
+
+UnitConversion parse_unit(Quantity quantity, std::string_view text, const std::string& file, int line) {
+  if (const auto unit = find_unit(quantity, text)) return *unit;
+  const std::string message = "unknown unit " + in_quotes(text) + " of " + std::string(quantity_name(quantity)) +
+                              ", expected one of " + std::string(accepted_units(quantity));
+  if (file.empty()) throw InputError(message);
+  throw InputError(file, line, message);
+}
+
+}  // namespace hysteron

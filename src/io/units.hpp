@@ -1,0 +1,36 @@
+// Units of the files' columns and their conversion to the units used inside: SI, and degC for temperature.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace hysteron {
+
+// What a channel measures. The order is that of the channels in every table of src/io.
+enum class Quantity { time, displacement, velocity, acceleration, force, current, voltage, temperature };
+inline constexpr int quantity_count = 8;
+
+// inside = value * factor + offset; only temperatures have an offset.
+struct UnitConversion {
+  double factor = 1.0;
+  double offset = 0.0;
+
+  [[nodiscard]] double to_si(double value) const { return value * factor + offset; }
+  [[nodiscard]] double from_si(double value) const { return (value - offset) / factor; }
+};
+
+// "time", "displacement", ...: the name of the quantity in messages and in --column.
+[[nodiscard]] std::string_view quantity_name(Quantity quantity);
+
+// The units accepted for a quantity, as shown in error messages.
+[[nodiscard]] std::string_view accepted_units(Quantity quantity);
+
+// The conversion of `text` (case matters: mN is not MN), or nothing when it is not a unit of the quantity.
+[[nodiscard]] std::optional<UnitConversion> find_unit(Quantity quantity, std::string_view text);
+
+// As find_unit; an unknown unit is an InputError at file:line that names it and the accepted ones.
+[[nodiscard]] UnitConversion parse_unit(Quantity quantity, std::string_view text, const std::string& file = {},
+                                        int line = 0);
+
+}  // namespace hysteron

@@ -1,0 +1,260 @@
+#include "io/velocity.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <cstddef>
+#include <numeric>
+
+namespace hysteron {
+namespace {
+
+constexpr std::size_t fewest_on_a_side = 2;  // five points: a cubic with one to spare
+constexpr double most_on_a_side = 500.0;     // bounds the work; reached only by very long, very noisy cycles
+
+double quantile(std::vector<double>& values, double share) {
+  if (values.empty()) return 0.0;
+  const auto index = static_cast<std::size_t>(share * static_cast<double>(values.size() - 1));
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(index);
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+// The step of a quantised signal, 0 when its increments are not multiples of the smallest one. Steps that mostly repeat
+// the one before are a motion at constant speed, not a quantum.
+double quantum_of(std::span<const double> x, double range) {
+  const double nothing = 1e-9 * range;
+  double smallest = range;
+  for (std::size_t i = 1; i < x.size(); ++i) {
+    const double step = std::abs(x[i] - x[i - 1]);
+    if (step > nothing) smallest = std::min(smallest, step);
+  }
+  std::size_t multiples = 0;
+  std::size_t moves = 0;
+  std::size_t repeats = 0;
+  double before = 0.0;
+  for (std::size_t i = 1; i < x.size(); ++i) {
+    const double step = x[i] - x[i - 1];
+    const double steps = std::abs(step) / smallest;
+    if (std::abs(steps - std::round(steps)) < 0.05) ++multiples;
+    if (std::abs(step) > nothing) {
+      ++moves;
+      if (std::abs(step - before) < 0.05 * smallest) ++repeats;
+    }
+    before = step;
+  }
+  if (repeats * 10 > moves * 9) return 0.0;
+  return multiples * 20 >= (x.size() - 1) * 19 ? smallest : 0.0;
+}
+
+// Standard deviation of the displacement noise: each sample against the quintic through its six neighbours, by median.
+double noise_of(std::span<const double> t, std::span<const double> x) {
+  constexpr std::array<std::ptrdiff_t, 6> neighbours = {-3, -2, -1, 1, 2, 3};
+  std::vector<double> errors;
+  errors.reserve(x.size());
+  for (std::size_t i = 3; i + 3 < x.size(); ++i) {
+    const auto at = [&](std::ptrdiff_t k) { return static_cast<std::size_t>(static_cast<std::ptrdiff_t>(i) + k); };
+    double difference = 0.0;
+    double variance = 1.0;
+    for (const auto j : neighbours) {
+      double weight = 1.0;
+      for (const auto k : neighbours) {
+        if (k != j) weight *= (t[i] - t[at(k)]) / (t[at(j)] - t[at(k)]);
+      }
+      difference += weight * (x[at(j)] - x[i]);
+      variance += weight * weight;
+    }
+    errors.push_back(std::abs(difference) / std::sqrt(variance));
+  }
+  return 1.4826 * quantile(errors, 0.5);
+}
+
+// Twice the tenth percentile of the times between reversals of more than `threshold`; the whole duration without any.
+double short_period(std::span<const double> t, std::span<const double> x, double threshold) {
+  std::vector<double> half_periods;
+  double low = x[0];
+  double high = x[0];
+  double low_at = t[0];
+  double high_at = t[0];
+  double last = t[0];
+  int direction = 0;
+  int reversals = 0;
+  // The stretch before the first reversal is not a half period.
+  const auto reverse = [&](double at) {
+    if (reversals++ > 0) half_periods.push_back(at - last);
+    last = at;
+  };
+  for (std::size_t i = 1; i < x.size(); ++i) {
+    if (x[i] > high) high = x[i], high_at = t[i];
+    if (x[i] < low) low = x[i], low_at = t[i];
+    if (direction >= 0 && high - x[i] > threshold) {
+      if (direction > 0) reverse(high_at);
+      direction = -1;
+      low = x[i], low_at = t[i];
+      high = x[i], high_at = t[i];
+    } else if (direction <= 0 && x[i] - low > threshold) {
+      if (direction < 0) reverse(low_at);
+      direction = 1;
+      low = x[i], low_at = t[i];
+      high = x[i], high_at = t[i];
+    }
+  }
+  return half_periods.empty() ? t.back() - t.front() : 2.0 * quantile(half_periods, 0.1);
+}
+
+// Samples on each side of the window; the formulas are those of a uniform grid of spacing dt.
+double samples_on_a_side(std::span<const double> t, std::span<const double> x, double dt) {
+  const auto [low, high] = std::ranges::minmax_element(x);
+  const double range = *high - *low;
+  constexpr auto fewest = static_cast<double>(fewest_on_a_side);
+  if (range <= 0.0) return fewest;
+  const double noise = std::max(noise_of(t, x), quantum_of(x, range) / std::sqrt(12.0));
+  const double period = short_period(t, x, std::max(0.05 * range, 6.0 * noise));
+
+  // Peak velocity from chords of a twelfth of a period, long enough not to see the noise.
+  std::vector<double> speeds;
+  speeds.reserve(x.size());
+  for (std::size_t i = 0, j = 0; j < x.size(); ++i) {
+    while (j < x.size() && t[j] - t[i] < period / 12.0) ++j;
+    if (j < x.size()) speeds.push_back(std::abs(x[j] - x[i]) / (t[j] - t[i]));
+  }
+  const double peak = quantile(speeds, 0.95);
+  if (peak <= 0.0) return fewest;
+
+  // A cubic over 2h+1 samples has velocity noise sqrt(75/8) noise / (dt h^1.5).
+  const double unit_noise = std::sqrt(9.375) * noise / (dt * peak);
+  const auto limit = [&](double part) { return std::clamp(period / (part * dt), fewest, most_on_a_side); };
+  const double wanted = std::pow(unit_noise / 1e-3, 2.0 / 3.0);
+  const double cap = limit(24.0);
+  if (wanted <= cap) return std::max(fewest, std::ceil(wanted));
+  const double tolerable = std::pow(unit_noise / 1e-2, 2.0 / 3.0);
+  return std::floor(std::clamp(tolerable, cap, limit(12.0)));
+}
+
+// weights . x = slope at u = 0 of the least-squares cubic through (u, x), by orthogonal polynomials (Forsythe 1957).
+// Points too clustered for a cubic get the highest degree they carry.
+void slope_weights(std::span<const double> u, std::vector<double>& weights, std::vector<double>& p,
+                   std::vector<double>& previous) {
+  const std::size_t n = u.size();
+  weights.assign(n, 0.0);
+  p.assign(n, 1.0);
+  previous.assign(n, 0.0);
+  double value = 1.0;  // of p and of the polynomial before it, at u = 0
+  double value_before = 0.0;
+  double slope = 0.0;
+  double slope_before = 0.0;
+  double norm_before = 1.0;
+  double first_norm = 0.0;
+  for (int degree = 0; degree <= 3; ++degree) {
+    double norm = 0.0;
+    double moment = 0.0;
+    for (std::size_t j = 0; j < n; ++j) {
+      norm += p[j] * p[j];
+      moment += u[j] * p[j] * p[j];
+    }
+    if (degree == 0) first_norm = norm;
+    if (norm < 1e-14 * first_norm) return;
+    for (std::size_t j = 0; j < n; ++j) weights[j] += p[j] * slope / norm;
+    const double a = moment / norm;
+    const double b = degree == 0 ? 0.0 : norm / norm_before;
+    for (std::size_t j = 0; j < n; ++j) {
+      const double next = (u[j] - a) * p[j] - b * previous[j];
+      previous[j] = p[j];
+      p[j] = next;
+    }
+    const double next_value = -a * value - b * value_before;
+    const double next_slope = value - a * slope - b * slope_before;
+    value_before = value;
+    slope_before = slope;
+    value = next_value;
+    slope = next_slope;
+    norm_before = norm;
+  }
+}
+
+bool is_uniform(std::span<const double> t, double dt) {
+  for (std::size_t i = 0; i < t.size(); ++i) {
+    if (std::abs(t[i] - t[0] - static_cast<double>(i) * dt) > 1e-3 * dt) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+std::vector<double> derive_velocity(std::span<const double> time, std::span<const double> displacement) {
+  assert(time.size() == displacement.size());
+  const std::size_t n = time.size();
+  std::vector<double> velocity(n, 0.0);
+  if (n < 2) return velocity;
+
+  std::vector<double> steps(n);
+  std::adjacent_difference(time.begin(), time.end(), steps.begin());
+  steps.erase(steps.begin());
+  const double median_step = quantile(steps, 0.5);
+  const double side = n > 7 ? samples_on_a_side(time, displacement, median_step) : 2.0;
+  const auto h = static_cast<std::size_t>(side);
+  const double half_width = (side + 0.25) * median_step;  // s; the quarter keeps rounded times inside
+
+  const double mean_step = (time.back() - time.front()) / static_cast<double>(n - 1);
+  const bool uniform = is_uniform(time, mean_step);
+
+  std::vector<double> u;
+  std::vector<double> weights;
+  std::vector<double> p;
+  std::vector<double> previous;
+  bool weights_of_the_middle = false;
+  std::size_t first = 0;
+  std::size_t last = 0;  // inclusive
+  for (std::size_t i = 0; i < n; ++i) {
+    const bool middle = uniform && i >= h && i + h < n;
+    if (uniform) {
+      // At the ends the window keeps its length and stops at the first or last sample.
+      first = i < h ? 0 : i - h;
+      last = std::min(n - 1, first + 2 * h);
+      first = last >= 2 * h ? last - 2 * h : 0;
+    } else {
+      while (time[first] < time[i] - half_width) ++first;
+      last = std::max(last, i);
+      while (last + 1 < n && time[last + 1] <= time[i] + half_width) ++last;
+    }
+    std::size_t begin = first;
+    std::size_t end = last;
+    if (!uniform) {
+      // At the ends and beside gaps the window reaches twice as far on its other side, then to the nearest samples
+      // until it holds five.
+      const double half = 0.5 * half_width;
+      const bool cut_left = time[i] - time[begin] < half;
+      const bool cut_right = time[end] - time[i] < half;
+      while (cut_left && end + 1 < n && time[end + 1] <= time[i] + 2.0 * half_width) ++end;
+      while (cut_right && begin > 0 && time[begin - 1] >= time[i] - 2.0 * half_width) --begin;
+      while (end - begin < 2 * fewest_on_a_side && (begin > 0 || end + 1 < n)) {
+        const bool left = end + 1 == n || (begin > 0 && time[i] - time[begin - 1] <= time[end + 1] - time[i]);
+        if (left) {
+          --begin;
+        } else {
+          ++end;
+        }
+      }
+    }
+    if (!(middle && weights_of_the_middle)) {
+      const double scale = uniform ? mean_step * side : half_width;
+      u.resize(end - begin + 1);
+      for (std::size_t j = begin; j <= end; ++j) {
+        u[j - begin] =
+            (uniform ? (static_cast<double>(j) - static_cast<double>(i)) * mean_step : time[j] - time[i]) / scale;
+      }
+      slope_weights(u, weights, p, previous);
+      for (double& weight : weights) weight /= scale;
+      weights_of_the_middle = middle;
+    }
+    double slope = 0.0;
+    for (std::size_t j = begin; j <= end; ++j) {
+      slope += weights[j - begin] * (displacement[j] - displacement[i]);
+    }
+    velocity[i] = slope;
+  }
+  return velocity;
+}
+
+}  // namespace hysteron

@@ -1,0 +1,15 @@
+// Files of the HTML report, embedded at build time by cmake/web.cmake.
+#pragma once
+
+#include <string_view>
+
+namespace hysteron::web {
+
+std::string_view report_html();
+std::string_view report_css();
+std::string_view report_js();
+std::string_view uplot_js();
+std::string_view uplot_css();
+std::string_view uplot_license();
+
+}  // namespace hysteron::web

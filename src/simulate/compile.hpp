@@ -1,0 +1,94 @@
+// Turns a part's equations into its catalogue row: instantiates them for doubles, packs and duals in the part's own
+// translation unit.
+#pragma once
+
+#include "simulate/march.hpp"
+#include "simulate/part.hpp"
+
+namespace hysteron {
+
+namespace detail {
+
+template <class M>
+inline constexpr std::size_t parameter_count = std::size(M::parameters);
+
+template <class T, std::size_t N>
+[[gnu::always_inline]] inline const std::array<T, N>& as_array(const T* p) {
+  return *reinterpret_cast<const std::array<T, N>*>(p);
+}
+
+// A part alone, fused for speed.
+template <class M>
+struct Fused {
+  static constexpr int states() { return M::states; }
+  static constexpr std::size_t parameters() { return parameter_count<M>; }
+  template <class T>
+  [[gnu::always_inline]] static void rate(const T* p, const T* s, const Input<T>& in, T* rates) {
+    if constexpr (M::states > 0) {
+      const auto result = M::rate(as_array<T, parameter_count<M>>(p), as_array<T, M::states>(s), in);
+      repeat<M::states>([&](auto i) __attribute__((always_inline)) {
+        rates[i] = result[i];
+      });
+    }
+  }
+  template <class T>
+  [[gnu::always_inline]] static T force(const T* p, const T* s, const Input<T>& in) {
+    return M::force(as_array<T, parameter_count<M>>(p), as_array<T, M::states>(s), in, T(0.0));
+  }
+  template <class T>
+  [[gnu::always_inline]] static value_t<T> stiffness(const T* p, double speed) {
+    if constexpr (M::states > 0) {
+      std::array<value_t<T>, parameter_count<M>> values;  // the bound needs no derivatives
+      repeat<static_cast<int>(parameter_count<M>)>([&](auto i) __attribute__((always_inline)) {
+        values[i] = value_of(p[i]);
+      });
+      return M::stiffness(values, speed);
+    } else {
+      return value_t<T>(0.0);
+    }
+  }
+};
+
+// The drive hook is detected by its name alone, so that a wrong signature is an error rather than a silent omission.
+template <class M>
+concept HasDrive = M::has_drive;
+
+template <class M, class T>
+constexpr PartOperations<T> operations() {
+  PartOperations<T> result;
+  if constexpr (HasDrive<M>) {
+    result.drive = [](const T* p, const T* s, Input<T>& in) {
+      M::drive(as_array<T, parameter_count<M>>(p), as_array<T, M::states>(s), in);
+    };
+  }
+  if constexpr (M::states > 0) {
+    result.rate = [](const T* p, const T* s, const Input<T>& in, T* rates) { Fused<M>::rate(p, s, in, rates); };
+    result.stiffness = [](const T* p, double speed) { return Fused<M>::stiffness(p, speed); };
+  }
+  result.force = [](const T* p, const T* s, const Input<T>& in, T& force) {
+    force = M::force(as_array<T, parameter_count<M>>(p), as_array<T, M::states>(s), in, force);
+  };
+  result.march = [](const Motion& motion, const T* p, std::size_t stride, std::size_t begin, std::size_t end, T* state,
+                    T* out) { march<T>(Fused<M>{}, motion, p, stride, begin, end, state, out); };
+  return result;
+}
+
+}  // namespace detail
+
+template <class M>
+constexpr Part compile() {
+  static_assert(M::states <= max_states);
+  Part part;
+  part.id = M::id;
+  part.title = M::title;
+  part.reference = M::reference;
+  part.equations = M::equations;
+  part.parameters = M::parameters;
+  part.states = M::states;
+  part.on_double = detail::operations<M, double>();
+  part.on_lanes = detail::operations<M, Lanes>();
+  part.on_dual = detail::operations<M, LaneDual>();
+  return part;
+}
+
+}  // namespace hysteron

@@ -1,0 +1,191 @@
+#include "simulate/composite.hpp"
+
+#include <algorithm>
+
+#include "core/error.hpp"
+#include "core/suggest.hpp"
+#include "simulate/march.hpp"
+
+namespace hysteron {
+namespace {
+
+// The chain at run time: drives act from the outermost effect inwards, forces from the law outwards.
+template <class T>
+struct Chain {
+  struct Link {
+    const PartOperations<T>* operations;
+    std::size_t parameter;
+    int state;
+    int states;
+  };
+  std::vector<Link> links;  // law first
+  int total = 0;
+
+  explicit Chain(const CompositeModel& model) {
+    std::size_t parameter = 0;
+    const auto add = [&](const Part& part) {
+      links.push_back({&part.on<T>(), parameter, total, part.states});
+      parameter += part.parameters.size();
+      total += part.states;
+    };
+    add(*model.law);
+    for (const Part* effect : model.effects) {
+      add(*effect);
+    }
+  }
+
+  [[nodiscard]] int states() const { return total; }
+
+  void rate(const T* p, const T* s, Input<T> in, T* rates) const {
+    for (std::size_t i = links.size(); i-- > 0;) {
+      const Link& link = links[i];
+      if (link.states > 0) {
+        link.operations->rate(p + link.parameter, s + link.state, in, rates + link.state);
+      }
+      if (link.operations->drive != nullptr) {
+        link.operations->drive(p + link.parameter, s + link.state, in);
+      }
+    }
+  }
+
+  T force(const T* p, const T* s, const Input<T>& in) const {
+    std::vector<Input<T>> seen(links.size(), in);
+    for (std::size_t i = links.size(); i-- > 1;) {
+      seen[i - 1] = seen[i];
+      if (links[i].operations->drive != nullptr) {
+        links[i].operations->drive(p + links[i].parameter, s + links[i].state, seen[i - 1]);
+      }
+    }
+    T result(0.0);
+    for (std::size_t i = 0; i < links.size(); ++i) {
+      links[i].operations->force(p + links[i].parameter, s + links[i].state, seen[i], result);
+    }
+    return result;
+  }
+
+  value_t<T> stiffness(const T* p, double speed) const {
+    value_t<T> bound(0.0);
+    for (const Link& link : links) {
+      if (link.states > 0) {
+        bound = bound + link.operations->stiffness(p + link.parameter, speed);
+      }
+    }
+    return bound;
+  }
+};
+
+std::vector<std::string> ids(std::span<const Part* const> catalogue) {
+  std::vector<std::string> result;
+  for (const Part* part : catalogue) {
+    result.emplace_back(part->id);
+  }
+  return result;
+}
+
+const Part* find(std::span<const Part* const> catalogue, std::string_view id) {
+  const auto found = std::ranges::find_if(catalogue, [&](const Part* part) { return part->id == id; });
+  return found == catalogue.end() ? nullptr : *found;
+}
+
+}  // namespace
+
+const Part* find_model(std::string_view id) { return find(model_catalogue(), id); }
+const Part* find_effect(std::string_view id) { return find(effect_catalogue(), id); }
+
+std::vector<Parameter> CompositeModel::parameters() const {
+  std::vector<Parameter> result(law->parameters.begin(), law->parameters.end());
+  for (const Part* effect : effects) {
+    result.insert(result.end(), effect->parameters.begin(), effect->parameters.end());
+  }
+  return result;
+}
+
+std::vector<std::string> CompositeModel::parameter_names() const {
+  std::vector<std::string> result;
+  for (const Parameter& parameter : law->parameters) {
+    result.emplace_back(parameter.name);
+  }
+  for (const Part* effect : effects) {
+    for (const Parameter& parameter : effect->parameters) {
+      result.push_back(std::string(effect->id) + "." + std::string(parameter.name));
+    }
+  }
+  return result;
+}
+
+std::size_t CompositeModel::parameter_count() const {
+  std::size_t count = law->parameters.size();
+  for (const Part* effect : effects) {
+    count += effect->parameters.size();
+  }
+  return count;
+}
+
+int CompositeModel::states() const {
+  int count = law->states;
+  for (const Part* effect : effects) {
+    count += effect->states;
+  }
+  return count;
+}
+
+template <class T>
+void CompositeModel::march(const Motion& motion, const T* p, std::size_t stride, std::size_t begin, std::size_t end,
+                           T* state, T* out) const {
+  if (effects.empty()) {
+    law->on<T>().march(motion, p, stride, begin, end, state, out);
+    return;
+  }
+  const bool additive = std::ranges::all_of(
+      effects, [](const Part* effect) { return effect->states == 0 && effect->on<T>().drive == nullptr; });
+  if (additive) {
+    law->on<T>().march(motion, p, stride, begin, end, state, out);
+    std::size_t parameter = law->parameters.size();
+    for (const Part* effect : effects) {
+      for (std::size_t n = begin; n < end; ++n) {
+        effect->on<T>().force(p + (n - begin) * stride + parameter, state, detail::input_of_sample<T>(motion, n),
+                              out[n - begin]);
+      }
+      parameter += effect->parameters.size();
+    }
+    return;
+  }
+  hysteron::march<T>(Chain<T>(*this), motion, p, stride, begin, end, state, out);
+}
+
+template void CompositeModel::march<double>(const Motion&, const double*, std::size_t, std::size_t, std::size_t,
+                                            double*, double*) const;
+template void CompositeModel::march<Lanes>(const Motion&, const Lanes*, std::size_t, std::size_t, std::size_t, Lanes*,
+                                           Lanes*) const;
+template void CompositeModel::march<LaneDual>(const Motion&, const LaneDual*, std::size_t, std::size_t, std::size_t,
+                                              LaneDual*, LaneDual*) const;
+
+CompositeModel make_model(std::string_view law, const std::vector<std::string>& effects) {
+  CompositeModel model;
+  model.law = find_model(law);
+  if (model.law == nullptr) {
+    throw InputError("unknown model '" + std::string(law) + "'" + suggestion(law, ids(model_catalogue())) +
+                     ", see `hysteron list models`");
+  }
+  for (const std::string& id : effects) {
+    const Part* effect = find_effect(id);
+    if (effect == nullptr) {
+      throw InputError("unknown effect '" + id + "'" + suggestion(id, ids(effect_catalogue())) +
+                       ", see `hysteron list effects`");
+    }
+    model.effects.push_back(effect);
+  }
+  if (model.states() > max_states) {
+    throw InputError("too many effects at once: more than " + std::to_string(max_states) + " state variables");
+  }
+  return model;
+}
+
+std::vector<double> simulate(const CompositeModel& model, const Motion& motion, const std::vector<double>& parameters) {
+  std::vector<double> force(motion.time.size());
+  std::vector<double> state(static_cast<std::size_t>(max_states), 0.0);
+  model.march<double>(motion, parameters.data(), 0, 0, motion.time.size(), state.data(), force.data());
+  return force;
+}
+
+}  // namespace hysteron

@@ -1,0 +1,302 @@
+// The integrator: classical Runge-Kutta of fourth order with as many sub-steps between two samples as the stiffness
+// bound of the equations asks for, per lane. h lambda <= step_limit (motion.hpp) keeps every lane inside the
+// stability region (2.78) for every parameter set and sampling, and the step count is finite because the bound is.
+// Sub-steps of lanes that need fewer are masked, so a lane does not depend on its company. Steps land on velocity
+// reversals, where hysteresis equations have a kink.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "simulate/motion.hpp"
+#include "simulate/part.hpp"
+
+namespace hysteron {
+
+inline constexpr double max_substeps = 65536.0;
+inline constexpr int max_states = 16;
+
+namespace detail {
+
+// Smallest integer not below a, for |a| < 2^51.
+template <class V>
+[[gnu::always_inline]] inline V ceil_value(const V& a) {
+  const V rounded = (a + V(0x1.8p52)) - V(0x1.8p52);
+  return select(rounded < a, rounded + V(1.0), rounded);
+}
+[[gnu::always_inline]] inline double largest(double a) { return a; }
+[[gnu::always_inline]] inline double largest(const Lanes& a) {
+  double result = a.lane(0);
+  for (int i = 1; i < lane_count; ++i) {
+    result = std::max(result, a.lane(i));
+  }
+  return result;
+}
+
+// a b + c with a factor that has no derivatives.
+template <class T>
+[[gnu::always_inline]] inline T scaled_sum(const value_t<T>& a, const T& b, const T& c) {
+  if constexpr (std::is_same_v<T, value_t<T>>) {
+    return fma(a, b, c);
+  } else {
+    T r;
+    r.v = fma(a, b.v, c.v);
+    repeat<T::directions>([&](auto i) __attribute__((always_inline)) {
+      r.d[i] = fma(a, b.d[i], c.d[i]);
+    });
+    return r;
+  }
+}
+
+template <class T, class V>
+[[gnu::always_inline]] inline Input<T> input_at(const Motion& motion, std::size_t n, const V& theta) {
+  const MotionInterval& interval = motion.intervals[n];
+  return {T(cubic(interval.x, theta)), T(cubic(interval.v, theta)),
+          motion.drive.empty() ? T(0.0)
+                               : T(fma(V(motion.drive[n + 1] - motion.drive[n]), theta, V(motion.drive[n]))),
+          T(fma(V(interval.length), theta, V(motion.time[n])))};
+}
+
+// Equals input_at theta = 0: the polynomials' constant terms are the samples.
+template <class T>
+[[gnu::always_inline]] inline Input<T> input_of_sample(const Motion& motion, std::size_t n) {
+  return {T(motion.x[n]), T(motion.v[n]), T(motion.drive.empty() ? 0.0 : motion.drive[n]), T(motion.time[n])};
+}
+
+// Equals input_at theta = 1/2 or 1, from stored values: most intervals need one step only.
+template <class T>
+[[gnu::always_inline]] inline Input<T> input_stored(const Motion& motion, std::size_t n, double theta,
+                                                    const double (&stored)[2]) {
+  return {T(stored[0]), T(stored[1]),
+          T(motion.drive.empty() ? 0.0 : fma(motion.drive[n + 1] - motion.drive[n], theta, motion.drive[n])),
+          T(fma(motion.intervals[n].length, theta, motion.time[n]))};
+}
+
+// Chains that know their size while compiling keep states, stages and parameters in registers or on the stack, where
+// no store to the output can alias them.
+template <class Chain>
+concept FixedChain = requires {
+  typename std::integral_constant<int, Chain::states()>;
+  typename std::integral_constant<std::size_t, Chain::parameters()>;
+};
+
+template <int N, class F>
+[[gnu::always_inline]] inline void for_states(int states, F&& f) {
+  if constexpr (N >= 0) {
+    repeat<N>(f);
+  } else {
+    for (int i = 0; i < states; ++i) {
+      f(i);
+    }
+  }
+}
+
+template <class Chain>
+constexpr int fixed_states() {
+  if constexpr (FixedChain<Chain>) {
+    return Chain::states();
+  } else {
+    return -1;
+  }
+}
+
+template <class T, int N>
+using StateArray = std::array<T, static_cast<std::size_t>(N < 0 ? max_states : std::max(N, 1))>;
+
+template <class T, class Chain>
+class Parameters {
+ public:
+  [[gnu::always_inline]] explicit Parameters(const T* p) {
+    if constexpr (FixedChain<Chain>) {
+      repeat<static_cast<int>(Chain::parameters())>([&](auto i) __attribute__((always_inline)) {
+        copy_[i] = p[i];
+      });
+    } else {
+      copy_ = p;
+    }
+  }
+  [[nodiscard, gnu::always_inline]] const T* data() const {
+    if constexpr (FixedChain<Chain>) {
+      return copy_.data();
+    } else {
+      return copy_;
+    }
+  }
+
+ private:
+  template <class C>
+  struct Storage {
+    using type = const T*;
+  };
+  template <FixedChain C>
+  struct Storage<C> {
+    using type = std::array<T, C::parameters()>;
+  };
+  typename Storage<Chain>::type copy_;
+};
+
+// Laws that slip against a series element have their kink somewhat after the reversal of the motion: where the step
+// straddles it, the error is of second order only, so the steps there are shorter.
+inline constexpr double refinement = 3.0;
+[[gnu::always_inline]] inline bool near_reversal(const Motion& motion, std::size_t n) {
+  return motion.intervals[n].reversal || (n > 0 && motion.intervals[n - 1].reversal);
+}
+
+// One step of length h from `state` into `next`.
+template <int N, class T, class Chain>
+[[gnu::always_inline]] inline void advance(const Chain& system, int states, const T* p, const value_t<T>& h,
+                                           const Input<T>& at_start, const Input<T>& at_middle,
+                                           const Input<T>& at_end, const StateArray<T, N>& state,
+                                           StateArray<T, N>& next) {
+  using Value = value_t<T>;
+  const Value half = Value(0.5) * h;
+  const Value sixth = Value(1.0 / 6.0) * h;
+  StateArray<T, N> k1;
+  StateArray<T, N> k2;
+  StateArray<T, N> k3;
+  StateArray<T, N> k4;
+  StateArray<T, N> trial;
+  const auto shift = [&](const Value& step, const StateArray<T, N>& k) __attribute__((always_inline)) {
+    for_states<N>(states, [&](auto i) __attribute__((always_inline)) {
+      trial[i] = scaled_sum(step, k[i], state[i]);
+    });
+  };
+  system.rate(p, state.data(), at_start, k1.data());
+  shift(half, k1);
+  system.rate(p, trial.data(), at_middle, k2.data());
+  shift(half, k2);
+  system.rate(p, trial.data(), at_middle, k3.data());
+  shift(h, k3);
+  system.rate(p, trial.data(), at_end, k4.data());
+  for_states<N>(states, [&](auto i) __attribute__((always_inline)) {
+    next[i] = scaled_sum(sixth, scaled_sum(Value(2.0), k2[i] + k3[i], k1[i] + k4[i]), state[i]);
+  });
+}
+
+// Advances the state over the part [from, to] of interval n, in sub-steps. The sub-steps are counted so that a lane
+// with NaN takes one: it must not stop its neighbours.
+template <class T, class Chain>
+[[gnu::noinline, gnu::flatten]] void march_segment(const Chain& system, const Motion& motion, std::size_t n,
+                                                   double from, double to, const T* __restrict parameters,
+                                                   T* __restrict result) {
+  using Value = value_t<T>;
+  constexpr int N = fixed_states<Chain>();
+  const int states = system.states();
+  const Parameters<T, Chain> copy(parameters);
+  const T* p = copy.data();
+  const double span = to - from;
+  const double length = motion.intervals[n].length * span;
+  const double limit = near_reversal(motion, n) ? motion.step_limit / refinement : motion.step_limit;
+  const Value bound = system.stiffness(p, motion.intervals[n].speed) * Value(length / limit);
+  const Value count = select(bound > Value(1.0), min(ceil_value(bound), Value(max_substeps)), Value(1.0));
+  const double most = largest(count);
+  const Value inverse = Value(1.0) / count;
+  const Value h = Value(length) * inverse;
+  StateArray<T, N> state;
+  StateArray<T, N> next;
+  for_states<N>(states, [&](auto i) __attribute__((always_inline)) {
+    state[i] = result[i];
+  });
+  Value theta(from);
+  for (double step = 0.0; step < most; step += 1.0) {
+    const Value middle = fma(Value(span * (step + 0.5)), inverse, Value(from));
+    const Value end = fma(Value(span * (step + 1.0)), inverse, Value(from));
+    advance<N, T>(system, states, p, h, input_at<T>(motion, n, theta), input_at<T>(motion, n, middle),
+                  input_at<T>(motion, n, end), state, next);
+    const auto active = Value(step) < count;
+    for_states<N>(states, [&](auto i) __attribute__((always_inline)) {
+      state[i] = select(active, next[i], state[i]);
+    });
+    theta = end;
+  }
+  for_states<N>(states, [&](auto i) __attribute__((always_inline)) {
+    result[i] = state[i];
+  });
+}
+
+// Intervals checked at once for needing a single step.
+inline constexpr std::size_t block_length = 8;
+
+// march with constant parameters.
+template <class T, class Chain>
+[[gnu::noinline, gnu::flatten]] void march_constant(const Chain& system, const Motion& motion,
+                                                    const T* __restrict parameters, std::size_t begin, std::size_t end,
+                                                    T* __restrict result, T* __restrict out) {
+  using Value = value_t<T>;
+  constexpr int N = fixed_states<Chain>();
+  const int states = system.states();
+  const Parameters<T, Chain> copy(parameters);
+  const T* p = copy.data();
+  StateArray<T, N> state;
+  const auto load = [&]() __attribute__((always_inline)) {
+    for_states<N>(states, [&](auto i) __attribute__((always_inline)) {
+      state[i] = result[i];
+    });
+  };
+  const auto store = [&]() __attribute__((always_inline)) {
+    for_states<N>(states, [&](auto i) __attribute__((always_inline)) {
+      result[i] = state[i];
+    });
+  };
+  load();
+  const std::size_t intervals = states == 0 ? 0 : motion.intervals.size();
+  for (std::size_t first = begin; first < end; first += block_length) {
+    const std::size_t last = std::min(first + block_length, end);
+    // The bound grows with speed and with length (every rounding is monotone), so where the largest of a block ask for
+    // one step, each interval of the block does.
+    bool single = true;
+    if (states > 0) {
+      double speed = 0.0;
+      double length = 0.0;
+      for (std::size_t n = first; n < std::min(last, intervals); ++n) {
+        speed = std::max(speed, motion.intervals[n].speed);
+        length = std::max(length, motion.intervals[n].length);
+      }
+      single = !any(system.stiffness(p, speed) * Value(length / motion.step_limit) > Value(1.0));
+    }
+    for (std::size_t n = first; n < last; ++n) {
+      const Input<T> start = input_of_sample<T>(motion, n);
+      out[n - begin] = system.force(p, state.data(), start);
+      if (n >= intervals) {
+        continue;
+      }
+      const MotionInterval& interval = motion.intervals[n];
+      if (single && !near_reversal(motion, n)) {
+        StateArray<T, N> next;
+        advance<N, T>(system, states, p, Value(interval.length), start,
+                      input_stored<T>(motion, n, 0.5, interval.middle), input_stored<T>(motion, n, 1.0, interval.end),
+                      state, next);
+        for_states<N>(states, [&](auto i) __attribute__((always_inline)) {
+          state[i] = next[i];
+        });
+        continue;
+      }
+      store();
+      march_segment<T>(system, motion, n, 0.0, interval.reversal_at, parameters, result);
+      if (interval.reversal) {
+        march_segment<T>(system, motion, n, interval.reversal_at, 1.0, parameters, result);
+      }
+      load();
+    }
+  }
+  store();
+}
+
+}  // namespace detail
+
+// Chain: states(), rate(p, s, in, rates), force(p, s, in) -> T, stiffness(p, speed) -> value_t<T>, which grows with
+// speed.
+template <class T, class Chain>
+void march(const Chain& system, const Motion& motion, const T* __restrict p, std::size_t stride, std::size_t begin,
+           std::size_t end, T* __restrict state, T* __restrict out) {
+  if (stride == 0) {
+    detail::march_constant<T>(system, motion, p, begin, end, state, out);
+    return;
+  }
+  for (std::size_t n = begin; n < end; ++n) {
+    detail::march_constant<T>(system, motion, p + (n - begin) * stride, n, n + 1, state, out + (n - begin));
+  }
+}
+
+}  // namespace hysteron

@@ -1,0 +1,106 @@
+// A part: a damper law or a physical effect. Both have the same shape, so that augmenting a model is putting a part
+// behind it. A part is a struct with
+//   id, title, reference, equations       text
+//   parameters                            its card
+//   states                                number of own state variables
+//   template <class T> force(p, s, in, below) -> T      force so far (0 for a law's incoming force) -> force
+//   template <class T> rate(p, s, in)      -> array<T, states>   time derivatives of its states (if states > 0)
+//   template <class T> stiffness(p, speed) -> T     bound of |d rate / d state| in 1/s at |velocity| <= speed (likewise)
+//   template <class T> drive(p, s, in)     -> Input<T>   what the parts below see (optional)
+// where p is std::array<T, parameter count> in the order of the card.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <string_view>
+
+#include "scalar/math.hpp"
+
+namespace hysteron {
+
+enum class Scale { linear, logarithmic };
+
+// How a bound grows with the device: bounds are stated for the reference device (1 kN, 25 mm, 0.3 m/s) and multiplied
+// by (peak force / 1 kN)^force (half stroke / 25 mm)^length (peak speed / 0.3 m/s)^velocity.
+struct Dimension {
+  double force = 0.0;
+  double length = 0.0;
+  double velocity = 0.0;
+};
+
+struct Parameter {
+  std::string_view name;
+  std::string_view symbol;
+  std::string_view unit;
+  std::string_view meaning;
+  double lower;
+  double upper;
+  double initial;
+  Scale scale = Scale::linear;
+  Dimension dimension = {};
+  bool linear = false;  // the force is affine in it
+  bool fixed = false;   // held at `initial` unless the user frees it
+};
+
+// What a part sees at an instant.
+template <class T>
+struct Input {
+  T x;      // displacement, m
+  T v;      // velocity, m/s
+  T drive;  // current or voltage, A or V
+  T time;   // s since the start of the recording
+};
+
+// Samples of a motion prepared for marching (simulate/motion.hpp).
+struct Motion;
+
+// Directions differentiated in one sweep.
+inline constexpr int sweep_directions = 4;
+using LaneDual = Dual<Lanes, sweep_directions>;
+
+// The operations of a part on one scalar type.
+template <class T>
+struct PartOperations {
+  using Value = value_t<T>;
+  void (*drive)(const T* p, const T* s, Input<T>& in) = nullptr;
+  void (*rate)(const T* p, const T* s, const Input<T>& in, T* rates) = nullptr;
+  void (*force)(const T* p, const T* s, const Input<T>& in, T& force) = nullptr;
+  Value (*stiffness)(const T* p, double speed) = nullptr;
+  // March of this part alone over samples [begin, end): writes force of sample n to out[n - begin], and leaves the
+  // state of sample `end` in `state`. Parameters of sample n stand at p + (n - begin) * stride; stride 0 is constant.
+  void (*march)(const Motion& motion, const T* p, std::size_t stride, std::size_t begin, std::size_t end, T* state,
+                T* out) = nullptr;
+};
+
+// A catalogue row of a law or an effect.
+struct Part {
+  std::string_view id;
+  std::string_view title;
+  std::string_view reference;
+  std::span<const std::string_view> equations;
+  std::span<const Parameter> parameters;
+  int states = 0;
+  PartOperations<double> on_double;
+  PartOperations<Lanes> on_lanes;
+  PartOperations<LaneDual> on_dual;
+
+  template <class T>
+  [[nodiscard]] const PartOperations<T>& on() const {
+    if constexpr (std::is_same_v<T, double>) {
+      return on_double;
+    } else if constexpr (std::is_same_v<T, Lanes>) {
+      return on_lanes;
+    } else {
+      return on_dual;
+    }
+  }
+};
+
+std::span<const Part* const> model_catalogue();
+std::span<const Part* const> effect_catalogue();
+// nullptr when there is none.
+const Part* find_model(std::string_view id);
+const Part* find_effect(std::string_view id);
+
+}  // namespace hysteron

@@ -1,0 +1,196 @@
+#include "io/campaign.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+
+#include "core/error.hpp"
+#include "io/csv.hpp"
+#include "io/file.hpp"
+#include "io/temporary_folder.hpp"
+
+namespace hysteron {
+namespace {
+
+using testing::message_of;
+using testing::TemporaryFolder;
+
+const std::string good = "time [s],displacement [mm],force [N]\n" + testing::ten_rows();
+const std::string schema = "schema = \"hysteron.campaign/1\"\n";
+
+std::vector<std::string> files_of(const Campaign& campaign) {
+  std::vector<std::string> files;
+  for (const auto& recording : campaign.recordings) files.push_back(recording.file);
+  return files;
+}
+
+TEST(Campaign, FolderIsReadInBytewiseOrder) {
+  const TemporaryFolder folder;
+  for (const auto* name : {"b.csv", "a10.csv", "a2.CSV", "B.csv", ".hidden.csv", "notes.txt", "sub/x.csv"}) {
+    folder.write(name, good);
+  }
+  const auto campaign = load_campaign({folder.path().string() + "/"});
+  EXPECT_EQ(files_of(campaign), (std::vector<std::string>{"B.csv", "a10.csv", "a2.CSV", "b.csv"}));
+  EXPECT_EQ(campaign.roles, std::vector<Role>(4, Role::unassigned));
+  EXPECT_TRUE(campaign.model.empty());
+  EXPECT_EQ(campaign.recordings[0].sha256, campaign.recordings[1].sha256);
+}
+
+TEST(Campaign, TomlNamesRecordingsRolesAndLaws) {
+  const TemporaryFolder folder;
+  folder.write("r1.csv", good);
+  folder.write("r2.csv", good);
+  folder.write("sub/r3.csv", good);
+  folder.write("campaign.toml", schema +
+                                    "model = \"bouc-wen\"\n[by_current]\nalpha = 1\nc0 = 2\n[by_frequency]\nk = 1\n"
+                                    "[[recording]]\nfile = \"sub/r3.csv\"\nrole = \"validate\"\n"
+                                    "[[recording]]\nfile = \"r1.csv\"\nrole = \"fit\"\n");
+  const auto campaign = load_campaign({folder.path().string()});
+  EXPECT_EQ(files_of(campaign), (std::vector<std::string>{"sub/r3.csv", "r1.csv"}));
+  EXPECT_EQ(campaign.roles, (std::vector<Role>{Role::validate, Role::fit}));
+  EXPECT_EQ(campaign.model, "bouc-wen");
+  EXPECT_EQ(campaign.by_current, (std::map<std::string, int>{{"alpha", 1}, {"c0", 2}}));
+  EXPECT_EQ(campaign.by_frequency, (std::map<std::string, int>{{"k", 1}}));
+}
+
+TEST(Campaign, EqualNamesAreToldApartByFolder) {
+  const TemporaryFolder folder;
+  const auto a = folder.write("one/a/r.csv", good).string();
+  const auto b = folder.write("one/b/r.csv", good).string();
+  const auto c = folder.write("two/b/r.csv", good).string();
+  const auto d = folder.write("d.csv", good).string();
+  EXPECT_EQ(files_of(load_campaign({a, b, d})), (std::vector<std::string>{"a/r.csv", "b/r.csv", "d.csv"}));
+  EXPECT_EQ(files_of(load_campaign({a, b, c})), (std::vector<std::string>{"a/r.csv", "one/b/r.csv", "two/b/r.csv"}));
+  EXPECT_EQ(files_of(load_campaign({(folder.path() / "one/a").string(), (folder.path() / "one/b").string()})),
+            (std::vector<std::string>{"a/r.csv", "b/r.csv"}));
+}
+
+TEST(Campaign, WrongTomlIsOneClearLine) {
+  struct Case {
+    const char* what;
+    std::string toml;
+    std::string message;  // after the path of campaign.toml
+  };
+  const std::string orders = " in [by_current] is not a whole number from 0 to 9, expected for example 1";
+  const Case cases[] = {
+      {"no schema", "model = \"x\"\n", ":1: no 'schema', expected schema = \"hysteron.campaign/1\""},
+      {"newer schema", "schema = \"hysteron.campaign/2\"\n",
+       ":1: unknown schema 'hysteron.campaign/2', expected 'hysteron.campaign/1'"},
+      {"schema type", "schema = 1\n", ":1: 'schema' is not text, expected a string in double quotes"},
+      {"unknown key", schema + "\nmodle = \"x\"\n",
+       ":3: unknown key 'modle', expected one of schema, model, by_current, by_frequency, recording"},
+      {"model type", schema + "model = 3\n", ":2: 'model' is not text, expected a string in double quotes"},
+      {"empty model", schema + "model = \"\"\n", ":2: 'model' is empty, expected the name of a model"},
+      {"laws type", schema + "by_current = 1\n",
+       ":2: 'by_current' is not a table, expected [by_current] with PARAMETER = ORDER"},
+      {"order type", schema + "[by_current]\nalpha = 1.5\n", ":3: the order of 'alpha'" + orders},
+      {"order range", schema + "[by_current]\nalpha = -1\n", ":3: the order of 'alpha'" + orders},
+      {"recording type", schema + "recording = \"r1.csv\"\n",
+       ":2: 'recording' is not an array of tables, expected [[recording]]"},
+      {"no file", schema + "[[recording]]\nrole = \"fit\"\n",
+       ":2: [[recording]] without 'file', expected file = \"NAME.csv\""},
+      {"unknown recording key", schema + "[[recording]]\nfile = \"r1.csv\"\nrol = \"fit\"\n",
+       ":4: unknown key 'rol' in [[recording]], expected one of file, role"},
+      {"unknown role", schema + "[[recording]]\nfile = \"r1.csv\"\nrole = \"test\"\n",
+       ":4: unknown role 'test', expected 'fit' or 'validate'"},
+      {"missing file", schema + "[[recording]]\nfile = \"r9.csv\"\n",
+       ":3: there is no recording 'r9.csv' in the folder, expected a CSV or MAT file"},
+      {"absolute file", schema + "[[recording]]\nfile = \"/r1.csv\"\n",
+       ":3: 'file' is '/r1.csv', expected a name relative to the folder"},
+      {"listed twice", schema + "[[recording]]\nfile = \"r1.csv\"\n[[recording]]\nfile = \"./r1.csv\"\n",
+       ":5: recording 'r1.csv' is listed twice, expected each once"},
+  };
+  for (const auto& c : cases) {
+    const TemporaryFolder folder;
+    folder.write("r1.csv", good);
+    const auto toml = folder.write("campaign.toml", c.toml);
+    EXPECT_EQ(message_of<InputError>([&] { (void)load_campaign({folder.path().string()}); }), toml.string() + c.message)
+        << c.what;
+  }
+  const TemporaryFolder folder;
+  const auto toml = folder.write("campaign.toml", schema + "model = \n");
+  const auto message = message_of<InputError>([&] { (void)load_campaign({folder.path().string()}); });
+  EXPECT_TRUE(message.starts_with(toml.string() + ":2: not valid TOML (")) << message;
+  EXPECT_EQ(message.find('\n'), std::string::npos);
+}
+
+TEST(Campaign, WrongArguments) {
+  const TemporaryFolder folder;
+  const auto path = folder.path().string();
+  const auto message = [](std::vector<std::string> data) {
+    return message_of<InputError>([&] { (void)load_campaign(data); });
+  };
+  EXPECT_EQ(message({}), "no recordings given, expected CSV or MAT files or folders of them");
+  EXPECT_EQ(message({path}), path + ": the folder holds no recordings, expected .csv or .mat files");
+  EXPECT_EQ(message({path + "/no.csv"}), path + "/no.csv: there is no such file, expected a readable file");
+  const auto pdf = folder.write("a.pdf", "x").string();
+  EXPECT_EQ(message({pdf}), pdf +
+                                ": unknown kind of file '.pdf', expected .csv, .txt, .tsv, .dat or .mat, or a folder "
+                                "of recordings");
+  const auto csv = folder.write("a.csv", good).string();
+  EXPECT_EQ(message({csv, path + "/./a.csv"}), path + "/./a.csv: the recording is given twice, expected each once");
+  EXPECT_EQ(message({path, csv}), csv + ": the recording is given twice, expected each once");
+  EXPECT_EQ(message_of<InputError>([&] { (void)read_file(path); }), path + ": is a folder, expected a file");
+}
+
+TEST(Campaign, ContradictingFoldersAreRefused) {
+  const TemporaryFolder folder;
+  folder.write("a/r.csv", good);
+  folder.write("b/r.csv", good);
+  folder.write("a/campaign.toml", schema + "model = \"lugre\"\n[by_current]\nc0 = 1\n");
+  const auto toml = folder.write("b/campaign.toml", schema + "model = \"bingham\"\n").string();
+  const std::vector<std::string> data = {(folder.path() / "a").string(), (folder.path() / "b").string()};
+  EXPECT_EQ(message_of<InputError>([&] { (void)load_campaign(data); }),
+            toml + ": model 'bingham' contradicts 'lugre' of another folder, expected the same");
+  folder.write("b/campaign.toml", schema + "[by_current]\nc0 = 2\n");
+  EXPECT_EQ(message_of<InputError>([&] { (void)load_campaign(data); }),
+            toml + ": order 2 of 'c0' in [by_current] contradicts order 1 of another folder, expected the same");
+}
+
+// The folder of public recordings, or an empty path.
+std::filesystem::path public_recordings() {
+  if (const char* folder = std::getenv("HYSTERON_RECORDINGS")) return folder;
+#ifdef HYSTERON_SOURCE_DIR
+  return std::filesystem::path(HYSTERON_SOURCE_DIR) / "../shared/recordings";
+#else
+  return {};
+#endif
+}
+
+TEST(Campaign, PublicRecordings) {
+  const auto root = public_recordings();
+  if (root.empty() || !std::filesystem::is_directory(root)) GTEST_SKIP() << "no public recordings here";
+  for (const auto& device : std::filesystem::directory_iterator(root)) {
+    if (!device.is_directory()) continue;
+    const auto campaign = load_campaign({device.path().string()});
+    EXPECT_FALSE(campaign.recordings.empty());
+    for (const auto& r : campaign.recordings) {
+      EXPECT_GE(r.size(), 100U) << r.file;
+      EXPECT_EQ(r.velocity.size(), r.size());
+      EXPECT_EQ(r.force.size(), r.size());
+      const auto [low, high] = std::minmax_element(r.displacement.begin(), r.displacement.end());
+      EXPECT_GT(*high - *low, 1e-4) << r.file;
+      EXPECT_LT(*high - *low, 0.5) << r.file;
+    }
+  }
+}
+
+// A guard against an accidental quadratic; the usual figure is a few milliseconds.
+TEST(Campaign, TwentyThousandRowsAreQuick) {
+  std::string text = "time [s],displacement [mm],force [N]\n";
+  for (int i = 0; i < 20000; ++i) {
+    text += std::to_string(i * 1e-3) + "," + std::to_string(std::sin(0.03 * i)) + "," +
+            std::to_string(100.0 * std::cos(0.03 * i)) + "\n";
+  }
+  const auto start = std::chrono::steady_clock::now();
+  EXPECT_EQ(parse_csv(text, "a.csv").size(), 20000U);
+  const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
+  RecordProperty("milliseconds", static_cast<int>(1e3 * taken.count()));
+  EXPECT_LT(taken.count(), 2.0);
+}
+
+}  // namespace
+}  // namespace hysteron

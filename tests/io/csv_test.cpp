@@ -1,0 +1,209 @@
+#include "io/csv.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/error.hpp"
+#include "io/temporary_folder.hpp"
+
+namespace hysteron {
+namespace {
+
+using testing::message_of;
+using testing::ten_rows;
+
+const std::string header = "time [s],displacement [mm],force [N]\n";
+
+ReadOptions mapped(std::map<std::string, std::string> columns) { return {std::move(columns), true}; }
+
+TEST(Csv, ReadsNamesAndUnits) {
+  const auto r = parse_csv("# a comment\n\nTime (ms), DISP [in] ,Load [kip]\n" + ten_rows(), "a.csv");
+  ASSERT_EQ(r.size(), 10U);
+  EXPECT_DOUBLE_EQ(r.time[1], 1e-4);
+  EXPECT_DOUBLE_EQ(r.displacement[3], 9 * 0.0254);
+  EXPECT_DOUBLE_EQ(r.force[2], 20 * 4448.2216152605);
+  EXPECT_FALSE(r.velocity_measured);
+  EXPECT_EQ(r.velocity.size(), 10U);
+  EXPECT_EQ(r.drive_kind, DriveKind::none);
+  EXPECT_TRUE(r.drive.empty());
+}
+
+TEST(Csv, WithoutUnitsIsSiUnlessAUnitRowFollows) {
+  EXPECT_DOUBLE_EQ(parse_csv("t,x,F\n" + ten_rows(), "a.csv").displacement[3], 9.0);
+  const auto r = parse_csv("t,x,F\n[s],[mm],(kN)\n" + ten_rows(), "a.csv");
+  EXPECT_DOUBLE_EQ(r.displacement[3], 9e-3);
+  EXPECT_DOUBLE_EQ(r.force[3], 30e3);
+  EXPECT_DOUBLE_EQ(parse_csv("t,x,F\ns,mm,N\n" + ten_rows(), "a.csv").displacement[3], 9e-3);
+}
+
+TEST(Csv, ByteOrderMarkWindowsLineEndsSemicolonAndDecimalComma) {
+  std::string text = "\xEF\xBB\xBFtime [s];displacement [mm];force [kN]\r\n";
+  for (int i = 0; i < 10; ++i) text += "0," + std::to_string(i) + ";-1,5e1;+" + std::to_string(i) + ",25\r\n";
+  const auto r = parse_csv(text, "a.csv");
+  EXPECT_DOUBLE_EQ(r.time[9], 0.9);
+  EXPECT_DOUBLE_EQ(r.displacement[0], -0.015);
+  EXPECT_DOUBLE_EQ(r.force[3], 3250.0);
+}
+
+TEST(Csv, TabsQuotesAndDelimiterAtTheEndOfRows) {
+  EXPECT_DOUBLE_EQ(parse_csv("t\tx\tF\n" + ten_rows('\t'), "a.csv").force[9], 90.0);
+  std::string text = "\"time [s]\",\"stroke [mm]\",\"force [N]\",\n";
+  for (int i = 0; i < 10; ++i) text += "\"" + std::to_string(i) + "\", 1 ,\"2,5\",\n";
+  EXPECT_DOUBLE_EQ(parse_csv(text, "a.csv").force[9], 2.5);
+}
+
+TEST(Csv, LastRowNeedsNoLineEndAndLoneCarriageReturnsAreLineEnds) {
+  std::string text = header + ten_rows();
+  text.pop_back();
+  EXPECT_EQ(parse_csv(text, "a.csv").size(), 10U);
+  for (char& c : text) c = c == '\n' ? '\r' : c;
+  EXPECT_EQ(parse_csv(text, "a.csv").size(), 10U);
+}
+
+TEST(Csv, CurrentGoesBeforeVoltageAndOtherColumnsMayHoldText) {
+  std::string text = "t,x,F,u [mV],i [mA],note,temp [K],v [mm/s],acc [g]\n";
+  for (int i = 0; i < 10; ++i) text += std::to_string(i) + ",1,2,3000,500,hello,293.15,7,1\n";
+  const auto r = parse_csv(text, "a.csv");
+  EXPECT_EQ(r.drive_kind, DriveKind::current);
+  EXPECT_DOUBLE_EQ(r.drive[0], 0.5);
+  EXPECT_NEAR(r.temperature[0], 20.0, 1e-12);
+  EXPECT_TRUE(r.velocity_measured);
+  EXPECT_DOUBLE_EQ(r.velocity[0], 7e-3);
+  EXPECT_DOUBLE_EQ(r.acceleration[0], 9.80665);
+}
+
+TEST(Csv, UnitTellsVoltageFromVelocity) {
+  std::string text = "t,x,F,v [V]\n";
+  for (int i = 0; i < 10; ++i) text += std::to_string(i) + ",1,2,3\n";
+  const auto r = parse_csv(text, "a.csv");
+  EXPECT_EQ(r.drive_kind, DriveKind::voltage);
+  EXPECT_FALSE(r.velocity_measured);
+}
+
+TEST(Csv, MappedColumns) {
+  const std::string text = "t,CH1 [lbf],CH2 (raw)\n" + ten_rows();
+  const auto r = parse_csv(text, "a.csv", mapped({{"force", "CH1 [kgf]"}, {"disp", "ch2 (raw) [mm]"}}));
+  EXPECT_DOUBLE_EQ(r.force[3], 9 * 9.80665);
+  EXPECT_DOUBLE_EQ(r.displacement[3], 0.03);
+  // Without a unit in the mapping the header's holds; a mapping wins over a synonym.
+  const auto s =
+      parse_csv("t,x,F [N],F2 [kN]\n0,1,2,3\n1,1,2,3\n2,1,2,3\n3,1,2,3\n4,1,2,3\n5,1,2,3\n6,1,2,3\n7,1,2,3\n", "a.csv",
+                mapped({{"force", "F2"}}));
+  EXPECT_DOUBLE_EQ(s.force[0], 3000.0);
+}
+
+TEST(Csv, ForceMayBeLeftOutForSimulation) {
+  std::string text = "t,x\n";
+  for (int i = 0; i < 10; ++i) text += std::to_string(i) + ",1\n";
+  EXPECT_TRUE(parse_csv(text, "a.csv", {{}, false}).force.empty());
+}
+
+struct WrongCsv {
+  const char* what;
+  std::string text;
+  std::string message;  // after "a.csv"
+  ReadOptions options = {};
+};
+
+TEST(Csv, WrongInputsAreOneClearLine) {
+  const std::string present = "the columns are ";
+  const std::string ten = ten_rows();
+  const std::string good = header + ten;
+  const std::string unit_list = ", expected one of N, kN, MN, daN, mN, lbf, lb, kip, kgf";
+  const std::string number_end = ", expected a finite number";
+  const WrongCsv cases[] = {
+      {"empty", "", ": the file is empty, expected a header row and at least 8 rows of numbers"},
+      {"bom only", "\xEF\xBB\xBF", ": the file is empty, expected a header row and at least 8 rows of numbers"},
+      {"blank", "\n# x\n \n",
+       ": the file holds only blank lines and comments, expected a header row and at least 8 rows of numbers"},
+      {"binary", header + std::string("0,1\0,2\n", 7), ":2: a NUL byte, the file is not text, expected UTF-8 CSV"},
+      {"utf-16", "\xFF\xFEt", ": the file is UTF-16 text, expected UTF-8"},
+      {"no header", ten,
+       ":1: the first row holds only numbers, expected names and units such as 'time [s],displacement [mm],force [N]'"},
+      {"header only", header, ": 0 rows of numbers, expected at least 8"},
+      {"one row", header + "0,1,2\n", ": 1 row of numbers, expected at least 8"},
+      {"seven rows", header + "0,1,2\n1,1,2\n2,1,2\n3,1,2\n4,1,2\n5,1,2\n6,1,2\n",
+       ": 7 rows of numbers, expected at least 8"},
+      {"text", good + "1,abc,2\n", ":12: displacement 'abc' is not a number" + number_end},
+      {"half a number", good + "1,2,3x\n", ":12: force '3x' is not a number" + number_end},
+      {"two signs", good + "1,2,+-3\n", ":12: force '+-3' is not a number" + number_end},
+      {"thousands", "t;x;F\n0;1;1.000,5\n", ":2: force '1.000,5' is not a number" + number_end},
+      {"empty field", good + "1,,2\n", ":12: displacement is empty" + number_end},
+      {"nan", good + "1,2,NaN\n", ":12: force is 'NaN'" + number_end},
+      {"inf", good + "1,2,-inf\n", ":12: force is '-inf'" + number_end},
+      {"too large", good + "1,2,1e999\n", ":12: force '1e999' is too large" + number_end},
+      {"control bytes", good + "1,2,\x01\x1B[2J\n", ":12: force '??[2J' is not a number" + number_end},
+      {"ragged short", good + "1,2\n2,3,4\n", ":12: 2 fields, expected 3 as in the header"},
+      {"ragged long", good + "1,2,3,4\n", ":12: 4 fields, expected 3 as in the header"},
+      {"decimal commas with commas", header + "0,0,1,5,2,5\n", ":2: 6 fields, expected 3 as in the header"},
+      {"one field", good + "1\n", ":12: 1 field, expected 3 as in the header"},
+      {"cut off", good + "1,2",
+       ":12: the last row has 2 of 3 fields and no line end, the file is cut off, expected a complete row"},
+      {"cut off at a comma", good + "1,2,",
+       ":12: the last row has 2 of 3 fields and no line end, the file is cut off, expected a complete row"},
+      {"comments are counted", header + "# c\n\n" + ten + "1,x,2\n",
+       ":14: displacement 'x' is not a number" + number_end},
+      {"time repeats", good + "0.9,1,2\n",
+       ":12: time 0.9 s does not increase after 0.9 s, expected strictly increasing times"},
+      {"time goes back", good + "0.25,1,2\n",
+       ":12: time 0.25 s does not increase after 0.9 s, expected strictly increasing times"},
+      {"no time", "x,F\n1,2\n",
+       ":1: no time column, expected one named time, t, or --column time=NAME; " + present + "'x', 'F'"},
+      {"no displacement", "t,F\n1,2\n",
+       ":1: no displacement column, expected one named displacement, disp, x, position, stroke, or --column "
+       "displacement=NAME; " +
+           present + "'t', 'F'"},
+      {"no force", "t [s],x [mm]\n1,2\n",
+       ":1: no force column, expected one named force, f, load, or --column force=NAME; " + present +
+           "'t [s]', 'x [mm]'"},
+      {"one column", "hello world\n1 2\n",
+       ":1: no time column, expected one named time, t, or --column time=NAME; " + present + "'hello world'"},
+      {"duplicate", "t,x,F [N],load [kN]\n1,2,3,4\n",
+       ":1: two columns for force ('F [N]' and 'load [kN]'), expected one, or --column force=NAME to choose"},
+      {"same name twice", "t,x,x,F\n1,2,3,4\n",
+       ":1: two columns for displacement ('x' and 'x'), expected one, or --column displacement=NAME to choose"},
+      {"unknown unit", "t,x,F [stone]\n1,2,3\n", ":1: unknown unit 'stone' of force" + unit_list},
+      {"unit of another quantity", "t,x,F [mm]\n1,2,3\n", ":1: unknown unit 'mm' of force" + unit_list},
+      {"empty unit row", "t,x,F\ns,mm,stone\n1,2,3\n", ":2: unknown unit 'stone' of force" + unit_list},
+      {"text instead of units", "t,x,F\nfoo,bar,baz\n1,2,3\n", ":2: time 'foo' is not a number" + number_end},
+      {"mapped column missing", good,
+       ":1: no column 'CH9' for force, expected one of 'time [s]', 'displacement [mm]', 'force [N]'",
+       mapped({{"force", "CH9 [kN]"}})},
+      {"mapped unit unknown", good, ":1: unknown unit 'x' of force" + unit_list, mapped({{"force", "force [x]"}})},
+      {"mapped name twice", "t,x,F,c [N],c [kN]\n1,2,3,4,5\n",
+       ":1: 2 columns are named 'c' for force, expected one; " + present + "'t', 'x', 'F', 'c [N]', 'c [kN]'",
+       mapped({{"force", "c"}})},
+      {"channel mapped twice", good, ":1: two mappings for force, expected one",
+       mapped({{"f", "force"}, {"force", "force"}})},
+      {"column mapped twice", good,
+       ":1: column 'force [N]' is mapped to both displacement and force, expected one channel per column",
+       mapped({{"displacement", "force [mm]"}, {"force", "force [N]"}})},
+  };
+  for (const auto& c : cases) {
+    EXPECT_EQ(message_of<InputError>([&] { (void)parse_csv(c.text, "a.csv", c.options); }), "a.csv" + c.message)
+        << c.what;
+  }
+  EXPECT_EQ(
+      message_of<InputError>([&] {
+        (void)parse_csv(good, "a.csv", mapped({{"torque", "CH1"}}));
+      }),
+      "--column torque=CH1: unknown channel 'torque', expected one of time, displacement, velocity, acceleration, "
+      "force, current, voltage, temperature");
+}
+
+// No prefix of a good file and no single damaged byte may do anything but succeed or throw InputError.
+TEST(Csv, DamagedFilesNeverCrash) {
+  const std::string good = "# c\n\"time [s]\";x [mm];F [kN]\r\n" + ten_rows(';');
+  for (std::size_t i = 0; i < good.size(); ++i) {
+    (void)message_of<InputError>([&] { (void)parse_csv(good.substr(0, i), "a.csv"); });
+    for (const char byte : {'\0', '"', ';', ',', '\n', '\r', '[', ']', '\xFF', '-', 'e'}) {
+      std::string damaged = good;
+      damaged[i] = byte;
+      (void)message_of<InputError>([&] { (void)parse_csv(damaged, "a.csv"); });
+    }
+  }
+}
+
+}  // namespace
+}  // namespace hysteron

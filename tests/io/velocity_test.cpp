@@ -1,0 +1,127 @@
+#include "io/velocity.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <complex>
+#include <numbers>
+#include <vector>
+
+namespace hysteron {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+// Gain and phase (degrees) of the velocity against the true A w cos(w t), by projection over whole periods, and the
+// largest error relative to the peak velocity.
+struct Quality {
+  double gain;
+  double phase;
+  double worst;
+};
+
+Quality quality(const std::vector<double>& t, double amplitude, double hertz, double quantum) {
+  const double w = 2.0 * pi * hertz;
+  std::vector<double> x;
+  for (const double at : t) {
+    const double exact = amplitude * std::sin(w * at);
+    x.push_back(quantum > 0.0 ? quantum * std::round(exact / quantum) : exact);
+  }
+  const auto v = derive_velocity(t, x);
+  // Least squares on cos and sin, for any spacing.
+  double cc = 0, cs = 0, ss = 0, vc = 0, vs = 0, worst = 0;
+  for (std::size_t i = 0; i < t.size(); ++i) {
+    const double c = std::cos(w * t[i]);
+    const double s = std::sin(w * t[i]);
+    cc += c * c, cs += c * s, ss += s * s, vc += v[i] * c, vs += v[i] * s;
+    worst = std::max(worst, std::abs(v[i] - amplitude * w * c));
+  }
+  const double det = cc * ss - cs * cs;
+  const double a = (vc * ss - vs * cs) / det;
+  const double b = (vs * cc - vc * cs) / det;
+  return {std::hypot(a, b) / (amplitude * w), std::atan2(-b, a) * 180.0 / pi, worst / (amplitude * w)};
+}
+
+std::vector<double> uniform(double rate, double duration) {
+  std::vector<double> t;
+  for (int i = 0; i < static_cast<int>(rate * duration); ++i) t.push_back(i / rate);
+  return t;
+}
+
+TEST(Velocity, QuantisedSinesHaveNoPhaseError) {
+  struct Case {
+    double rate, hertz, amplitude;
+  };
+  for (const auto& c : {Case{1000, 5, 2e-3}, Case{1000, 0.5, 25e-3}, Case{200, 5, 2e-3}, Case{1000, 20, 1e-3},
+                        Case{100, 1, 10e-3}, Case{1000, 1, 2e-3}}) {
+    const auto q = quality(uniform(c.rate, 10.0 / c.hertz), c.amplitude, c.hertz, 3e-6);
+    EXPECT_LT(std::abs(q.phase), 0.1) << c.rate << " " << c.hertz;
+    EXPECT_NEAR(q.gain, 1.0, 0.01) << c.rate << " " << c.hertz;
+    EXPECT_LT(q.worst, 0.03) << c.rate << " " << c.hertz;
+    RecordProperty("worst", std::to_string(q.worst));
+  }
+}
+
+TEST(Velocity, NonUniformTime) {
+  std::vector<double> t;
+  double at = 0.0;
+  for (int i = 0; i < 4000; ++i) {
+    t.push_back(at);
+    at += 1e-3 * (1.0 + 0.6 * std::sin(12.9898 * i));
+  }
+  const auto quantised = quality(t, 2e-3, 5.0, 3e-6);
+  EXPECT_LT(std::abs(quantised.phase), 0.1);
+  EXPECT_NEAR(quantised.gain, 1.0, 0.01);
+  EXPECT_LT(quantised.worst, 0.03);
+  const auto exact = quality(t, 2e-3, 5.0, 0.0);
+  EXPECT_LT(exact.worst, 1e-4);
+}
+
+TEST(Velocity, ExactForCubicsUpToTheEnds) {
+  std::vector<double> t;
+  std::vector<double> x;
+  for (int i = 0; i < 50; ++i) {
+    t.push_back(0.1 * i + 0.02 * (i % 3));
+    x.push_back(1.0 + t.back() * (2.0 + t.back() * (0.5 - 0.3 * t.back())));
+  }
+  const auto v = derive_velocity(t, x);
+  for (std::size_t i = 0; i < t.size(); ++i) EXPECT_NEAR(v[i], 2.0 + t[i] - 0.9 * t[i] * t[i], 1e-9) << i;
+}
+
+TEST(Velocity, RestIsZeroAndGapsAreBridged) {
+  const auto t = uniform(1000, 0.1);
+  for (const double v : derive_velocity(t, std::vector<double>(t.size(), 0.3))) EXPECT_EQ(v, 0.0);
+  // A gap of five seconds and a half period: what is beyond it must not bend the fit.
+  std::vector<double> gappy;
+  for (int i = 0; i < 2000; ++i) gappy.push_back(1e-3 * i + (i > 1000 ? 5.05 : 0.0));
+  const auto q = quality(gappy, 2e-3, 5.0, 3e-6);
+  EXPECT_NEAR(q.gain, 1.0, 0.01);
+  EXPECT_LT(q.worst, 0.03);
+}
+
+TEST(Velocity, ConstantSpeedIsNotTakenForAQuantum) {
+  const auto t = uniform(1000, 2.0);
+  std::vector<double> x;
+  for (std::size_t i = 0; i < t.size(); ++i) {
+    const auto phase = static_cast<double>(i % 500);
+    x.push_back(4e-5 * (phase < 250.0 ? phase : 500.0 - phase));
+  }
+  const auto v = derive_velocity(t, x);
+  for (std::size_t i = 0; i < t.size(); ++i) {
+    if (i % 250 < 3 || i % 250 > 247) continue;
+    EXPECT_NEAR(std::abs(v[i]), 0.04, 1e-9) << i;
+  }
+}
+
+TEST(Velocity, FewSamples) {
+  EXPECT_TRUE(derive_velocity({}, {}).empty());
+  for (std::size_t n = 1; n < 12; ++n) {
+    std::vector<double> t(n);
+    for (std::size_t i = 0; i < n; ++i) t[i] = static_cast<double>(i);
+    const auto v = derive_velocity(t, t);
+    for (const double value : v) EXPECT_NEAR(value, n > 1 ? 1.0 : 0.0, 1e-9);
+  }
+}
+
+}  // namespace
+}  // namespace hysteron

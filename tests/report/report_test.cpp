@@ -1,0 +1,167 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <string>
+
+#include "report/html.hpp"
+#include "report/markdown.hpp"
+#include "report/terminal.hpp"
+
+namespace hysteron {
+namespace {
+
+using nlohmann::json;
+
+json small_report() {
+  return {{"title", "Model <of> \"r1\" & r2"},
+          {"version", "0.1.0"},
+          {"recordings",
+           {{{"file", "r1.csv"},
+             {"role", "fit"},
+             {"nrmse", 0.031},
+             {"time", {0.123456789012, 1.0}},
+             {"force_n", {123.45678912, std::numeric_limits<double>::quiet_NaN()}},
+             {"predicted_n", {120.0, 121.0}}}}}};
+}
+
+// The page's own parts: everything but the embedded data.
+std::string without_data(const std::string& html) {
+  const std::string open = R"(<script type="application/json" id="report-data">)";
+  const auto from = html.find(open);
+  const auto to = html.find("</script>", from);
+  EXPECT_NE(from, std::string::npos);
+  return html.substr(0, from + open.size()) + html.substr(to);
+}
+
+std::string data_of(const std::string& html) {
+  const std::string open = R"(<script type="application/json" id="report-data">)";
+  const auto from = html.find(open) + open.size();
+  return html.substr(from, html.find("</script>", from) - from);
+}
+
+std::size_t occurrences(const std::string& text, const std::string& what) {
+  std::size_t count = 0;
+  for (auto at = text.find(what); at != std::string::npos; at = text.find(what, at + what.size())) ++count;
+  return count;
+}
+
+TEST(Html, LoadsNothing) {
+  const std::string page = without_data(fit_report_html(small_report()));
+  EXPECT_EQ(page.find("http://"), std::string::npos);
+  EXPECT_EQ(page.find("https://"), std::string::npos);
+  EXPECT_EQ(page.find("@import"), std::string::npos);
+  EXPECT_EQ(page.find("fetch("), std::string::npos);
+  EXPECT_EQ(page.find("XMLHttpRequest"), std::string::npos);
+  EXPECT_EQ(page.find("url("), std::string::npos);
+  EXPECT_EQ(page.find(" src="), std::string::npos);
+  const std::regex link("<link[^>]*href=\"([^\"]*)\"");
+  for (std::sregex_iterator it(page.begin(), page.end(), link); it != std::sregex_iterator{}; ++it) {
+    EXPECT_EQ((*it)[1].str(), "data:,");
+  }
+  EXPECT_NE(page.find("Content-Security-Policy\" content=\"default-src 'none'"), std::string::npos);
+}
+
+TEST(Html, IsComplete) {
+  const std::string page = fit_report_html(small_report());
+  EXPECT_TRUE(page.starts_with("<!doctype html>"));
+  EXPECT_NE(page.find("uPlot=function"), std::string::npos);
+  EXPECT_NE(page.find("Permission is hereby granted"), std::string::npos);
+  EXPECT_NE(page.find(".u-over"), std::string::npos);
+  for (const char* name : {"{{title}}", "{{uplot_css}}", "{{report_css}}", "{{uplot_license}}", "{{uplot_js}}",
+                           "{{report_js}}", "{{data}}"}) {
+    EXPECT_EQ(page.find(name), std::string::npos) << name;
+  }
+  EXPECT_NE(page.find("<title>Model &lt;of&gt; &quot;r1&quot; &amp; r2</title>"), std::string::npos);
+}
+
+TEST(Html, DataCannotLeaveItsElement) {
+  json report = small_report();
+  const std::string plain = fit_report_html(report);
+  const std::string hostile = "</script><script>alert(1)</script><!--<script> {{data}} {{report_js}}";
+  report["notes"] = {hostile};
+  report["recordings"][0]["file"] = hostile;
+  const std::string page = fit_report_html(report);
+  for (const char* tag : {"</script", "<script", "<!--"}) {
+    EXPECT_EQ(occurrences(page, tag), occurrences(plain, tag)) << tag;
+  }
+  EXPECT_EQ(data_of(page).find('<'), std::string::npos);
+  EXPECT_EQ(json::parse(data_of(page))["notes"][0], hostile);
+}
+
+TEST(Html, DataSurvives) {
+  const json data = json::parse(data_of(fit_report_html(small_report())));
+  EXPECT_EQ(data["title"], "Model <of> \"r1\" & r2");
+  const json& recording = data["recordings"][0];
+  EXPECT_EQ(recording["nrmse"], 0.031);
+  EXPECT_EQ(recording["time"][0], 0.123456789);
+  EXPECT_EQ(recording["force_n"][0], 123.457);
+  EXPECT_TRUE(recording["force_n"][1].is_null());
+}
+
+TEST(Html, BytesThatAreNotUtf8DoNotFail) {
+  json report = small_report();
+  report["recordings"][0]["file"] = "gr\xFC\xDF.csv";
+  EXPECT_NO_THROW(fit_report_html(report));
+}
+
+TEST(Html, EmptyReportIsAPage) {
+  EXPECT_NE(fit_report_html(json::object()).find("<title>Hysteron report</title>"), std::string::npos);
+}
+
+TEST(FormatNumber, KeepsSignificantDigits) {
+  EXPECT_EQ(format_number(0.03124, 3), "0.0312");
+  EXPECT_EQ(format_number(0.03, 3), "0.0300");
+  EXPECT_EQ(format_number(0.09999, 2), "0.10");
+  EXPECT_EQ(format_number(-12.345, 3), "-12.3");
+  EXPECT_EQ(format_number(123456.0, 3), "123456");
+  EXPECT_EQ(format_number(1234567.0, 3), "1.23e6");
+  EXPECT_EQ(format_number(9.9999e-5, 3), "0.000100");
+  EXPECT_EQ(format_number(1.5e-7, 2), "1.5e-7");
+  EXPECT_EQ(format_number(0.0, 3), "0");
+  EXPECT_EQ(format_number(-0.0, 3), "0");
+  EXPECT_EQ(format_number(std::nan(""), 3), "nan");
+  EXPECT_EQ(format_number(-std::numeric_limits<double>::infinity(), 3), "-inf");
+}
+
+TEST(Terminal, Width) {
+  EXPECT_EQ(display_width("abc"), 3U);
+  EXPECT_EQ(display_width("α z²"), 4U);
+  EXPECT_EQ(display_width("n\xCC\x88"), 1U);
+  EXPECT_EQ(display_width("阻尼"), 4U);
+  EXPECT_EQ(display_width("\xFF\xFE"), 2U);
+  EXPECT_EQ(display_width("\xE2\x82"), 2U);
+}
+
+TEST(Terminal, Numbers) {
+  for (const char* text : {"12", "-0.5", "−0.5", "1.2e-3", "97.1 %", "12 000", "< 0.001", "inf", ".5", "5."})
+    EXPECT_TRUE(looks_numeric(text)) << text;
+  for (const char* text : {"", "-", "a", "1.2 N", "pso", "1e", "12 a", "0.5 A", "1.2.3"})
+    EXPECT_FALSE(looks_numeric(text)) << text;
+}
+
+TEST(Terminal, Table) {
+  EXPECT_EQ(table({"solver", "NRMSE", "β", "note"},
+                  {{"pso", "0.0312", "12.5", "ok"}, {"cma-es", "-", "−3.25", ""}, {"lm", "0.1"}}),
+            "solver   NRMSE      β  note\n"
+            "------  ------  -----  ----\n"
+            "pso     0.0312   12.5  ok\n"
+            "cma-es       -  −3.25\n"
+            "lm         0.1\n");
+  EXPECT_EQ(table({}, {}), "");
+  EXPECT_EQ(table({"a"}, {}), "a\n-\n");
+  EXPECT_EQ(table({"a"}, {{"x\ny"}}), "a\n---\nx y\n");
+}
+
+TEST(Markdown, Table) {
+  EXPECT_EQ(markdown_table({"solver", "NRMSE"}, {{"p|so", "0.0312"}, {"two\nlines", "0.1"}}),
+            "| solver       |  NRMSE |\n"
+            "| ------------ | -----: |\n"
+            "| p\\|so        | 0.0312 |\n"
+            "| two<br>lines |    0.1 |\n");
+}
+
+}  // namespace
+}  // namespace hysteron

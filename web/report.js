@@ -1,0 +1,865 @@
+// Draws the report from its embedded data. Every number shown was computed by hysteron; this script only sets
+// numbers and curves on the page. Text from the data reaches the page as text nodes or through esc(), never as HTML.
+(function () {
+"use strict";
+
+const root = document.documentElement;
+const report = JSON.parse(document.getElementById("report-data").textContent);
+const list = (value) => (Array.isArray(value) ? value : []);
+const recordings = list(report.recordings);
+const solvers = list(report.solvers);
+const parameters = list(report.parameters);
+
+// ---------------------------------------------------------------------------------------------- numbers and elements
+
+const isNumber = (v) => typeof v === "number" && Number.isFinite(v);
+
+function superscript(n) {
+  return String(n).replace(/[-\d]/g, (c) => (c === "-" ? "⁻" : "⁰¹²³⁴⁵⁶⁷⁸⁹"[Number(c)]));
+}
+
+function fmt(v, digits = 4) {
+  if (!isNumber(v)) return "–";
+  if (v === 0) return "0";
+  const [mantissa, exponent] = v.toExponential(digits - 1).split("e");
+  const e = Number(exponent);
+  const text = e >= -4 && e < 6 ? v.toFixed(Math.max(0, digits - 1 - e)) : `${mantissa} × 10${superscript(e)}`;
+  return text.replace("-", "−");
+}
+
+// A number somebody chose, such as a bound: no trailing zeros.
+function brief(v) {
+  if (!isNumber(v)) return "–";
+  const e = v === 0 ? 0 : Math.floor(Math.log10(Math.abs(v)) + 1e-12);
+  if (e >= -4 && e < 6) return String(Number(v.toPrecision(6))).replace("-", "−");
+  const mantissa = String(Number((v / 10 ** e).toPrecision(4)));
+  return ((mantissa === "1" ? "" : mantissa === "-1" ? "-" : `${mantissa} × `) + `10${superscript(e)}`).replace("-", "−");
+}
+
+// Counts with narrow spaces between thousands.
+const count = (v) => (isNumber(v) ? String(v).replace(/\B(?=(\d{3})+(?!\d))/g, "\u202f") : "–");
+const plural = (n, one) => `${n} ${one}${n === 1 ? "" : "s"}`;
+const esc = (text) => String(text).replace(/[&<>"']/g, (c) => `&#${c.charCodeAt(0)};`);
+
+function el(tag, attributes, ...children) {
+  const node = document.createElement(tag);
+  for (const [name, value] of Object.entries(attributes || {})) {
+    if (value === null || value === undefined || value === false) continue;
+    if (name.startsWith("on")) node.addEventListener(name.slice(2), value);
+    else node.setAttribute(name, value === true ? "" : value);
+  }
+  for (const child of children.flat()) {
+    if (child !== null && child !== undefined && child !== "") node.append(child);
+  }
+  return node;
+}
+
+// Our own chart markup; the texts in it have gone through esc().
+function svgNode(markup) {
+  const holder = document.createElement("div");
+  holder.innerHTML = markup;
+  return holder.firstElementChild;
+}
+
+function section(id, title, ...children) {
+  return el("section", { id, "aria-labelledby": `${id}-title` }, el("h2", { id: `${id}-title` }, title), ...children);
+}
+
+// columns: {title, num, head (cell is the row's header)}; cells are text or nodes.
+function plainTable(caption, columns, rows) {
+  return el("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": caption },
+    el("table", {}, el("caption", {}, el("span", {}, caption)),
+      el("thead", {}, el("tr", {}, columns.map((c) => el("th", { scope: "col", class: c.num ? "num" : null }, c.title)))),
+      el("tbody", {}, rows.map((cells) => el("tr", {}, cells.map((cell, i) =>
+        el(columns[i].head ? "th" : "td", {
+          scope: columns[i].head ? "row" : null,
+          class: columns[i].num ? "num" : columns[i].nowrap ? "nowrap" : columns[i].text ? "text" : null,
+        }, cell)))))));
+}
+
+// File names may break after their separators only.
+const breakable = (name) => String(name).split(/(?<=[_\-/ ])/).flatMap((part, i) => (i ? [document.createElement("wbr"), part] : [part]));
+
+const badge = (text, kind) => el("span", { class: `badge ${kind || ""}` }, text);
+
+// -------------------------------------------------------------------------------------------------------- static charts
+
+function extent(arrays) {
+  let lo = Infinity;
+  let hi = -Infinity;
+  for (const array of arrays) {
+    for (const v of array || []) {
+      if (!isNumber(v)) continue;
+      if (v < lo) lo = v;
+      if (v > hi) hi = v;
+    }
+  }
+  return lo <= hi ? [lo, hi] : [0, 1];
+}
+
+function padded([lo, hi], share = 0.05) {
+  const gap = hi > lo ? (hi - lo) * share : Math.abs(lo) * 0.1 || 1;
+  return [lo - gap, hi + gap];
+}
+
+// Decimals that show a step exactly: 0 for 5, 1 for 2.5, 2 for 0.01.
+function decimalsOf(step) {
+  let decimals = 0;
+  while (decimals < 10 && Math.abs(step * 10 ** decimals - Math.round(step * 10 ** decimals)) > 1e-6 * step * 10 ** decimals) ++decimals;
+  return decimals;
+}
+
+function linearTicks(lo, hi, wanted) {
+  const raw = (hi - lo) / Math.max(1, wanted);
+  const power = 10 ** Math.floor(Math.log10(raw));
+  const steps = [1, 2, 5, 10].map((s) => s * power);
+  const ticksOf = (s) => Math.floor(hi / s + 1e-9) - Math.ceil(lo / s - 1e-9) + 1;
+  let k = steps.findIndex((s) => s >= raw * 0.999);
+  while (k > 0 && ticksOf(steps[k]) < 2) --k;  // one tick alone gives no scale
+  const step = steps[k];
+  const decimals = decimalsOf(step);
+  const ticks = [];
+  for (let i = Math.ceil(lo / step - 1e-9); i * step <= hi + step * 1e-9; ++i) {
+    const value = i * step;
+    const text = Math.abs(value) >= 1e6 || (step < 1e-4 && value !== 0) ? fmt(value, 2) : value.toFixed(decimals);
+    ticks.push([value, text.replace(/^-/, "−")]);
+  }
+  return ticks;
+}
+
+function logTicks(lo, hi) {
+  const decades = Math.log10(hi / lo);
+  const factors = decades < 1.2 ? [1, 2, 3, 5, 7] : decades < 3 ? [1, 2, 5] : [1];
+  const ticks = [];
+  for (let e = Math.floor(Math.log10(lo)) - 1; e <= Math.log10(hi); ++e) {
+    for (const f of factors) {
+      const value = f * 10 ** e;
+      if (value < lo * 0.9999 || value > hi * 1.0001) continue;
+      const plain = e >= -3 && e < 6;
+      ticks.push([value, plain ? String(Number(value.toPrecision(2))) : (f === 1 ? "" : `${f}·`) + `10${superscript(e)}`]);
+    }
+  }
+  return ticks;
+}
+
+// options: width, height, small, title (for screen readers), x and y {label, range, log}, margin [top, right, bottom,
+// left], series [{x, y, cls, color, step, limit, label}], window [from, to] of sample indices
+function chart(options) {
+  const { width, height, x, y, margin: [top, right, bottom, left] } = options;
+  const forward = (axis) => (axis.log ? Math.log10 : (v) => v);
+  const fx = forward(x);
+  const fy = forward(y);
+  const [x0, x1] = x.range.map(fx);
+  const [y0, y1] = y.range.map(fy);
+  const px = (v) => left + ((fx(v) - x0) / (x1 - x0)) * (width - left - right);
+  const py = (v) => height - bottom - ((fy(v) - y0) / (y1 - y0)) * (height - top - bottom);
+  const out = [`<svg viewBox="0 0 ${width} ${height}" role="img" aria-label="${esc(options.title)}" class="${options.small ? "small" : ""}">`];
+  const xticks = x.log ? logTicks(...x.range) : linearTicks(...x.range, options.small ? 3 : Math.max(2, (width - left - right) / 90));
+  const yticks = y.log ? logTicks(...y.range) : linearTicks(...y.range, options.small ? 3 : Math.max(2, (height - top - bottom) / 40));
+  const grid = (value, path) => `<path class="grid${value === 0 ? " zero" : ""}" d="${path}"/>`;
+  let lastRight = -Infinity;
+  for (const [value, text] of xticks) {
+    const at = px(value).toFixed(1);
+    out.push(grid(value, `M${at} ${top}V${height - bottom}`));
+    const half = text.length * 3.4;
+    if (at - half < lastRight + 4) continue;  // labels must not touch
+    lastRight = Number(at) + half;
+    out.push(`<text class="tick" x="${at}" y="${height - bottom + (options.small ? 12 : 16)}" text-anchor="middle">${esc(text)}</text>`);
+  }
+  for (const [value, text] of yticks) {
+    const at = py(value).toFixed(1);
+    out.push(grid(value, `M${left} ${at}H${width - right}`));
+    out.push(`<text class="tick" x="${left - 5}" y="${at}" dy="0.35em" text-anchor="end">${esc(text)}</text>`);
+  }
+  out.push(`<rect class="frame" x="${left}" y="${top}" width="${width - left - right}" height="${height - top - bottom}"/>`);
+  for (const s of options.series) {
+    const n = Math.min(s.x.length, s.y.length);
+    const stride = s.limit ? Math.max(1, Math.floor(n / s.limit)) : 1;
+    let path = "";
+    let pen = false;
+    for (let i = 0; i < n; i += stride) {
+      if (!isNumber(s.x[i]) || !isNumber(s.y[i]) || (x.log && s.x[i] <= 0) || (y.log && s.y[i] <= 0)) {
+        pen = false;
+        continue;
+      }
+      const h = px(s.x[i]).toFixed(1);
+      const v = py(s.y[i]).toFixed(1);
+      path += !pen ? `M${h} ${v}` : s.step ? `H${h}V${v}` : `L${h} ${v}`;
+      pen = true;
+    }
+    out.push(`<path class="curve ${s.cls || ""}" ${s.color ? `style="stroke:${s.color}"` : ""} ${s.dash ? `stroke-dasharray="${s.dash}"` : ""} d="${path}"/>`);
+  }
+  const labelled = options.series.filter((s) => s.label && s.y.length);
+  if (labelled.length) {
+    // Labels stand beside the ends of their lines and are pushed apart where the lines end together.
+    const spots = labelled.map((s) => ({ s, want: py(s.y[s.y.length - 1]), x: px(s.x[s.x.length - 1]) }));
+    spots.sort((a, b) => a.want - b.want);
+    const step = 15;
+    spots.forEach((spot, i) => { spot.at = i === 0 ? Math.max(spot.want, top + 6) : Math.max(spot.want, spots[i - 1].at + step); });
+    for (let i = spots.length - 1, floor = height - bottom - 2; i >= 0; --i) {
+      spots[i].at = Math.min(spots[i].at, floor);
+      floor = spots[i].at - step;
+    }
+    for (const { s, want, x: end, at } of spots) {
+      const color = s.color || "currentColor";
+      out.push(`<path style="stroke:${color}" fill="none" stroke-width="0.8" stroke-dasharray="2 2" d="M${(end + 2).toFixed(1)} ${want.toFixed(1)}L${width - right + 3} ${want.toFixed(1)}L${width - right + 10} ${at.toFixed(1)}"/>`);
+      out.push(`<text x="${width - right + 13}" y="${at.toFixed(1)}" dy="0.35em" style="fill:${color};font-weight:${s.cls === "chosen" ? 700 : 500}">${esc(s.label)}</text>`);
+    }
+  }
+  if (options.small) {
+    out.push(`<text x="${width - right - 4}" y="${height - bottom - 5}" text-anchor="end">${esc(x.label)}</text>`);
+    out.push(`<text x="${left + 4}" y="${top + 11}">${esc(y.label)}</text>`);
+  } else {
+    out.push(`<text x="${(left + width - right) / 2}" y="${height - 4}" text-anchor="middle">${esc(x.label)}</text>`);
+    out.push(`<text transform="translate(13 ${(top + height - bottom) / 2}) rotate(-90)" text-anchor="middle">${esc(y.label)}</text>`);
+  }
+  out.push("</svg>");
+  return out.join("");
+}
+
+// ----------------------------------------------------------------------------------------------------------- recordings
+
+const channels = {
+  time: { key: "time", label: "Time [s]", short: "t [s]", word: "time" },
+  displacement: { key: "displacement_mm", label: "Displacement [mm]", short: "x [mm]", word: "displacement" },
+  velocity: { key: "velocity_mm_s", label: "Velocity [mm/s]", short: "v [mm/s]", word: "velocity" },
+};
+const roleWords = { fit: "fitted", validate: "held out" };
+const roleOf = (r) => roleWords[r.role] || r.role || "–";
+const hasBaseline = recordings.some((r) => list(r.baseline_n).length > 0);
+const residual = (r) => list(r.force_n).map((f, i) => (isNumber(f) && isNumber(r.predicted_n[i]) ? f - r.predicted_n[i] : null));
+const baselineResidual = (r) => list(r.force_n).map((f, i) => (isNumber(f) && isNumber(r.baseline_n[i]) ? f - r.baseline_n[i] : null));
+const nameOf = (r) => `${r.file}${r.drive ? `, ${r.drive}` : ""}`;
+
+// With a base model beside it, each residual has the colour of its simulation; alone, one of its own.
+function residualCurves(r) {
+  if (!list(r.baseline_n).length) return [{ y: residual(r), cls: "residual" }];
+  return [{ y: baselineResidual(r), cls: "baseline" }, { y: residual(r), cls: "simulated" }];
+}
+
+// Curves of a recording in drawing order: the measurement below, simulations above it.
+function curves(r) {
+  const result = [{ y: list(r.force_n), cls: "measured", name: "measured" }];
+  if (list(r.baseline_n).length) result.push({ y: r.baseline_n, cls: "baseline", name: "base model" });
+  result.push({ y: list(r.predicted_n), cls: "simulated", name: "simulated" });
+  return result;
+}
+
+function legend(withResidual) {
+  const item = (cls, text, dashed) => el("li", {}, el("i", { style: `border-color:var(--${cls});border-top-style:${dashed ? "dashed" : "solid"}` }), text);
+  return el("ul", { class: "legend" }, item("measured", "measured"), item("simulated", hasBaseline ? "simulated, with the effects found" : "simulated"),
+    hasBaseline ? item("baseline", "simulated, base model", true) : null,
+    withResidual && !hasBaseline ? item("residual", "residual, measured − simulated") : null);
+}
+
+function overview() {
+  const grid = el("div", { class: "minis" });
+  const against = el("select", {}, ["velocity", "displacement", "time"].map((k) => el("option", { value: k }, k)));
+  const scale = el("select", {}, el("option", { value: "own" }, "own for each"), el("option", { value: "same" }, "same for all"));
+  const order = el("select", {}, el("option", { value: "given" }, "as given"), el("option", { value: "worst" }, "largest NRMSE first"));
+  function draw() {
+    const channel = channels[against.value];
+    const shared = scale.value === "same";
+    const allX = extent(recordings.map((r) => extent([r[channel.key]])));
+    const allY = extent(recordings.map((r) => extent(curves(r).map((c) => c.y))));
+    const sequence = recordings.map((_, i) => i);
+    if (order.value === "worst") sequence.sort((a, b) => (recordings[b].nrmse ?? -1) - (recordings[a].nrmse ?? -1));
+    grid.replaceChildren(...sequence.map((i) => {
+      const r = recordings[i];
+      const markup = chart({
+        width: 240, height: 168, small: true, margin: [4, 4, 16, 40],
+        title: `Force [N] against ${channel.label} of ${nameOf(r)}, measured and simulated`,
+        x: { label: channel.short, range: padded(shared ? allX : extent([r[channel.key]])) },
+        y: { label: "F [N]", range: padded(shared ? allY : extent(curves(r).map((c) => c.y))) },
+        series: curves(r).map((c) => ({ x: list(r[channel.key]), y: c.y, cls: c.cls, limit: 600 })),
+      });
+      return el("button", { class: "mini", type: "button", "data-index": i, title: r.file, onclick: () => select(i, true) },
+        el("b", {}, breakable(r.file)),
+        el("span", { class: "sub" }, el("span", {}, [r.drive, roleOf(r)].filter(Boolean).join(" · ")), el("strong", {}, `NRMSE ${fmt(r.nrmse, 3)}`)),
+        svgNode(markup));
+    }));
+    markSelected();
+  }
+  for (const control of [against, scale, order]) control.addEventListener("change", draw);
+  draw();
+  return section("overview", "Every recording at a glance",
+    el("div", { class: "controls" },
+      el("label", {}, "Force against", against), el("label", {}, "Scale", scale), el("label", {}, "Order", order)),
+    legend(false),
+    el("p", { class: "muted interactive" }, "Select a recording to see it in full below."),
+    grid);
+}
+
+function recordingTable() {
+  const columns = [
+    { title: "Recording", value: (r) => r.file },
+    { title: "NRMSE", value: (r) => r.nrmse, num: true, digits: 3 },
+    { title: "RMSE [N]", value: (r) => r.rmse_n, num: true, digits: 3 },
+    { title: "Fit [%]", value: (r) => r.fit_percent, num: true, digits: 3 },
+    { title: "Role", value: roleOf },
+    { title: "Drive", value: (r) => r.drive || "–" },
+  ];
+  const order = recordings.map((_, i) => i);
+  let sorted = -1;
+  let direction = 1;
+  const body = el("tbody", {});
+  const heads = columns.map((c, k) => el("th", { scope: "col", class: c.num ? "num" : null },
+    el("button", { type: "button", title: `Sort by ${c.title}`, onclick: () => sort(k) }, c.title)));
+  function fill() {
+    body.replaceChildren(...order.map((i) => {
+      const r = recordings[i];
+      return el("tr", { class: "pick", "data-index": i, onclick: () => select(i) }, columns.map((c, k) => k === 0
+        ? el("th", { scope: "row" }, el("button", { type: "button", class: "link" }, r.file))
+        : el("td", { class: c.num ? "num" : "nowrap" }, c.num ? fmt(c.value(r), c.digits) : c.value(r))));
+    }));
+    markSelected();
+  }
+  function sort(k) {
+    direction = sorted === k ? -direction : columns[k].num ? -1 : 1;
+    sorted = k;
+    const value = columns[k].value;
+    order.sort((a, b) => {
+      const [u, v] = [value(recordings[a]), value(recordings[b])];
+      const by = columns[k].num ? (u ?? -Infinity) - (v ?? -Infinity) : String(u).localeCompare(String(v), "en", { numeric: true });
+      return by * direction || a - b;
+    });
+    heads.forEach((h, j) => { if (j === k) h.setAttribute("aria-sort", direction > 0 ? "ascending" : "descending"); else h.removeAttribute("aria-sort"); });
+    fill();
+  }
+  fill();
+  return el("div", { class: "scroll tall", tabindex: 0, role: "region", "aria-label": "Recordings" },
+    el("table", {}, el("caption", {}, el("span", {}, "Misfit of each recording", el("span", { class: "interactive" }, "; a heading sorts, a row selects"))),
+      el("thead", {}, el("tr", {}, heads)), body));
+}
+
+// ------------------------------------------------------------------------------------------------- interactive plots
+
+let selected = -1;
+let plots = [];          // uPlot instances of the selected recording
+let detail = null;       // elements of the detail view
+let resizeWatch = null;
+
+const css = (name) => getComputedStyle(root).getPropertyValue(name).trim();
+
+function axis(label, side) {
+  const font = "12px system-ui, -apple-system, 'Segoe UI', Roboto, 'Liberation Sans', Arial, sans-serif";
+  return {
+    label, font, labelFont: font, labelGap: 0, labelSize: 18, gap: 4,
+    stroke: css("--ink"),
+    size: side === 3 ? 52 : 30,
+    space: side === 3 ? 34 : 64,
+    grid: { stroke: css("--grid"), width: 1 },
+    ticks: { stroke: css("--line"), width: 1, size: 4 },
+    values: (u, splits, axisIndex, space, step) => {
+      const decimals = decimalsOf(step || 1);
+      return splits.map((v) => (Math.abs(v) >= 1e6 ? fmt(v, 2) : v.toFixed(decimals).replace(/^-(?=.*[1-9])/, "−").replace(/^-/, "")));
+    },
+  };
+}
+
+// Shift and drag moves what is shown; plain drag is uPlot's zoom.
+const zoomUnlessShift = (u, target, handler) => (event) => { if (event.button === 0 && !event.shiftKey) handler(event); };
+
+function addPan(u, scales) {
+  u.over.addEventListener("mousedown", (down) => {
+    if (down.button !== 0 || !down.shiftKey) return;
+    down.preventDefault();
+    const start = scales.map((key) => ({ key, min: u.scales[key].min, max: u.scales[key].max }));
+    const move = (event) => {
+      u.batch(() => {
+        for (const { key, min, max } of start) {
+          const share = key === "x" ? (down.clientX - event.clientX) / u.over.clientWidth : (event.clientY - down.clientY) / u.over.clientHeight;
+          u.setScale(key, { min: min + share * (max - min), max: max + share * (max - min) });
+        }
+      });
+    };
+    const up = () => {
+      window.removeEventListener("mousemove", move);
+      window.removeEventListener("mouseup", up);
+    };
+    window.addEventListener("mousemove", move);
+    window.addEventListener("mouseup", up);
+  });
+}
+
+function buildPlots(r) {
+  for (const u of plots) u.destroy();
+  plots = [];
+  const time = list(r.time);
+  if (time.length < 2) return;
+  const shown = curves(r);
+  const full = { lo: time[0], hi: time[time.length - 1] };
+  const windowOf = { lo: full.lo, hi: full.hi };  // the part of the record the time plots show; loops follow it
+  const color = { measured: css("--measured"), simulated: css("--simulated"), baseline: css("--baseline"), residual: css("--residual") };
+  const widths = { measured: 2, simulated: 1.4, baseline: 1.2, residual: 1.2 };
+  const dashes = { baseline: [5, 3] };
+  const loops = [];
+  const timePlots = [];
+
+  function figure(holder, caption, label) {
+    const reset = el("button", { type: "button", class: "reset", hidden: true }, "Reset zoom");
+    const host = el("div", { class: "host", role: "img", "aria-label": label });
+    holder.replaceChildren(el("figcaption", {}, el("span", {}, caption), reset), host);
+    return { host, reset };
+  }
+  const size = (host, wide) => ({ width: Math.max(200, host.clientWidth), height: wide || Math.round(Math.min(380, Math.max(250, host.clientWidth * 0.68))) });
+
+  function showAt(index) {
+    const t = index === null || index === undefined ? null : time[index];
+    for (const loop of loops) loop.mark(t === null ? null : index);
+    if (t === null) {
+      detail.readout.textContent = detail.hint;
+      return;
+    }
+    const parts = [`t = ${fmt(t, 5)} s`, `x = ${fmt(list(r.displacement_mm)[index], 4)} mm`, `v = ${fmt(list(r.velocity_mm_s)[index], 4)} mm/s`];
+    for (const c of shown) parts.push(`${c.name} ${fmt(c.y[index], 4)} N`);
+    parts.push(`residual ${fmt(rest[index], 3)} N`);
+    detail.readout.textContent = parts.join("  ·  ");
+  }
+  const rest = residual(r);
+
+  function timePlot(holder, caption, label, height, lines) {
+    const { host, reset } = figure(holder, caption, `${caption} of ${nameOf(r)}`);
+    const u = new uPlot({
+      ...size(host, height),
+      padding: [8, 10, 0, 0],
+      legend: { show: false },
+      scales: { x: { time: false } },
+      axes: [axis("Time [s]", 2), axis(label, 3)],
+      series: [{}, ...lines.map((c) => ({ stroke: color[c.cls], width: widths[c.cls], dash: dashes[c.cls], points: { show: false } }))],
+      cursor: {
+        drag: { x: true, y: false, dist: 5 },
+        sync: { key: "hysteron-time" },
+        bind: { mousedown: zoomUnlessShift },
+        points: { size: 7 },
+      },
+      hooks: {
+        setCursor: [(plot) => { if (plot === timePlots[0]) showAt(plot.cursor.left >= 0 ? plot.cursor.idx : null); }],
+        setScale: [(plot, key) => {
+          if (key !== "x") return;
+          const { min, max } = plot.scales.x;
+          const zoomed = min > full.lo || max < full.hi;
+          reset.hidden = !zoomed;
+          if (windowOf.lo === min && windowOf.hi === max) return;
+          windowOf.lo = min;
+          windowOf.hi = max;
+          for (const other of timePlots) {
+            if (other !== plot && (other.scales.x.min !== min || other.scales.x.max !== max)) other.setScale("x", { min, max });
+          }
+          for (const loop of loops) loop.u.redraw(false);
+        }],
+      },
+    }, [time, ...lines.map((c) => c.y)], host);
+    reset.addEventListener("click", () => u.setScale("x", { min: full.lo, max: full.hi }));
+    addPan(u, ["x"]);
+    timePlots.push(u);
+    plots.push(u);
+    u.wideHeight = height;
+    return u;
+  }
+
+  // A loop is not a function of its abscissa, which uPlot's line plots want sorted. Here uPlot keeps axes, zoom and
+  // cursor over the extent of the data; the curves are drawn in sample order onto its canvas.
+  function loopPlot(holder, channel) {
+    const caption = `Force against ${channel.word}`;
+    const { host, reset } = figure(holder, caption, `${caption} of ${nameOf(r)}: measured and simulated loops`);
+    const xs = list(r[channel.key]);
+    const rangeX = padded(extent([xs]), 0.04);
+    const rangeY = padded(extent(shown.map((c) => c.y)), 0.06);
+    function trace(plot, c, from, to, alpha) {
+      const { ctx } = plot;
+      const ax = plot.valToPos(rangeX[0], "x", true);
+      const bx = (plot.valToPos(rangeX[1], "x", true) - ax) / (rangeX[1] - rangeX[0]);
+      const ay = plot.valToPos(rangeY[0], "y", true);
+      const by = (plot.valToPos(rangeY[1], "y", true) - ay) / (rangeY[1] - rangeY[0]);
+      ctx.beginPath();
+      let pen = false;
+      for (let i = from; i < to; ++i) {
+        if (!isNumber(xs[i]) || !isNumber(c.y[i])) { pen = false; continue; }
+        const h = ax + (xs[i] - rangeX[0]) * bx;
+        const v = ay + (c.y[i] - rangeY[0]) * by;
+        if (pen) ctx.lineTo(h, v); else ctx.moveTo(h, v);
+        pen = true;
+      }
+      ctx.globalAlpha = alpha;
+      ctx.strokeStyle = color[c.cls];
+      ctx.lineWidth = widths[c.cls] * uPlot.pxRatio;
+      ctx.setLineDash((dashes[c.cls] || []).map((d) => d * uPlot.pxRatio));
+      ctx.lineJoin = "round";
+      ctx.stroke();
+    }
+    const u = new uPlot({
+      ...size(host),
+      padding: [8, 10, 0, 0],
+      legend: { show: false },
+      scales: { x: { time: false }, y: { range: () => rangeY } },
+      axes: [axis(channel.label, 2), axis("Force [N]", 3)],
+      series: [{}, { paths: () => null, points: { show: false } }],
+      cursor: { drag: { x: true, y: true, dist: 5 }, points: { show: false }, bind: { mousedown: zoomUnlessShift } },
+      hooks: {
+        draw: [(plot) => {
+          const { ctx, bbox } = plot;
+          ctx.save();
+          ctx.beginPath();
+          ctx.rect(bbox.left, bbox.top, bbox.width, bbox.height);
+          ctx.clip();
+          let from = 0;
+          let to = time.length;
+          while (from < to && time[from] < windowOf.lo) ++from;
+          while (to > from && time[to - 1] > windowOf.hi) --to;
+          const part = from > 0 || to < time.length;
+          if (part) for (const c of shown) trace(plot, c, 0, time.length, 0.15);
+          for (const c of shown) trace(plot, c, from, to, 1);
+          ctx.restore();
+        }],
+        setScale: [(plot) => {
+          const { x, y } = plot.scales;
+          reset.hidden = !(x.min > rangeX[0] || x.max < rangeX[1] || y.min > rangeY[0] || y.max < rangeY[1]);
+        }],
+      },
+    }, [rangeX, rangeY], host);
+    reset.addEventListener("click", () => u.batch(() => {
+      u.setScale("x", { min: rangeX[0], max: rangeX[1] });
+      u.setScale("y", { min: rangeY[0], max: rangeY[1] });
+    }));
+    addPan(u, ["x", "y"]);
+    const spots = shown.map((c) => {
+      const spot = el("div", { class: "spot", style: `background:${color[c.cls]}` });
+      u.over.append(spot);
+      return { c, spot };
+    });
+    const loop = {
+      u,
+      mark(index) {
+        for (const { c, spot } of spots) {
+          const left = index === null ? -1 : u.valToPos(xs[index], "x");
+          const top = index === null ? -1 : u.valToPos(c.y[index], "y");
+          const inside = index !== null && left >= 0 && top >= 0 && left <= u.over.clientWidth && top <= u.over.clientHeight;
+          spot.style.display = inside ? "block" : "none";
+          spot.style.left = `${left}px`;
+          spot.style.top = `${top}px`;
+        }
+      },
+    };
+    u.over.addEventListener("mousemove", (event) => {
+      const box = u.over.getBoundingClientRect();
+      const sx = u.over.clientWidth / (u.scales.x.max - u.scales.x.min);
+      const sy = u.over.clientHeight / (u.scales.y.max - u.scales.y.min);
+      const hx = u.posToVal(event.clientX - box.left, "x");
+      const hy = u.posToVal(event.clientY - box.top, "y");
+      let best = null;
+      let distance = 900;  // 30 px
+      const force = shown[0].y;
+      for (let i = 0; i < xs.length; ++i) {
+        if (time[i] < windowOf.lo || time[i] > windowOf.hi) continue;
+        const d = ((xs[i] - hx) * sx) ** 2 + ((force[i] - hy) * sy) ** 2;
+        if (d < distance) { distance = d; best = i; }
+      }
+      showAt(best);
+    });
+    u.over.addEventListener("mouseleave", () => showAt(null));
+    loops.push(loop);
+    plots.push(u);
+  }
+
+  timePlot(detail.hosts[0], "Force against time", "Force [N]", 270, shown);
+  loopPlot(detail.hosts[1], channels.displacement);
+  loopPlot(detail.hosts[2], channels.velocity);
+  timePlot(detail.hosts[3], "Residual (measured − simulated) against time", "Residual [N]", 220, residualCurves(r));
+}
+
+function detailView() {
+  const chooser = el("select", { "aria-label": "Recording shown", onchange: (e) => select(Number(e.target.value)) },
+    recordings.map((r, i) => el("option", { value: i }, `${nameOf(r)} (${roleOf(r)})`)));
+  const previous = el("button", { type: "button", onclick: () => select(selected - 1) }, "Previous");
+  const next = el("button", { type: "button", onclick: () => select(selected + 1) }, "Next");
+  const touch = window.matchMedia("(hover: none)").matches;
+  const hint = touch ? "" : "Drag to zoom, double click to reset, Shift and drag to pan. A zoom in time is carried to the loops.";
+  const heading = el("h3", { id: "detail", tabindex: -1 });
+  const readout = el("p", { class: "readout" }, hint);
+  const hosts = [0, 1, 2, 3].map((i) => el("figure", { class: i === 0 || i === 3 ? "plot wide" : "plot" }));
+  const printed = el("div", { class: "print-only" });
+  detail = { chooser, previous, next, heading, readout, hosts, printed, hint };
+  const node = el("div", {}, heading,
+    el("div", { class: "controls" }, el("label", {}, "Recording", chooser), previous, next), legend(true), readout,
+    el("div", { class: "plots interactive" }, hosts), printed);
+  return node;
+}
+
+function markSelected() {
+  for (const node of document.querySelectorAll("[data-index]")) {
+    const on = Number(node.dataset.index) === selected;
+    node.classList.toggle("selected", on);
+    if (node.tagName === "TR") node.setAttribute("aria-selected", String(on));
+    else node.setAttribute("aria-pressed", String(on));
+  }
+}
+
+function select(index, scroll) {
+  if (!recordings[index] || !detail) return;
+  selected = index;
+  const r = recordings[index];
+  detail.chooser.value = String(index);
+  detail.previous.disabled = index === 0;
+  detail.next.disabled = index === recordings.length - 1;
+  detail.heading.textContent = `${nameOf(r)}: ${roleOf(r)}, NRMSE ${fmt(r.nrmse, 3)}`;
+  detail.readout.textContent = detail.hint;
+  markSelected();
+  buildPlots(r);
+  if (scroll) detail.heading.scrollIntoView();
+}
+
+// On paper the four plots of the selected recording are drawn as lines that stay sharp, whatever the screen's scheme.
+function printDetail() {
+  const r = recordings[selected];
+  if (!r) return;
+  const force = curves(r);
+  const forceRange = padded(extent(force.map((c) => c.y)));
+  const rests = residualCurves(r);
+  const make = (wide, channel, label, lines, range, height) => svgNode(chart({
+    width: wide ? 690 : 340, height, margin: [6, 8, 36, 58],
+    title: `${label} against ${channel.label} of ${nameOf(r)}`,
+    x: { label: channel.label, range: channel.key === "time" ? extent([r.time]) : padded(extent([r[channel.key]])) },
+    y: { label, range },
+    series: lines.map((c) => ({ x: list(r[channel.key]), y: c.y, cls: c.cls })),
+  }));
+  const cell = (wide, node) => el("figure", { class: wide ? "plot wide" : "plot" }, node);
+  const grid = el("div", { class: "plots" },
+    cell(true, make(true, channels.time, "Force [N]", force, forceRange, 190)),
+    cell(false, make(false, channels.displacement, "Force [N]", force, forceRange, 230)),
+    cell(false, make(false, channels.velocity, "Force [N]", force, forceRange, 230)),
+    cell(true, make(true, channels.time, "Residual [N]", rests, padded(extent(rests.map((c) => c.y))), 150)));
+  detail.printed.replaceChildren(grid);
+}
+
+// ------------------------------------------------------------------------------------------------------------ parameters
+
+// Where the value and its interval lie between the bounds; positive bounds far apart are shown on a log scale.
+function withinBounds(p) {
+  if (!isNumber(p.lower) || !isNumber(p.upper) || !(p.upper > p.lower) || !isNumber(p.value)) return "–";
+  const log = p.lower > 0 && p.upper / p.lower > 50;
+  const f = (v) => (log ? Math.log(Math.max(v, p.lower)) : v);
+  const at = (v) => 6 + 98 * Math.min(1, Math.max(0, (f(v) - f(p.lower)) / (f(p.upper) - f(p.lower))));
+  const interval = Array.isArray(p.ci95) && p.ci95.every(isNumber)
+    ? `<path class="interval" d="M${at(p.ci95[0]).toFixed(1)} 9H${Math.max(at(p.ci95[1]), at(p.ci95[0]) + 1).toFixed(1)}"/>` : "";
+  return svgNode(`<svg class="within" viewBox="0 0 110 18" role="img" aria-label="${esc(`between ${fmt(p.lower)} and ${fmt(p.upper)}${log ? ", log scale" : ""}`)}">` +
+    `<rect class="box" x="6" y="6" width="98" height="6" rx="3"/>${interval}<circle class="dot" cx="${at(p.value).toFixed(1)}" cy="9" r="4"/></svg>`);
+}
+
+function parameterRemarks(p) {
+  const flags = [];
+  if (p.at_bound) flags.push(badge(`at ${p.at_bound} bound`, "flag"));
+  if (p.identifiable === false) flags.push(badge("not identifiable from these data", "flag"));
+  return flags.length ? el("span", {}, flags.flatMap((f, i) => (i ? [" ", f] : [f]))) : "";
+}
+
+function modelSection() {
+  const model = report.model || {};
+  const columns = [{ title: "Parameter", head: true, nowrap: true }, { title: "Meaning and remarks", text: true }, { title: "Value", num: true }, { title: "Unit", nowrap: true },
+    { title: "Std. error", num: true }, { title: "95 % interval", num: true }, { title: "Bounds", num: true }, { title: "Within bounds" }];
+  const interval = (pair, text) => (Array.isArray(pair) && pair.some(isNumber) ? `${text(pair[0])} … ${text(pair[1])}` : "–");
+  const rows = parameters.map((p) => [
+    p.symbol && p.symbol !== p.name ? el("span", {}, el("code", {}, p.name), ` ${p.symbol}`) : el("code", {}, p.name),
+    el("span", {}, p.meaning || "", " ", parameterRemarks(p)),
+    fmt(p.value, 4), p.unit || "–", fmt(p.std_error, 2), interval(p.ci95, (v) => fmt(v, 4)), interval([p.lower, p.upper], brief), withinBounds(p),
+  ]);
+  return section("model", "Model and parameters",
+    el("p", {}, model.title || model.id || "", model.id && model.title ? [" (", el("code", {}, model.id), ")"] : ""),
+    list(model.equations).length ? el("pre", { class: "equations", tabindex: 0, "aria-label": "Equations" }, model.equations.join("\n")) : null,
+    list(report.effects).length ? el("p", {}, "Effects added to the model: ", report.effects.map((e, i) => [i ? ", " : "", el("code", {}, e)]).flat(), ".") : null,
+    model.reference ? el("p", { class: "muted" }, "Source: ", model.reference) : null,
+    parameters.length ? plainTable("Identified values. The bar shows the value and its interval between the search bounds (logarithmic where they are positive and far apart).", columns, rows) : null);
+}
+
+// --------------------------------------------------------------------------------------------------------------- solvers
+
+function convergenceChart(width) {
+  const traced = solvers.filter((s) => list(s.trace).some(([n, c]) => n > 0 && c > 0));
+  if (!traced.length) return null;
+  const series = traced.map((s) => {
+    const points = s.trace.filter(([n, c]) => n > 0 && isNumber(c) && c > 0);
+    return {
+      x: points.map((p) => p[0]), y: points.map((p) => p[1]), step: true, cls: s.chosen ? "chosen" : "",
+      color: `var(--s${solvers.indexOf(s) % 7})`, dash: ["", "6 3", "2 2"][Math.floor(solvers.indexOf(s) / 7) % 3], label: `${s.id}  ${fmt(points[points.length - 1][1], 3)}`,
+    };
+  });
+  const xr = extent(series.map((s) => s.x));
+  // A diverged start costs orders of magnitude more than any model; it must not flatten the rest.
+  const firsts = series.map((s) => s.y[0]);
+  const yr = extent(series.map((s) => s.y));
+  const ceiling = Math.min(yr[1], Math.max(100 * yr[0], Math.min(...firsts) * 3));
+  for (const s of series) s.y = s.y.map((v) => Math.min(v, ceiling));
+  const right = 24 + Math.max(...series.map((s) => s.label.length)) * 6.9;
+  return svgNode(chart({
+    width, height: Math.max(260, Math.min(360, width * 0.4), 90 + 15 * series.length), margin: [8, right, 38, 60],
+    title: "Best cost against objective evaluations, one line per solver, both axes logarithmic",
+    x: { label: "Objective evaluations", log: true, range: [xr[0], xr[1] > xr[0] ? xr[1] : xr[0] * 10] },
+    y: { label: "Best cost so far", log: true, range: [yr[0] / 1.15, ceiling * 1.15] },
+    series,
+  }));
+}
+
+let drawConvergence = () => {};
+
+function solverSection() {
+  if (!solvers.length) return null;
+  const columns = [{ title: "Solver", head: true }, { title: "Best cost", num: true }, { title: "NRMSE held out", num: true },
+    { title: "Evaluations", num: true }, { title: "Budget", num: true }, { title: "Diverged", num: true }, { title: "Stopped by" }];
+  const rows = solvers.map((s) => [
+    el("span", {}, el("code", {}, s.id), s.title ? ` ${s.title} ` : " ", s.chosen ? badge("used here", "good") : ""), fmt(s.cost, 4), fmt(s.nrmse_heldout, 4), count(s.evaluations), count(s.budget),
+    count(s.diverged), s.stopped || "–",
+  ]);
+  const host = el("figure", { "aria-label": "Convergence" });
+  let drawn = 0;
+  drawConvergence = (forced) => {
+    const width = forced || Math.round(host.clientWidth);
+    if (!width || width === drawn) return;
+    drawn = width;
+    const node = convergenceChart(Math.max(300, width));
+    if (node) host.replaceChildren(node);
+  };
+  return section("solvers", "Search",
+    plainTable("What each solver reached within its budget of objective evaluations; diverged counts candidates whose simulation blew up", columns, rows),
+    el("h3", {}, "Convergence"), host);
+}
+
+// ------------------------------------------------------------------------------------------------------------- diagnosis
+
+const verdictWords = {
+  complete: "Complete: what is left of the residual is noise.",
+  "missing-physics": "Physics is missing from the base model.",
+  ambiguous: "Ambiguous: something is missing, and these data cannot tell the candidates apart.",
+  unattributed: "Unattributed: something is missing that no known effect explains.",
+};
+const percent = (v) => (isNumber(v) ? `${fmt(100 * v, 3)} %` : "–");
+
+function diagnosisSection() {
+  const d = report.diagnosis;
+  if (!d || typeof d !== "object") return null;
+  const base = d.baseline || {};
+  const parts = [];
+  const nrmse = [["Base model", base.nrmse_fit, base.nrmse_heldout]];
+  if (d.augmented) nrmse.push(["With the effects found", d.augmented.nrmse_fit, d.augmented.nrmse_heldout]);
+  if (isNumber(base.noise_floor_nrmse)) nrmse.push(["Noise floor of the recordings", base.noise_floor_nrmse, null]);
+  parts.push(plainTable("NRMSE before and after", [{ title: "", head: true }, { title: "Fitted recordings", num: true }, { title: "Held-out recordings", num: true }],
+    nrmse.map(([name, a, b]) => [name, fmt(a, 3), fmt(b, 3)])));
+  if (d.augmented && d.augmented.remaining_structure) parts.push(el("p", {}, "The residual still holds structure: the effects named are not the whole story."));
+  for (const e of list(d.effects)) {
+    const before = isNumber(e.nrmse_heldout_before) && isNumber(e.nrmse_heldout_after)
+      ? `Held-out NRMSE ${fmt(e.nrmse_heldout_before, 3)} → ${fmt(e.nrmse_heldout_after, 3)}. ` : "";
+    parts.push(el("div", { class: "effect" },
+      el("h3", {}, el("code", {}, e.id), isNumber(e.confidence) ? `, confidence ${fmt(e.confidence, 3)}` : ""),
+      e.sentence ? el("p", {}, e.sentence) : null,
+      el("p", { class: "muted" }, before, isNumber(e.share_of_misfit) ? `Explains ${percent(e.share_of_misfit)} of the misfit. ` : "",
+        list(e.indistinguishable_from).length ? `Not distinguishable from ${e.indistinguishable_from.join(", ")} with these data.` : ""),
+      list(e.parameters).length ? plainTable(`Parameters of ${e.id}`, [{ title: "Parameter", head: true }, { title: "Value", num: true }, { title: "95 % interval", num: true }, { title: "Unit" }],
+        e.parameters.map((p) => [p.name, fmt(p.value, 4), Array.isArray(p.ci95) ? `${fmt(p.ci95[0], 3)} … ${fmt(p.ci95[1], 3)}` : "–", p.unit || "–"])) : null));
+  }
+  if (list(d.locations).length) {
+    parts.push(el("h3", {}, "Where the misfit lives"), plainTable("Share of the misfit against share of the samples",
+      [{ title: "Where", head: true }, { title: "Variable" }, { title: "From", num: true }, { title: "To", num: true }, { title: "Unit" }, { title: "Share of misfit", num: true }, { title: "Share of samples", num: true }, { title: "Recordings" }],
+      d.locations.map((l) => [l.where || "", l.variable || "", fmt(l.from, 3), fmt(l.to, 3), l.unit || "–", percent(l.share_of_misfit), percent(l.share_of_samples), list(l.recordings).join(", ")])));
+  }
+  if (list(d.rejected).length) {
+    parts.push(el("h3", {}, "Examined and rejected"), plainTable("Effects tested that do not help", [{ title: "Effect", head: true }, { title: "Reason" }, { title: "p", num: true }],
+      d.rejected.map((x) => [x.id, x.reason || "", fmt(x.p, 2)])));
+  }
+  if (list(d.not_observable).length) {
+    parts.push(el("h3", {}, "Not observable in these data"), plainTable("Effects these recordings could not have shown", [{ title: "Effect", head: true }, { title: "Why, or the smallest size that would show" }],
+      d.not_observable.map((x) => [x.id, x.reason || x.detection_limit || ""])));
+  }
+  if (d.next_experiment) parts.push(el("h3", {}, "Next experiment"), el("p", {}, d.next_experiment));
+  return section("diagnosis", "Diagnosis", ...parts);
+}
+
+// ------------------------------------------------------------------------------------------------------------ provenance
+
+const normalisations = {
+  "max-abs": "NRMSE = RMSE / max |F|", range: "NRMSE = RMSE / (max F − min F)", std: "NRMSE = RMSE / standard deviation of F", "mean-abs": "NRMSE = RMSE / mean |F|",
+};
+const weightings = {
+  "per-recording": "Overall figures are the root mean square of the recordings' NRMSE: each recording weighs the same, normalised by its own force.",
+  pooled: "Overall figures pool the samples of all recordings: each sample weighs the same.",
+};
+
+function provenanceSection() {
+  const facts = [];
+  const add = (name, ...value) => facts.push(el("dt", {}, name), el("dd", {}, ...value));
+  if (report.command) add("Command", el("code", {}, report.command));
+  if (report.version) add("Version", `hysteron ${report.version}`);
+  if (report.seed !== undefined && report.seed !== null) add("Seed", String(report.seed));
+  if (report.normalisation) add("Normalisation", `${normalisations[report.normalisation] || "NRMSE"} (${report.normalisation}), F the measured force`);
+  if (report.weighting) add("Weighting", `${weightings[report.weighting] || ""} (${report.weighting})`);
+  return section("provenance", "Provenance", el("dl", { class: "facts" }, facts),
+    list(report.data).length ? plainTable("Data read", [{ title: "File", head: true }, { title: "SHA-256" }],
+      report.data.map((d) => [d.file, el("code", { class: "hash" }, d.sha256)])) : null,
+    list(report.notes).length ? [el("h3", {}, "Notes"), el("ul", {}, report.notes.map((n) => el("li", {}, n)))] : []);
+}
+
+// ------------------------------------------------------------------------------------------------------------------ page
+
+function verdictLine() {
+  if (report.verdict) return report.verdict;
+  const d = report.diagnosis;
+  if (d && d.verdict) return [verdictWords[d.verdict] || d.verdict, ...list(d.effects).map((e) => e.sentence).filter(Boolean)].join(" ");
+  const fitted = recordings.filter((r) => r.role === "fit").length;
+  const held = recordings.filter((r) => r.role === "validate").length;
+  const flagged = parameters.filter((p) => p.at_bound || p.identifiable === false).length;
+  const model = report.model ? report.model.title || report.model.id : "Model";
+  return `${model}: ${plural(parameters.length, "parameter")} fitted to ${plural(fitted, "recording")}` +
+    `${held ? ` and checked on ${held} held out` : "; no recording was held out"}; ` +
+    `${flagged ? `${plural(flagged, "parameter")} to be taken with caution` : "no parameter is at a bound or unidentifiable"}.`;
+}
+
+function page() {
+  const sections = [
+    diagnosisSection(),
+    recordings.length ? overview() : null,
+    recordings.length ? section("recordings", "Recordings", recordingTable(), detailView()) : null,
+    report.model || parameters.length ? modelSection() : null,
+    solverSection(),
+    provenanceSection(),
+  ].filter(Boolean);
+  const titles = { diagnosis: "Diagnosis", overview: "Overview", recordings: "Recordings", model: "Model", solvers: "Search", provenance: "Provenance" };
+  const warnings = list(report.warnings);
+  document.getElementById("content").replaceChildren(
+    el("header", {}, el("h1", {}, report.title || "Hysteron report"), report.subtitle ? el("p", { class: "subtitle" }, report.subtitle) : "",
+      el("p", { class: "verdict" }, verdictLine()),
+      el("dl", { class: "tiles" }, list(report.summary).map((t) => el("div", { class: "tile" }, el("dt", {}, t.label),
+        el("dd", {}, el("div", { class: "value" }, String(t.value)), t.note ? el("div", { class: "note" }, t.note) : "")))),
+      warnings.length ? el("div", { class: "warning", role: "note", "aria-label": "Warnings" }, el("strong", {}, warnings.length === 1 ? "Warning" : "Warnings"),
+        el("ul", {}, warnings.map((w) => el("li", {}, w)))) : ""),
+    el("nav", { "aria-label": "Sections" }, sections.map((s) => el("a", { href: `#${s.id}` }, titles[s.id]))),
+    el("main", {}, sections),
+    el("footer", {}, `Made by hysteron ${report.version || ""}. Plots: uPlot (MIT licence). This page loads nothing from the network.`));
+}
+
+page();
+drawConvergence();
+// Show first what most needs a look: the worst held-out recording, or the worst of all.
+const candidates = recordings.map((r, i) => ({ r, i }));
+const held = candidates.filter(({ r }) => r.role === "validate");
+const first = (held.length ? held : candidates).reduce((a, b) => ((b.r.nrmse ?? 0) > (a.r.nrmse ?? 0) ? b : a), (held.length ? held : candidates)[0]);
+if (first) select(first.i);
+
+if (detail && "ResizeObserver" in window) {
+  let pending = 0;
+  resizeWatch = new ResizeObserver(() => {
+    cancelAnimationFrame(pending);
+    pending = requestAnimationFrame(() => {
+      for (const u of plots) {
+        const width = u.root.parentElement.clientWidth;
+        if (width < 50 || width === u.width) continue;
+        u.setSize({ width, height: u.wideHeight || Math.round(Math.min(380, Math.max(250, width * 0.68))) });
+      }
+      drawConvergence();
+    });
+  });
+  resizeWatch.observe(document.getElementById("content"));
+}
+window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => { if (selected >= 0) buildPlots(recordings[selected]); });
+window.addEventListener("beforeprint", () => { printDetail(); drawConvergence(700); });
+window.addEventListener("afterprint", () => drawConvergence());
+window.hysteronReport = { report, select };
+root.dataset.ready = "true";
+})();
