@@ -1,6 +1,8 @@
 // Cost of one march per candidate, for every model of the catalogue and every scalar type. Items are candidates.
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
+
 #include <cmath>
 #include <numbers>
 #include <string>

@@ -73,9 +73,9 @@ class Descent {
       if (was_step) {
         radius_ = std::min(1e12, radius_ / std::max(1.0 / 3.0, 1.0 - std::pow(2.0 * std::min(rho, 2.0) - 1.0, 3.0)));
         shrink_ = 2.0;
-        quiet_ = gained < 1e-8 * before ? quiet_ + 1 : 0;
+        quiet_ = gained < 1e-7 * before ? quiet_ + 1 : 0;
         if (quiet_ >= 2) {
-          reason_ = "relative decrease of the squared cost < 1e-8 twice";
+          reason_ = "relative decrease of the squared cost < 1e-7 twice";
           return;
         }
       }

@@ -208,8 +208,8 @@ Outcome run_own(const SolverEntry& entry, const Evaluate& evaluate, const Layout
     problem.budget = budget - outcome.evaluations;
     problem.stream = Stream(seed).child("peers").child(entry.id).child(attempt);
     problem.linear = layout.linear();
-    const RunResult run = run_solver(entry, problem, evaluate,
-                                     [&](const RunResult& partial) { return partial.cost > target; });
+    const RunResult run =
+        run_solver(entry, problem, evaluate, [&](const RunResult& partial) { return partial.cost > target; });
     if (run.evaluations == 0) {
       break;
     }
@@ -323,17 +323,19 @@ std::string table_of(const std::vector<Row>& rows, const Setup& setup, std::size
       "Time to target of one identification, one thread, CPU time; {} seeds, budget {} evaluations a run.\n"
       "Modified Bouc-Wen, {} free parameters, {} samples at 1 kHz, 2 Hz 25 mm sine, 1 % noise; target: {} x NRMSE at\n"
       "the true parameters ({:.6f} with the plain objective, {:.6f} with Hysteron's).\n"
-      "Medians count a failed run as infinite; - means that half of the runs or more failed, or that the pair does not\n"
-      "exist. An evaluation with derivatives counts as 1 + {} evaluations. Hysteron's own solvers use its objective in\n"
+      "Medians count a failed run as infinite; - means that half of the runs or more failed, or that the pair does "
+      "not\n"
+      "exist. An evaluation with derivatives counts as 1 + {} evaluations. Hysteron's own solvers use its objective "
+      "in\n"
       "packs of eight; all others call it with one candidate at a time.\n\n",
       seeds, budget, setup.layout.dimension(), setup.recording.size(), target_factor,
       setup.plain_target / target_factor, setup.own_target / target_factor, setup.layout.dimension());
   text +=
-      "| method | plain RK4: success | evaluations | ms | x multistart-lm | Hysteron's objective: success | evaluations "
+      "| method | plain RK4: success | evaluations | ms | x multistart-lm | Hysteron's objective: success | "
+      "evaluations "
       "| ms | x multistart-lm |\n|---|--:|--:|--:|--:|--:|--:|--:|--:|\n";
   const Row* reference = find_row(rows, "hysteron multistart-lm");
-  const auto unit =
-      reference == nullptr ? std::optional<double>() : median_seconds(reference->outcomes[own_column]);
+  const auto unit = reference == nullptr ? std::optional<double>() : median_seconds(reference->outcomes[own_column]);
   for (const Row& row : rows) {
     text += "| " + row.method;
     for (const auto& outcomes : row.outcomes) {
@@ -343,10 +345,10 @@ std::string table_of(const std::vector<Row>& rows, const Setup& setup, std::size
       }
       const auto successes = std::ranges::count_if(outcomes, [](const Outcome& outcome) { return outcome.success; });
       const auto seconds = median_seconds(outcomes);
-      text += fmt::format(" | {}/{} | {} | {} | {}", successes, outcomes.size(),
-                          shown(median(outcomes, [](const Outcome& o) { return static_cast<double>(o.evaluations); }),
-                                1.0, "{:.0f}"),
-                          shown(seconds, 1e3, "{:.3g}"), ratio(seconds, unit));
+      text += fmt::format(
+          " | {}/{} | {} | {} | {}", successes, outcomes.size(),
+          shown(median(outcomes, [](const Outcome& o) { return static_cast<double>(o.evaluations); }), 1.0, "{:.0f}"),
+          shown(seconds, 1e3, "{:.3g}"), ratio(seconds, unit));
     }
     text += " |\n";
   }
@@ -394,8 +396,7 @@ void read_rows(const std::string& path, std::vector<Row>& rows) {
       rows.push_back({cell[0], {}});
     }
     auto& row = *std::ranges::find_if(rows, [&](const Row& candidate) { return candidate.method == cell[0]; });
-    row.outcomes[plain_column].push_back(
-        {cell[2] == "1", std::stoul(cell[3]), std::stod(cell[4]), std::stod(cell[5])});
+    row.outcomes[plain_column].push_back({cell[2] == "1", std::stoul(cell[3]), std::stod(cell[4]), std::stod(cell[5])});
   }
 }
 
@@ -470,8 +471,7 @@ void run(int count, char** arguments) {
     Row row{std::string("hysteron ") + id, {}};
     note(row.method);
     for (std::size_t seed = 1; seed <= options.seeds; ++seed) {
-      row.outcomes[own_column].push_back(
-          run_own(*entry, own, setup.layout, targets[own_column], options.budget, seed));
+      row.outcomes[own_column].push_back(run_own(*entry, own, setup.layout, targets[own_column], options.budget, seed));
       if (!entry->uses_derivatives) {
         row.outcomes[plain_column].push_back(
             run_own(*entry, plain, setup.layout, targets[plain_column], options.budget, seed));
@@ -484,21 +484,18 @@ void run(int count, char** arguments) {
     note(method);
     for (const Column column : {plain_column, own_column}) {
       for (std::size_t seed = 1; seed <= options.seeds; ++seed) {
-        row.outcomes[column].push_back(
-            measure(objectives[column], targets[column], options.budget,
-                    [&](std::uint32_t attempt, const ScalarObjective& objective, std::size_t left) {
-                      once(seed, attempt, objective, left);
-                    }));
+        row.outcomes[column].push_back(measure(objectives[column], targets[column], options.budget,
+                                               [&](std::uint32_t attempt, const ScalarObjective& objective,
+                                                   std::size_t left) { once(seed, attempt, objective, left); }));
       }
     }
     rows.push_back(std::move(row));
   };
   for (const char* algorithm : {"cmaes", "pso", "de"}) {
-    add_peer(std::string("pagmo2 ") + algorithm,
-             [&](std::size_t seed, std::uint32_t attempt, const ScalarObjective& objective, std::size_t left) {
-               run_pagmo(algorithm, plain_dimension, left, static_cast<std::uint32_t>(1000 * seed) + attempt,
-                         objective);
-             });
+    add_peer(std::string("pagmo2 ") + algorithm, [&](std::size_t seed, std::uint32_t attempt,
+                                                     const ScalarObjective& objective, std::size_t left) {
+      run_pagmo(algorithm, plain_dimension, left, static_cast<std::uint32_t>(1000 * seed) + attempt, objective);
+    });
   }
   const std::pair<const char*, nlopt::algorithm> from_nlopt[] = {{"NLopt CRS2", nlopt::GN_CRS2_LM},
                                                                  {"NLopt MLSL + BOBYQA", nlopt::G_MLSL}};
@@ -514,7 +511,8 @@ void run(int count, char** arguments) {
   fmt::print("{}", text);
   if (!options.out.empty()) {
     std::ofstream out(options.out);
-    out << "# The same identification by other libraries\n\nRe-made by `bench/peers/run.sh --out results/peers.md`. The "
+    out << "# The same identification by other libraries\n\nRe-made by `bench/peers/run.sh --out results/peers.md`. "
+           "The "
            "times depend on the machine; the ratios are of one run.\n\n"
         << text;
     if (!out.flush()) {

@@ -1,6 +1,7 @@
 /* The objective as a user of a general optimisation library writes it: the modified Bouc-Wen model marched by classical
  * Runge-Kutta, one step a sample, inputs at mid-step by linear interpolation, pow from libm. C and C++; the shared
- * library for SciPy and the C++ peers compile the same lines. Model and normal form as in models/modified_bouc_wen.cpp. */
+ * library for SciPy and the C++ peers compile the same lines. Model and normal form as in models/modified_bouc_wen.cpp.
+ */
 #ifndef HYSTERON_BENCH_PEERS_PLAIN_RK4_H
 #define HYSTERON_BENCH_PEERS_PLAIN_RK4_H
 

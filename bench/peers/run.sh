@@ -2,7 +2,8 @@
 # The same identification by Hysteron, pagmo2, NLopt and SciPy: CPU time to target in one run, see peers.cpp.
 #   bench/peers/run.sh [--seeds N] [--budget N] [--out FILE.md]
 # Needs pagmo2 and NLopt (libpagmo-dev, libnlopt-dev, libnlopt-cxx-dev), and SciPy for its rows (python3-scipy; without
-# it they are left out). HYSTERON_BUILD names the build folder (build/release), PYTHON the interpreter.
+# it they are left out). HYSTERON_BUILD names the build folder (build/release), HYSTERON_PEERS an already built program
+# (nothing is built then), PYTHON the interpreter.
 # One thread throughout; takes 5 to 15 minutes. Leave the machine alone meanwhile: the times are CPU times, but caches
 # and clocks are shared.
 set -eu
@@ -18,19 +19,22 @@ while [ $# -gt 0 ]; do
     --seeds) seeds=$2; shift 2 ;;
     --budget) budget=$2; shift 2 ;;
     --out) out=$2; shift 2 ;;
-    -h | --help) sed -n '2,7s/^# \{0,1\}//p' "$0"; exit 0 ;;
+    -h | --help) sed -n '2,8s/^# \{0,1\}//p' "$0"; exit 0 ;;
     *) echo "error: unknown option $1, expected --seeds, --budget or --out" >&2; exit 2 ;;
   esac
 done
 export OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1
 
-if [ ! -f "$build/CMakeCache.txt" ]; then
-  cmake --preset release -S "$root"
-  build=$root/build/release
+program=${HYSTERON_PEERS:-}
+if [ -z "$program" ]; then
+  if [ ! -f "$build/CMakeCache.txt" ]; then
+    cmake --preset release -S "$root" >&2
+    build=$root/build/release
+  fi
+  cmake --build "$build" --target hysteron_peers -j1 >&2
+  program=$(find "$build" -type f -name hysteron_peers | head -n 1)
+  [ -n "$program" ] || { echo "error: hysteron_peers was not built: are pagmo2 and NLopt installed?" >&2; exit 1; }
 fi
-cmake --build "$build" --target hysteron_peers -j1 >&2
-program=$(find "$build" -type f -name hysteron_peers | head -n 1)
-[ -n "$program" ] || { echo "error: hysteron_peers was not built: are pagmo2 and NLopt installed?" >&2; exit 1; }
 
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT

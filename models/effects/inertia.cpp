@@ -3,8 +3,7 @@
 //   h' = (v - h) / tau,  g' = (h - g) / tau,  a = (2 (v - h) - (h - g)) / tau
 // The acceleration is derived from the velocity by two lags of tau = 2 ms, whose delays cancel: for a sine of frequency
 // w its relative error is (w tau)^2, 0.06 % at 2 Hz and 6 % at 20 Hz. models/motion_filter.hpp takes the transient of
-// the start at rest out. At the first
-// sample a is zero; over the next 10 tau it is off by up to half of tau times the jerk.
+// the start at rest out. At the first sample a is zero; over the next 10 tau it is off by about tau times the jerk.
 // Source: Newton's second law.
 #include "models/motion_filter.hpp"
 #include "simulate/compile.hpp"

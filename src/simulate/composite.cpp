@@ -1,6 +1,7 @@
 #include "simulate/composite.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include "core/error.hpp"
 #include "core/suggest.hpp"
@@ -8,6 +9,9 @@
 
 namespace hysteron {
 namespace {
+
+// A law and the effects behind it.
+constexpr std::size_t max_links = 9;
 
 // The chain at run time: drives act from the outermost effect inwards, forces from the law outwards.
 template <class T>
@@ -49,7 +53,8 @@ struct Chain {
   }
 
   T force(const T* p, const T* s, const Input<T>& in) const {
-    std::vector<Input<T>> seen(links.size(), in);
+    std::array<Input<T>, max_links> seen;
+    seen[links.size() - 1] = in;
     for (std::size_t i = links.size(); i-- > 1;) {
       seen[i - 1] = seen[i];
       if (links[i].operations->drive != nullptr) {
@@ -174,6 +179,10 @@ CompositeModel make_model(std::string_view law, const std::vector<std::string>& 
                        ", see `hysteron list effects`");
     }
     model.effects.push_back(effect);
+  }
+  if (model.effects.size() >= max_links) {
+    throw InputError("too many effects at once: " + std::to_string(effects.size()) + ", expected at most " +
+                     std::to_string(max_links - 1));
   }
   if (model.states() > max_states) {
     throw InputError("too many effects at once: more than " + std::to_string(max_states) + " state variables");

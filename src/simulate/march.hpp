@@ -136,11 +136,12 @@ class Parameters {
   typename Storage<Chain>::type copy_;
 };
 
-// Laws that slip against a series element have their kink somewhat after the reversal of the motion: where the step
-// straddles it, the error is of second order only, so the steps there are shorter.
-inline constexpr double refinement = 3.0;
+// Laws that slip against a series element have their kink somewhat before or after the reversal of the motion: where
+// a step straddles it the error is of second order only, so the steps there are shorter.
+inline constexpr double refinement = 4.0;
 [[gnu::always_inline]] inline bool near_reversal(const Motion& motion, std::size_t n) {
-  return motion.intervals[n].reversal || (n > 0 && motion.intervals[n - 1].reversal);
+  return motion.intervals[n].reversal || (n > 0 && motion.intervals[n - 1].reversal) ||
+         (n + 1 < motion.intervals.size() && motion.intervals[n + 1].reversal);
 }
 
 // One step of length h from `state` into `next`.

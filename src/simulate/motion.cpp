@@ -52,7 +52,10 @@ double zero_crossing(const double* c) {
 Motion make_motion(std::span<const double> time, std::span<const double> displacement,
                    std::span<const double> velocity, std::span<const double> drive, double tolerance) {
   Motion motion;
-  motion.time.assign(time.begin(), time.end());
+  // Parts count time from the start of the recording.
+  for (const double t : time) {
+    motion.time.push_back(t - time[0]);
+  }
   motion.x.assign(displacement.begin(), displacement.end());
   motion.v.assign(velocity.begin(), velocity.end());
   motion.drive.assign(drive.begin(), drive.end());
