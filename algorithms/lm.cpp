@@ -24,6 +24,9 @@ class LevenbergMarquardt final : public Solver {
     return request;
   }
   void tell(const Request& /*request*/, const Response& response) override {
+    if (response.cost.empty()) {
+      return;
+    }
     const auto d = descent_.next().size();
     descent_.tell(response.cost[0], response.cost[0] >= diverged_cost,
                   Eigen::Map<const Eigen::VectorXd>(response.gradient.data(), d),

@@ -86,7 +86,8 @@ struct AsymmetricSigmoid {
   }
   template <class T>
   static T stiffness(const std::array<T, 9>& p, double /*speed*/) {
-    return T(1.0) / p[7];
+    // Four times the bound: the branch function multiplies the error of the lagged velocity by up to 1 / (tau a_s).
+    return T(4.0) / p[7];
   }
   template <class T>
   static T force(const std::array<T, 9>& p, const std::array<T, 1>& s, const Input<T>& in, const T& /*below*/) {

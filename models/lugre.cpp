@@ -50,7 +50,8 @@ struct LuGre {
   }
   template <class T>
   static T stiffness(const std::array<T, 8>& p, double speed) {
-    return T(speed) / (p[5] * min(p[6], T(1.0)));
+    // Three times the bound: the Stribeck curve changes within a step that is only just stable.
+    return T(3.0) * T(speed) / (p[5] * min(p[6], T(1.0)));
   }
   template <class T>
   static T force(const std::array<T, 8>& p, const std::array<T, 1>& s, const Input<T>& in, const T& /*below*/) {

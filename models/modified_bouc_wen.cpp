@@ -49,13 +49,12 @@ struct ModifiedBoucWen {
     const T against = share * select(z < T(0.0), -abs(u), abs(u)) + (T(1.0) - share) * u;
     return {u, (u - grip * against) * (T(1.0) / p[5])};
   }
-  // Twice the Lipschitz bound: the slip u changes sign between the reversals of v that steps land on, and finer steps
-  // keep the error of crossing that kink below the tolerance.
   template <class T>
   static T stiffness(const std::array<T, 9>& p, double speed) {
     const T steepest = max(T(1.0), abs(T(1.0) - T(2.0) * p[6]));
     const T series = p[1] + p[2];
-    return T(2.0) * ((abs(p[3]) + abs(p[0]) * (T(1.0) + steepest) / p[5]) / series +
+    // One and a half times the bound: the slip changes sign between the reversals of v that steps land on.
+    return T(1.5) * ((abs(p[3]) + abs(p[0]) * (T(1.0) + steepest) / p[5]) / series +
                      T(speed) * p[7] * steepest / p[5]);
   }
   template <class T>

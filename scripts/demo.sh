@@ -5,7 +5,7 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 scripts/setup.sh
 echo "building (a few minutes the first time)" >&2
-cmake --preset release -DHYSTERON_TESTS=OFF -DHYSTERON_BENCH=OFF >build-demo.log 2>&1 &&
+cmake --preset release >build-demo.log 2>&1 &&
   cmake --build --preset release --target hysteron >>build-demo.log 2>&1 ||
   { tail -n 30 build-demo.log >&2; echo "error: the build failed, see build-demo.log" >&2; exit 1; }
 rm -f build-demo.log
@@ -20,4 +20,4 @@ else
   echo "data: the twin dataset rd8040-twin at 2 Hz, $data" >&2
 fi
 "$hysteron" fit "$data" --model modified-bouc-wen --effects offset-force --by-current alpha:1,c0:1,c1:1 \
-  --solver pso,ga,multistart-lm --budget 6000 --seed 1 --out "$out"
+  --solver pso,ga,multistart-lm --budget 2500 --seed 1 --out "$out"

@@ -44,7 +44,9 @@ Campaign load(const DataOptions& options, bool force_required) {
 }
 
 void add_common_options(CLI::App& command, CommonOptions& options) {
-  command.add_option("--seed", options.seed, "seed of every random stream")->capture_default_str();
+  command.add_option("--seed", options.seed, "seed of every random stream")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
   command.add_option("--threads", options.threads, "worker threads; 0 takes OMP_NUM_THREADS or all cores")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();

@@ -176,6 +176,10 @@ void run(const FitOptions& options) {
   make_model(model, identify_with.effects);
   normaliser(campaign.recordings.front(), identify_with.objective.normalisation);
 
+  if (std::filesystem::exists(options.out) && !std::filesystem::is_directory(options.out)) {
+    throw InputError(options.out, 0, "exists and is not a folder, expected a folder for the results");
+  }
+
   ProgressLine progress(options.common.quiet);
   const Identification result =
       identify(campaign, model, identify_with, [&](const std::string& stage, const RunResult& run) {

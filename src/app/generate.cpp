@@ -1,6 +1,7 @@
 // hysteron generate: writes a dataset that ships with the program as a campaign folder.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 
 #include "app/command.hpp"
@@ -35,7 +36,7 @@ void add_generate(CLI::App& program) {
   command->add_option("DATASET", options->id, "an id of `hysteron list datasets`")->required();
   command->add_option("--out", options->out, "folder to write")->required();
   command->add_option("--only", options->only, "only recordings whose name contains this, e.g. 2.0Hz");
-  command->add_option("--seed", options->seed, "seed of the noise")->capture_default_str();
+  command->add_option("--seed", options->seed, "seed of the noise")->check(CLI::NonNegativeNumber)->capture_default_str();
   command->footer("Example:\n  hysteron generate rd8040-twin --out twin --only 2.0Hz");
   command->callback([options] {
     const DatasetEntry* entry = find_dataset(options->id);
@@ -43,6 +44,11 @@ void add_generate(CLI::App& program) {
       throw InputError("unknown dataset '" + options->id + "', see `hysteron list datasets`");
     }
     const Campaign campaign = entry->generate(Stream(options->seed).child(entry->id));
+    if (std::ranges::none_of(campaign.recordings, [&](const Recording& recording) {
+          return recording.file.find(options->only) != std::string::npos;
+        })) {
+      throw InputError("--only: no recording's name contains '" + options->only + "'");
+    }
     make_output_folder(options->out);
     std::size_t written = 0;
     for (const Recording& recording : campaign.recordings) {
@@ -56,9 +62,6 @@ void add_generate(CLI::App& program) {
       }
       write_file_atomically(std::filesystem::path(options->out) / recording.file, text);
       ++written;
-    }
-    if (written == 0) {
-      throw InputError("--only: no recording's name contains '" + options->only + "'");
     }
     fmt::print("{} recordings in {}\n", written, options->out);
   });

@@ -73,6 +73,8 @@ StoredModel read_model(const std::string& path) {
   } catch (const json::parse_error& error) {
     const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(std::min(error.byte, text.size())), '\n');
     throw InputError(path, static_cast<int>(line), "not valid JSON, expected a model.json written by hysteron");
+  } catch (const json::out_of_range&) {
+    throw InputError(path, 0, "holds a number beyond the range of a double, expected a model.json written by hysteron");
   }
   const auto wrong = [&](const std::string& what) { return InputError(path, 0, what); };
   if (!root.is_object() || !root.contains("schema") || !root["schema"].is_string()) {
@@ -106,6 +108,11 @@ StoredModel read_model(const std::string& path) {
       const int frequency_power = entry.value("frequency_power", 0);
       if (drive_power < 0 || drive_power > 9 || frequency_power < 0 || frequency_power > 9) {
         throw wrong("parameter '" + name + "' has a power outside 0 to 9");
+      }
+      if (std::ranges::any_of(result.terms, [&](const Term& term) {
+            return term.parameter == index && term.drive_power == drive_power && term.frequency_power == frequency_power;
+          })) {
+        throw wrong("parameter '" + term_name(name, drive_power, frequency_power) + "' is given twice");
       }
       result.terms.push_back({index, drive_power, frequency_power, value});
       seen[index] = true;

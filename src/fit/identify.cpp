@@ -65,7 +65,8 @@ double residual_correlation(const Objective& objective, const std::vector<Term>&
 // Standard errors from the Gauss-Newton matrix at the optimum, free coordinates only, with the effective sample size
 // N (1 - r) / (1 + r) of residuals whose lag-1 correlation is r. Directions the data leave open make the parameters
 // in them unidentifiable.
-void estimate_errors(Identification& result, const Objective& objective, const std::vector<double>& u) {
+void estimate_errors(Identification& result, const Objective& objective, const std::vector<double>& u,
+                     DriveKind drive_kind) {
   const Layout& layout = result.layout;
   const auto d = static_cast<Eigen::Index>(layout.dimension());
   Request request{u, true};
@@ -153,7 +154,7 @@ void estimate_errors(Identification& result, const Objective& objective, const s
       estimate.name = term_name(layout.names()[law.parameter], term.drive_power, term.frequency_power);
       estimate.unit = std::string(card.unit);
       for (int power = 0; power < term.drive_power; ++power) {
-        estimate.unit += "/A";
+        estimate.unit += drive_kind == DriveKind::voltage ? "/V" : "/A";
       }
       for (int power = 0; power < term.frequency_power; ++power) {
         estimate.unit += "/Hz";
@@ -289,7 +290,7 @@ Identification identify(const Campaign& campaign, const std::string& model, cons
     result.fitted = all;
   }
   result.terms = layout.terms(best);
-  estimate_errors(result, final_objective, best);
+  estimate_errors(result, final_objective, best, campaign.recordings.front().drive_kind);
 
   // The winner once more with a tighter integration: a difference is the integrator's, not the model's.
   ObjectiveOptions tight = options.objective;

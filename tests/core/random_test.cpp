@@ -1,13 +1,15 @@
 // Random streams: the generator's published answer, moments, independence, addressing; and word suggestions.
+#include "core/random.hpp"
+
 #include <Random123/philox.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <set>
 #include <vector>
 
-#include "core/random.hpp"
 #include "core/suggest.hpp"
 
 namespace hysteron {

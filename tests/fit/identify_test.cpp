@@ -1,0 +1,375 @@
+// Identification end to end: models find themselves again, linear fits are the closed form, runs resume, flags are
+// true.
+#include "fit/identify.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "synthetic.hpp"
+
+namespace hysteron {
+namespace {
+
+using testing::motion;
+using testing::random_points;
+using testing::set_drive;
+using testing::set_force;
+
+constexpr std::uint64_t seed = 4711;
+
+std::vector<Recording> motions() {
+  return {motion("slow.csv", {{0.022, 0.7}}, 3.0, 150, 0.3),
+          motion("fast.csv", {{0.009, 2.6}, {0.006, 4.1}}, 1.5, 150, 0.2),
+          motion("mixed.csv", {{0.015, 1.3}, {0.005, 3.3}}, 2.0, 150, 0.3)};
+}
+
+Campaign campaign_of(std::vector<Recording> recordings) {
+  Campaign campaign;
+  campaign.recordings = std::move(recordings);
+  campaign.roles.assign(campaign.recordings.size(), Role::unassigned);
+  return campaign;
+}
+
+// Forces of a viscous device with noise.
+Campaign viscous_campaign(double noise, double c0 = 3000.0, double k0 = 12000.0, double f0 = 40.0) {
+  auto recordings = motions();
+  for (std::size_t r = 0; r < recordings.size(); ++r) {
+    Recording& recording = recordings[r];
+    const Stream stream = Stream(seed).child("viscous").child(r);
+    for (std::size_t n = 0; n < recording.size(); ++n) {
+      recording.force.push_back(c0 * recording.velocity[n] + k0 * recording.displacement[n] + f0 +
+                                noise * stream.normal(n));
+    }
+  }
+  return campaign_of(recordings);
+}
+
+const Estimate& estimate_of(const Identification& result, const std::string& name) {
+  for (const Estimate& estimate : result.estimates) {
+    if (estimate.name == name) return estimate;
+  }
+  throw std::runtime_error("no estimate of " + name);
+}
+
+class EveryModel : public ::testing::TestWithParam<const Part*> {};
+
+TEST_P(EveryModel, FindsItselfAgain) {
+  const Part& part = *GetParam();
+  // A random point in the middle of the reference box, which is then the box of the search too.
+  IdentifyOptions options;
+  options.budget = 30000;
+  options.seed = seed;
+  options.objective.threads = 2;
+  std::size_t free = 0;
+  for (const Parameter& card : part.parameters) {
+    if (!card.fixed) {
+      options.layout.bounds[std::string(card.name)] = {card.lower, card.upper};
+      ++free;
+    }
+  }
+  if (free > 12) GTEST_SKIP() << free << " free parameters";
+  const Layout layout(make_model(part.id, {}), DataScale{}, options.layout);
+  const std::vector<double> truth = random_points(Stream(seed).child(part.id), 1, layout.dimension(), 0.25);
+  auto recordings = motions();
+  for (Recording& recording : recordings) set_force(recording, layout, layout.terms(truth), options.objective);
+  // Found when the cost is the rounding of the truth; the rest of the budget would only polish it.
+  const Identification result = identify(campaign_of(recordings), std::string(part.id), options,
+                                         [](const std::string&, const RunResult& run) { return run.cost > 1e-8; });
+  SCOPED_TRACE("seed " + std::to_string(seed));
+  EXPECT_LT(result.cost, 1e-4);
+  ASSERT_EQ(result.estimates.size(), layout.dimension());
+  std::size_t compared = 0;
+  for (std::size_t c = 0; c < layout.dimension(); ++c) {
+    const Estimate& estimate = result.estimates[c];
+    if (!estimate.identifiable || !estimate.std_error) continue;
+    ++compared;
+    const double u = layout.unit(c, estimate.term.value);
+    const double sigma = *estimate.std_error / layout.slope(c, u);
+    EXPECT_NEAR(u, truth[c], 2e-3 + 6.0 * sigma) << estimate.name << ", true " << layout.physical(c, truth[c]);
+  }
+  EXPECT_GT(compared, 0U);
+}
+
+INSTANTIATE_TEST_SUITE_P(Catalogue, EveryModel, ::testing::ValuesIn(model_catalogue().begin(), model_catalogue().end()),
+                         [](const auto& instance) {
+                           std::string name(instance.param->id);
+                           std::ranges::replace(name, '-', '_');
+                           return name;
+                         });
+
+TEST(Identify, ViscousFitIsTheClosedFormLeastSquares) {
+  SCOPED_TRACE("seed " + std::to_string(seed));
+  const Campaign campaign = viscous_campaign(25.0);
+  Eigen::MatrixXd rows(450, 3);
+  Eigen::VectorXd force(450);
+  Eigen::Index at = 0;
+  for (const Recording& recording : campaign.recordings) {
+    const double weight =
+        1.0 / (normaliser(recording, Normalisation::max_abs) * std::sqrt(static_cast<double>(recording.size())));
+    for (std::size_t n = 0; n < recording.size(); ++n, ++at) {
+      rows.row(at) << weight * recording.velocity[n], weight * recording.displacement[n], weight;
+      force[at] = weight * recording.force[n];
+    }
+  }
+  ASSERT_EQ(at, rows.rows());
+  const Eigen::VectorXd exact = rows.colPivHouseholderQr().solve(force);
+  const double cost = (rows * exact - force).norm() / std::sqrt(3.0);
+  for (const char* solver : {"multistart-lm", "lm"}) {
+    IdentifyOptions options;
+    options.solvers = {solver};
+    options.budget = 2000;
+    const Identification result = identify(campaign, "viscous", options, {});
+    EXPECT_NEAR(result.cost, cost, 1e-12) << solver;
+    EXPECT_NEAR(estimate_of(result, "c0").term.value, exact[0], 1e-8 * std::fabs(exact[0])) << solver;
+    EXPECT_NEAR(estimate_of(result, "k0").term.value, exact[1], 1e-8 * std::fabs(exact[1])) << solver;
+    EXPECT_NEAR(estimate_of(result, "f0").term.value, exact[2], 1e-8 * 1000.0) << solver;
+    // White residuals: the textbook covariance, up to its estimate of their correlation.
+    const Eigen::MatrixXd inverse = (rows.transpose() * rows).inverse();
+    const double expected = cost * std::sqrt(3.0 / 450.0 * inverse(0, 0));
+    const Estimate& c0 = estimate_of(result, "c0");
+    ASSERT_TRUE(c0.std_error.has_value());
+    EXPECT_NEAR(*c0.std_error, expected, 0.3 * expected) << solver;
+  }
+}
+
+// A run cut anywhere and told again what it was told goes on as if it had not been cut.
+class Resume : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(Resume, ReplayedAnswersGiveTheUninterruptedRun) {
+  const SolverEntry* entry = find_solver(GetParam());
+  ASSERT_NE(entry, nullptr);
+  LayoutOptions layout_options;
+  auto recordings = std::vector<Recording>{motion("m.csv", {{0.02, 1.1}}, 2.0, 90, 0.3)};
+  const Layout layout(make_model("bouc-wen", {}), DataScale{}, layout_options);
+  const std::vector<double> truth(layout.dimension(), 0.4);
+  set_force(recordings[0], layout, layout.terms(truth), {}, 0.01, Stream(seed));
+  const Objective objective(layout, recordings, {});
+  Problem problem;
+  problem.dimension = layout.dimension();
+  problem.budget = 900;
+  problem.stream = Stream(seed).child(entry->id);
+  problem.linear = layout.linear();
+  problem.start = layout.initial();
+  std::vector<Request> asked;
+  std::vector<Response> answers;
+  std::size_t counted = 0;
+  const RunResult whole = run_solver(*entry, problem, [&](const Request& request) {
+    counted += request.points.size() / layout.dimension() * (request.derivatives ? 1 + layout.dimension() : 1);
+    asked.push_back(request);
+    answers.push_back(objective.evaluate(request));
+    return answers.back();
+  });
+  EXPECT_EQ(counted, whole.evaluations);
+  EXPECT_LE(whole.evaluations, problem.budget);
+  if (whole.stopped == "budget") {
+    const std::size_t price = asked.back().derivatives ? 1 + layout.dimension() : 1;
+    EXPECT_GT(whole.evaluations + price, problem.budget);
+  }
+  ASSERT_GT(asked.size(), 1U);
+  for (const std::size_t cut : {asked.size() / 3, asked.size() - 1}) {
+    std::size_t call = 0;
+    const RunResult resumed = run_solver(*entry, problem, [&](const Request& request) {
+      const std::size_t k = call++;
+      EXPECT_EQ(request.points, asked.at(k).points) << "request " << k;
+      EXPECT_EQ(request.derivatives, asked.at(k).derivatives) << "request " << k;
+      return k < cut ? answers[k] : objective.evaluate(request);
+    });
+    EXPECT_EQ(resumed.best, whole.best);
+    EXPECT_EQ(resumed.cost, whole.cost);
+    EXPECT_EQ(resumed.evaluations, whole.evaluations);
+    EXPECT_EQ(resumed.stopped, whole.stopped);
+  }
+  // The cost reported is that of the point reported.
+  EXPECT_EQ(objective.evaluate({whole.best, asked.back().derivatives}).cost[0], whole.cost);
+}
+
+INSTANTIATE_TEST_SUITE_P(Solvers, Resume,
+                         ::testing::Values("pso", "ga", "cma-es", "de", "nelder-mead", "lm", "multistart-lm"),
+                         [](const auto& instance) {
+                           std::string name(instance.param);
+                           std::ranges::replace(name, '-', '_');
+                           return name;
+                         });
+
+TEST(Budget, IsSpentToTheLastEvaluationAndNotPassed) {
+  const Campaign campaign = viscous_campaign(10.0);
+  for (const std::size_t budget : {1, 7, 41, 100}) {
+    IdentifyOptions options;
+    options.solvers = {"pso"};
+    options.budget = budget;
+    std::size_t last = 0;
+    const Identification result = identify(campaign, "viscous", options, [&](const std::string&, const RunResult& run) {
+      last = run.evaluations;
+      return true;
+    });
+    EXPECT_EQ(result.solvers.at(0).run.evaluations, budget);
+    EXPECT_EQ(result.solvers.at(0).run.stopped, "budget");
+    EXPECT_EQ(last, budget);
+  }
+}
+
+TEST(Identify, StopsWhenTheObserverSaysSoAndKeepsTheBest) {
+  IdentifyOptions options;
+  options.solvers = {"pso"};
+  options.budget = 1000000;
+  std::size_t calls = 0;
+  const Identification result = identify(viscous_campaign(10.0), "viscous", options,
+                                         [&](const std::string&, const RunResult&) { return ++calls < 5; });
+  EXPECT_EQ(calls, 5U);
+  EXPECT_EQ(result.solvers.at(0).run.stopped, "interrupted");
+  EXPECT_LT(result.cost, 1.0);
+}
+
+TEST(Identify, SameSeedSameBitsOtherSeedOtherRun) {
+  const Campaign campaign = viscous_campaign(10.0);
+  const auto cost = [&](std::uint64_t of_seed, int threads) {
+    IdentifyOptions options;
+    options.solvers = {"pso"};
+    options.budget = 200;
+    options.seed = of_seed;
+    options.objective.threads = threads;
+    return identify(campaign, "viscous", options, {}).solvers.at(0).run.best;
+  };
+  EXPECT_EQ(cost(1, 1), cost(1, 7));
+  EXPECT_NE(cost(1, 1), cost(2, 1));
+}
+
+std::vector<Recording> eleven() {
+  std::vector<Recording> recordings;
+  for (int k = 0; k < 11; ++k) {
+    Recording recording = motion("r" + std::to_string(k) + ".csv", {{0.01 + 0.001 * (k % 4), 1.0}}, 1.0, 40, 0.0);
+    set_drive(recording, 0.1 * (k / 4));
+    for (std::size_t n = 0; n < recording.size(); ++n) recording.force.push_back(1000.0 * recording.velocity[n] + 1.0);
+    recordings.push_back(recording);
+  }
+  return recordings;
+}
+
+TEST(HeldOut, ChoiceIsAFifthSpreadOverTheDriveAndIndependentOfOrder) {
+  const auto recordings = eleven();
+  const auto chosen = choose_heldout(recordings);
+  EXPECT_EQ(chosen, choose_heldout(recordings));
+  ASSERT_EQ(chosen.size(), 2U);
+  EXPECT_NE(recordings[chosen[0]].drive[0], recordings[chosen[1]].drive[0]);
+  auto reversed = recordings;
+  std::ranges::reverse(reversed);
+  std::vector<std::string> names;
+  std::vector<std::string> reversed_names;
+  for (const std::size_t k : chosen) names.push_back(recordings[k].file);
+  for (const std::size_t k : choose_heldout(reversed)) reversed_names.push_back(reversed[k].file);
+  std::ranges::sort(names);
+  std::ranges::sort(reversed_names);
+  EXPECT_EQ(names, reversed_names);
+  EXPECT_TRUE(choose_heldout({recordings[0], recordings[1], recordings[2]}).empty());
+  EXPECT_EQ(choose_heldout({recordings[0], recordings[1], recordings[2], recordings[3]}).size(), 1U);
+}
+
+TEST(HeldOut, RolesAreFollowed) {
+  Campaign campaign = campaign_of(eleven());
+  campaign.roles.assign(11, Role::fit);
+  campaign.roles[4] = Role::validate;
+  for (double& force : campaign.recordings[4].force) force *= 2.0;  // would spoil the fit
+  IdentifyOptions options;
+  options.budget = 500;
+  const Identification result = identify(campaign, "viscous", options, {});
+  EXPECT_TRUE(result.roles_given);
+  EXPECT_EQ(result.heldout, std::vector<std::size_t>{4});
+  EXPECT_EQ(result.fitted.size(), 10U);
+  EXPECT_LT(result.cost, 1e-9);
+  ASSERT_TRUE(result.nrmse_heldout.has_value());
+  // A force twice that of the model leaves half of itself.
+  const Recording& held = campaign.recordings[4];
+  double square = 0.0;
+  for (const double force : held.force) square += 0.25 * force * force / static_cast<double>(held.size());
+  EXPECT_NEAR(*result.nrmse_heldout, std::sqrt(square) / normaliser(held, Normalisation::max_abs), 1e-6);
+  campaign.roles.assign(11, Role::validate);
+  EXPECT_THROW(identify(campaign, "viscous", options, {}), InputError);
+}
+
+TEST(HeldOut, WithoutRolesTheFinalFitIsOfAllRecordings) {
+  IdentifyOptions options;
+  options.budget = 500;
+  const Identification result = identify(campaign_of(eleven()), "viscous", options, {});
+  EXPECT_FALSE(result.roles_given);
+  EXPECT_EQ(result.heldout, choose_heldout(eleven()));
+  EXPECT_EQ(result.fitted.size(), 11U);
+  EXPECT_TRUE(result.nrmse_heldout.has_value());
+}
+
+TEST(AtBound, IsRaisedWhenTheTruthIsOutsideAndOnlyThen) {
+  IdentifyOptions options;
+  options.budget = 1000;
+  options.layout.bounds = {{"c0", {0.0, 1000.0}}, {"k0", {20000.0, 30000.0}}};
+  const Identification result = identify(viscous_campaign(5.0), "viscous", options, {});
+  EXPECT_EQ(estimate_of(result, "c0").at_bound, "upper");
+  EXPECT_EQ(estimate_of(result, "k0").at_bound, "lower");
+  EXPECT_FALSE(estimate_of(result, "f0").at_bound.has_value());
+  EXPECT_FALSE(estimate_of(result, "c0").std_error.has_value());
+  EXPECT_EQ(std::ranges::count_if(result.warnings, [](const auto& text) { return text.find("bound") != text.npos; }),
+            2);
+  options.layout.bounds.clear();
+  const Identification inside = identify(viscous_campaign(5.0), "viscous", options, {});
+  for (const Estimate& estimate : inside.estimates) {
+    EXPECT_FALSE(estimate.at_bound.has_value()) << estimate.name;
+    EXPECT_TRUE(estimate.identifiable) << estimate.name;
+    EXPECT_TRUE(estimate.std_error.has_value()) << estimate.name;
+  }
+}
+
+TEST(Identifiable, TwoOffsetsInOneModelAreFlaggedAndTheRestIsNot) {
+  IdentifyOptions options;
+  options.budget = 1000;
+  options.effects = {"offset-force"};
+  const Identification result = identify(viscous_campaign(5.0), "viscous", options, {});
+  ASSERT_EQ(result.estimates.size(), 4U);
+  EXPECT_TRUE(estimate_of(result, "c0").identifiable);
+  EXPECT_TRUE(estimate_of(result, "k0").identifiable);
+  EXPECT_FALSE(estimate_of(result, "f0").identifiable);
+  EXPECT_FALSE(result.estimates[3].identifiable) << result.estimates[3].name;
+  EXPECT_FALSE(result.estimates[3].std_error.has_value());
+}
+
+TEST(Identifiable, AccumulatorDeflectionBesideAnOffsetForceIsFlagged) {
+  IdentifyOptions options;
+  options.budget = 6000;
+  options.effects = {"offset-force"};
+  options.layout.bounds = {{"x0", {-0.05, 0.05}}, {"k1", {500.0, 20000.0}}};
+  options.layout.fix = {{"n", 1.5}, {"share", 0.5}};
+  const Layout layout(make_model("modified-bouc-wen", options.effects), DataScale{}, options.layout);
+  const std::vector<double> truth(layout.dimension(), 0.4);
+  auto recordings = motions();
+  for (std::size_t r = 0; r < recordings.size(); ++r) {
+    set_force(recordings[r], layout, layout.terms(truth), {}, 0.01, Stream(seed).child(r));
+  }
+  const Identification result = identify(campaign_of(recordings), "modified-bouc-wen", options, {});
+  for (const Estimate* estimate : {&estimate_of(result, "x0"), &result.estimates.back()}) {
+    EXPECT_FALSE(estimate->identifiable && !estimate->at_bound)
+        << estimate->name << " = " << estimate->term.value << " is called identified; x0 is at the "
+        << estimate_of(result, "x0").at_bound.value_or("inside") << ", f0 at the "
+        << result.estimates.back().at_bound.value_or("inside");
+  }
+  EXPECT_TRUE(estimate_of(result, "alpha").identifiable);
+  EXPECT_TRUE(estimate_of(result, "k1").identifiable);
+}
+
+TEST(Identify, RefusesWhatItCannotDo) {
+  const Campaign campaign = viscous_campaign(5.0);
+  IdentifyOptions options;
+  options.budget = 100;
+  EXPECT_THROW(identify(campaign, "viscus", options, {}), InputError);
+  options.solvers = {"psoo"};
+  EXPECT_THROW(identify(campaign, "viscous", options, {}), InputError);
+  options.solvers = {"pso"};
+  options.settings = {{"no-such-setting", 1.0}};
+  EXPECT_THROW(identify(campaign, "viscous", options, {}), InputError);
+  options.settings.clear();
+  options.layout.fix = {{"c0", 1.0}, {"k0", 1.0}, {"f0", 1.0}};
+  EXPECT_THROW(identify(campaign, "viscous", options, {}), InputError);
+}
+
+}  // namespace
+}  // namespace hysteron
