@@ -81,7 +81,8 @@ struct GuoHu {
   }
   template <class T>
   static T stiffness(const std::array<T, 7>& p, double /*speed*/) {
-    return T(1.0) / p[5];
+    // Four times the bound: the acceleration is the lagged velocity's error over tau.
+    return T(4.0) / p[5];
   }
   template <class T>
   static T force(const std::array<T, 7>& p, const std::array<T, 1>& s, const Input<T>& in, const T& /*below*/) {
