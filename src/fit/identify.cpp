@@ -165,8 +165,9 @@ void estimate_errors(Identification& result, const Objective& objective, const s
       estimate.at_bound = bound;
       estimate.identifiable = !law_open;
       const auto row = static_cast<Eigen::Index>(t);
-      if (!law_open && law_free) {
-        estimate.std_error = std::sqrt(std::max(term_covariance(row, row), 0.0));
+      // A term all of whose nodes sit on bounds has no error to state, not the error zero.
+      if (!law_open && law_free && term_covariance(row, row) > 0.0) {
+        estimate.std_error = std::sqrt(term_covariance(row, row));
       }
       result.estimates.push_back(std::move(estimate));
     }
@@ -270,23 +271,19 @@ Identification identify(const Campaign& campaign, const std::string& model, cons
 
   const bool refit = !roles && !heldout.empty();
   const Objective final_objective(layout, pick(campaign.recordings, refit ? all : fitted), options.objective);
-  if (refit || !entries[result.chosen]->uses_derivatives) {
-    // All recordings, and the last digits: a descent from what was found, and a few others against a bad optimum.
-    const SolverEntry* entry = find_solver(refit && entries[result.chosen]->uses_derivatives ? "multistart-lm" : "lm");
-    if (refit) {
-      IdentifyOptions polish = options;
-      polish.settings.clear();
-      const RunResult run = run_solver(
-          *entry, make_problem(final_objective, *entry, polish, "refit", best),
-          [&](const Request& request) { return final_objective.evaluate(request); },
-          [&](const RunResult& partial) {
-            return !progress || progress(std::string(entry->id) + ": final fit on all recordings", partial);
-          });
-      best = run.best;
-      result.cost = run.cost;
-    }
-  }
   if (refit) {
+    // From what was found; other starts only where the chosen solver descends too.
+    const SolverEntry* entry = find_solver(entries[result.chosen]->uses_derivatives ? "multistart-lm" : "lm");
+    IdentifyOptions polish = options;
+    polish.settings.clear();
+    const RunResult run = run_solver(
+        *entry, make_problem(final_objective, *entry, polish, "refit", best),
+        [&](const Request& request) { return final_objective.evaluate(request); },
+        [&](const RunResult& partial) {
+          return !progress || progress(std::string(entry->id) + ": final fit on all recordings", partial);
+        });
+    best = run.best;
+    result.cost = run.cost;
     result.fitted = all;
   }
   result.terms = layout.terms(best);

@@ -33,7 +33,7 @@ struct Motion {
   std::vector<double> v;
   std::vector<double> drive;  // empty: zero
   std::vector<MotionInterval> intervals;
-  // Largest |lambda| h a sub-step may have: 0.3 at the default tolerance of 1e-4 of peak force.
+  // Largest |lambda| h a sub-step may have: 0.5 at the default tolerance of 1e-4 of peak force.
   double step_limit = 0.5;
 };
 
