@@ -313,4 +313,9 @@ Identification identify(const Campaign& campaign, const std::string& model, cons
   return result;
 }
 
+void estimate(Identification& result, const Objective& objective, const std::vector<double>& point,
+              DriveKind drive_kind) {
+  estimate_errors(result, objective, point, drive_kind);
+}
+
 }  // namespace hysteron

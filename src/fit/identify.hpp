@@ -62,4 +62,9 @@ using Progress = std::function<bool(const std::string& stage, const RunResult& r
 Identification identify(const Campaign& campaign, const std::string& model, const IdentifyOptions& options,
                         const Progress& progress);
 
+// Estimates of every searched term at a point: value, standard error, bounds met, identifiability. Sets
+// result.estimates; result.layout and result.terms must be those of the point.
+void estimate(Identification& result, const Objective& objective, const std::vector<double>& point,
+              DriveKind drive_kind);
+
 }  // namespace hysteron

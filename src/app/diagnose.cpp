@@ -1,0 +1,248 @@
+// hysteron diagnose: names the physics a model leaves out, writes diagnosis.json, model.json, report.html.
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+#include <memory>
+
+#include "app/command.hpp"
+#include "app/model_file.hpp"
+#include "app/page.hpp"
+#include "core/error.hpp"
+#include "diagnose/record.hpp"
+#include "io/output.hpp"
+#include "report/html.hpp"
+#include "report/terminal.hpp"
+
+namespace hysteron::app {
+namespace {
+
+using nlohmann::json;
+
+struct Options {
+  DataOptions data;
+  CommonOptions common;
+  std::string model;
+  std::string by_current;
+  std::string by_frequency;
+  std::vector<std::string> effects;
+  int most_effects = 4;
+  bool json = false;
+  std::string out;
+};
+
+// Thrown by the progress callback to leave the work.
+struct Interrupted {};
+
+std::string explanation(const Diagnosis& diagnosis) {
+  const std::string& word = diagnosis.verdict.word;
+  if (word == "complete") {
+    return "Nothing but noise is left: the base model is complete for these recordings.";
+  }
+  if (word == "missing-physics") {
+    return diagnosis.verdict.remaining_structure ? "Physics is missing; what is named below is not the whole story."
+                                                 : "Physics is missing, and what is named below explains it.";
+  }
+  if (word == "ambiguous") {
+    return "Physics is missing; these recordings cannot tell the candidates below apart.";
+  }
+  return "The model misses something, and no known effect explains it.";
+}
+
+Identification identification_of(const Diagnosis& diagnosis, const Campaign& campaign, const ObjectiveOptions& objective,
+                                 bool roles) {
+  const Fit& fit = diagnosis.final;
+  Identification result{*fit.layout, fit.terms, {}, {}, 0, fit.cost, fit.heldout, {}, {}, roles, {}};
+  std::vector<Recording> fitted;
+  for (std::size_t k = 0; k < campaign.recordings.size(); ++k) {
+    const bool judged = roles && campaign.roles[k] == Role::validate;
+    if (judged) {
+      result.heldout.push_back(k);
+    } else {
+      result.fitted.push_back(k);
+      fitted.push_back(campaign.recordings[k]);
+    }
+  }
+  SolverOutcome outcome;
+  outcome.run.solver = "multistart-lm";
+  outcome.run.cost = fit.cost;
+  result.solvers.push_back(outcome);
+  estimate(result, Objective(*fit.layout, fitted, objective), fit.point, campaign.recordings.front().drive_kind);
+  return result;
+}
+
+void print_summary(const Diagnosis& diagnosis, const std::filesystem::path& out) {
+  const Search& search = diagnosis.search;
+  fmt::print("verdict: {}\n{}\n\n", diagnosis.verdict.word, explanation(diagnosis));
+  fmt::print("{}\n", table({"model", "NRMSE fit", "NRMSE held out"},
+                           {{search.base.what.model, format_number(search.base.cost, 4), format_number(search.base.heldout, 4)},
+                            {"augmented", format_number(search.augmented.cost, 4), format_number(search.augmented.heldout, 4)},
+                            {"noise floor (" + diagnosis.noise_floor_method + ")", format_number(diagnosis.noise_floor, 4), ""}}));
+  for (std::size_t k = 0; k < diagnosis.sentences.size(); ++k) {
+    fmt::print("- {} (confidence {:.0f} %)\n", diagnosis.sentences[k], 100.0 * diagnosis.verdict.effects[k].confidence);
+  }
+  if (!diagnosis.locations.empty()) {
+    fmt::print("\nwhere the base model's misfit sits:\n");
+    for (const Location& location : diagnosis.locations) {
+      fmt::print("- {}: {:.0f} % of the misfit in {:.0f} % of the samples\n", location.where,
+                 100.0 * location.share_of_misfit, 100.0 * location.share_of_samples);
+    }
+  }
+  std::string hidden;
+  for (const Unobservable& row : diagnosis.not_observable) {
+    if (!row.reason.empty()) {
+      hidden += "- " + row.id + ": " + row.reason + "\n";
+    }
+  }
+  if (!hidden.empty()) {
+    fmt::print("\nnot observable in these recordings:\n{}", hidden);
+  }
+  fmt::print("\nnext experiment: {}\n", diagnosis.next_experiment);
+  for (const std::string& note : diagnosis.notes) {
+    fmt::print("note: {}\n", note);
+  }
+  fmt::print("report: {}\n", (out / "report.html").string());
+}
+
+void run(const Options& options) {
+  const auto begun = std::chrono::steady_clock::now();
+  const Campaign campaign = load(options.data);
+  DiagnoseOptions diagnose_with;
+  diagnose_with.model = !options.model.empty() ? options.model : (campaign.model.empty() ? "bouc-wen" : campaign.model);
+  diagnose_with.layout.by_current =
+      options.by_current.empty() ? campaign.by_current : parse_orders("--by-current", options.by_current);
+  diagnose_with.layout.by_frequency =
+      options.by_frequency.empty() ? campaign.by_frequency : parse_orders("--by-frequency", options.by_frequency);
+  diagnose_with.objective = objective_options(options.common);
+  diagnose_with.seed = options.common.seed;
+  diagnose_with.most_effects = options.most_effects;
+  diagnose_with.candidates = options.effects;
+  // Wrong names are told before any work.
+  make_model(diagnose_with.model, {});
+  for (const std::string& effect : options.effects) {
+    make_model(diagnose_with.model, {effect});
+  }
+  for (const Recording& recording : campaign.recordings) {
+    normaliser(recording, diagnose_with.objective.normalisation);
+  }
+  if (std::filesystem::exists(options.out) && !std::filesystem::is_directory(options.out)) {
+    throw InputError(options.out, 0, "exists and is not a folder, expected a folder for the results");
+  }
+
+  ProgressLine progress(options.common.quiet);
+  std::unique_ptr<Diagnosis> diagnosis;
+  try {
+    diagnosis = diagnose(campaign, diagnose_with, [&](double share, const std::string& stage) {
+      progress.show(stage, share, fmt::format("{:.0f} %", 100.0 * share));
+      if (interrupted()) {
+        throw Interrupted{};
+      }
+    });
+  } catch (const Interrupted&) {
+    progress.finish();
+    throw WorkError("interrupted before the diagnosis was done: nothing was written");
+  }
+  progress.finish();
+  make_output_folder(options.out);
+
+  const bool roles = std::ranges::any_of(campaign.roles, [](Role role) { return role == Role::validate; });
+  const Identification result = identification_of(*diagnosis, campaign, diagnose_with.objective, roles);
+  IdentifyOptions stored;
+  stored.seed = diagnose_with.seed;
+  stored.objective = diagnose_with.objective;
+  stored.layout = diagnose_with.layout;
+  for (const ParameterLaw& law : result.layout.laws()) {
+    if (law.drive_nodes.size() > 1) {
+      stored.layout.by_current[result.layout.names()[law.parameter]] = static_cast<int>(law.drive_nodes.size()) - 1;
+    }
+  }
+  const json model_file = model_json(result, campaign, stored);
+  const json diagnosis_file = diagnosis_json(*diagnosis);
+
+  json rows = json::array();
+  json page_recordings = json::array();
+  json data = json::array();
+  for (const Recording& recording : campaign.recordings) {
+    const Target target = make_target(recording, diagnose_with.objective);
+    Prediction prediction;
+    prediction.force = predict(result.layout.model(), result.layout.held(), result.terms, target);
+    prediction.score = score(prediction.force, recording, diagnose_with.objective.normalisation);
+    const Fit& base = diagnosis->search.base;
+    const bool judged = std::ranges::any_of(diagnosis->bench.split().judge, [&](const Judged& one) {
+      return one.recording.file == recording.file && one.from == 0;
+    });
+    page_recordings.push_back(recording_json(recording, prediction, judged ? "held out in the check" : "fit",
+                                             predict(base.layout->model(), base.layout->held(), base.terms, target)));
+    data.push_back({{"file", recording.file}, {"sha256", recording.sha256}});
+  }
+  json page = {{"title", "Diagnosis of " + std::string(result.layout.model().law->title)},
+               {"subtitle", fmt::format("{} recordings", campaign.recordings.size())},
+               {"version", HYSTERON_VERSION},
+               {"command", command_line()},
+               {"seed", options.common.seed},
+               {"normalisation", word_of(diagnose_with.objective.normalisation)},
+               {"weighting", options.common.weighting},
+               {"recordings", page_recordings},
+               {"data", data},
+               {"diagnosis", diagnosis_file},
+               {"notes", diagnosis->notes},
+               {"warnings", json::array()},
+               {"solvers", json::array()},
+               {"provenance", model_file["provenance"]}};
+  std::vector<std::string> equations(result.layout.model().law->equations.begin(), result.layout.model().law->equations.end());
+  for (const Part* effect : result.layout.model().effects) {
+    equations.insert(equations.end(), effect->equations.begin(), effect->equations.end());
+  }
+  page["model"] = {{"id", result.layout.model().law->id},
+                   {"title", result.layout.model().law->title},
+                   {"equations", equations},
+                   {"reference", result.layout.model().law->reference}};
+  page["parameters"] = json::array();
+  for (const Estimate& row : result.estimates) {
+    page["parameters"].push_back(estimate_json(row, result.layout));
+  }
+  const Search& search = diagnosis->search;
+  page["summary"] = json::array(
+      {{{"label", "Held-out NRMSE, base model"}, {"value", format_number(search.base.heldout, 3)}, {"note", search.base.what.model}},
+       {{"label", "Held-out NRMSE, augmented"},
+        {"value", format_number(search.augmented.heldout, 3)},
+        {"note", diagnosis->bench.split().how}},
+       {{"label", "Noise floor"}, {"value", format_number(diagnosis->noise_floor, 3)}, {"note", diagnosis->noise_floor_method}}});
+
+  const std::filesystem::path out(options.out);
+  write_file_atomically(out / "diagnosis.json", json_text(diagnosis_file));
+  write_file_atomically(out / "model.json", json_text(model_file));
+  write_file_atomically(out / "report.html", fit_report_html(page));
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+  write_file_atomically(out / "environment.json", json_text(environment(options.common.threads, seconds)));
+  if (options.json) {
+    fmt::print("{}", json_text(diagnosis_file));
+  } else {
+    print_summary(*diagnosis, out);
+  }
+}
+
+}  // namespace
+
+void add_diagnose(CLI::App& program) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = program.add_subcommand("diagnose", "finds where recording and simulation differ and names the missing physics");
+  add_data_options(*command, options->data);
+  command->add_option("--model", options->model, "base damper law; default campaign.toml's, else bouc-wen");
+  command->add_option("--by-current", options->by_current, "parameters that are polynomials in the drive, e.g. alpha:1,c0:1");
+  command->add_option("--by-frequency", options->by_frequency, "parameters that are polynomials in frequency");
+  command->add_option("--effects", options->effects, "effects to consider; default all, see `hysteron list effects`")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  command->add_option("--most-effects", options->most_effects, "effects the augmented model may have")
+      ->check(CLI::Range(1, 7))
+      ->capture_default_str();
+  command->add_flag("--json", options->json, "diagnosis.json on standard output too");
+  command->add_option("--out", options->out, "folder for diagnosis.json, model.json, report.html")->required();
+  add_common_options(*command, options->common);
+  command->footer(
+      "Example:\n  hysteron diagnose recordings/ --model bouc-wen --by-current alpha:1,c0:1 --out out");
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace hysteron::app

@@ -1,0 +1,24 @@
+// Rows of the report page that fit and diagnose share.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "fit/identify.hpp"
+
+namespace hysteron::app {
+
+struct Prediction {
+  std::vector<double> force;  // N
+  Score score;
+};
+
+// A recording with its prediction, thinned to what a page can show; `baseline` (N, may be empty) is the force of the
+// model before it was augmented.
+nlohmann::json recording_json(const Recording& recording, const Prediction& prediction, const std::string& role,
+                              const std::vector<double>& baseline = {});
+
+nlohmann::json estimate_json(const Estimate& estimate, const Layout& layout);
+
+}  // namespace hysteron::app

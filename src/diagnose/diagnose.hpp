@@ -1,0 +1,58 @@
+// The whole diagnosis of a campaign: base fit, noise, search, place, verdict.
+#pragma once
+
+#include <memory>
+
+#include "diagnose/locate.hpp"
+#include "diagnose/observe.hpp"
+#include "diagnose/verdict.hpp"
+
+namespace hysteron {
+
+struct DiagnoseOptions {
+  std::string model;
+  LayoutOptions layout;        // laws of the base model; none given and a drive that varies: see base_laws
+  ObjectiveOptions objective;
+  std::uint64_t seed = 1;
+  int most_effects = 4;
+  std::vector<std::string> candidates;  // empty: every effect of the catalogue
+};
+
+struct ParameterInterval {
+  std::string name;
+  std::string unit;
+  double value = 0.0;
+  std::optional<double> std_error;
+};
+
+struct Rejected {
+  std::string id;
+  std::string reason;
+  double p = 1.0;
+};
+
+struct Diagnosis {
+  Workbench bench;
+  Search search;
+  Verdict verdict;
+  double noise_floor = 0.0;        // NRMSE over the fitted recordings
+  std::string noise_floor_method;
+  std::vector<Location> locations;
+  std::vector<std::vector<ParameterInterval>> parameters;  // of verdict.effects
+  std::vector<std::string> sentences;                      // likewise
+  std::vector<Rejected> rejected;
+  std::vector<Unobservable> not_observable;
+  std::string next_experiment;
+  Fit final;                       // the augmented model fitted to everything that may be fitted
+  std::vector<std::string> notes;
+};
+
+// Orders of the laws of a base model when none are given: every parameter that is a force or a damping force and has
+// a drive to depend on becomes linear in it.
+std::map<std::string, int> base_laws(const std::string& model, const std::vector<Recording>& recordings);
+
+// Throws InputError for an unknown model or a campaign that leaves nothing to fit.
+std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const DiagnoseOptions& options,
+                                    const SearchProgress& progress);
+
+}  // namespace hysteron

@@ -1,0 +1,179 @@
+#include "diagnose/observe.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "io/velocity.hpp"
+
+namespace hysteron {
+namespace {
+
+bool drive_varies(const Recording& recording) {
+  if (recording.drive.empty()) {
+    return false;
+  }
+  const auto [low, high] = std::ranges::minmax(recording.drive);
+  return high - low > 0.02 * std::max(std::fabs(low), std::fabs(high));
+}
+
+std::size_t drive_levels(const std::vector<Recording>& recordings) {
+  std::set<long> levels;
+  for (const Recording& recording : recordings) {
+    for (const double drive : recording.drive) {
+      levels.insert(std::lround(100.0 * drive));
+    }
+  }
+  return levels.size();
+}
+
+}  // namespace
+
+std::optional<std::string> excluded_by_inputs(const std::string& effect, const std::vector<Recording>& recordings) {
+  const bool varies = std::ranges::any_of(recordings, drive_varies);
+  const bool has_drive = std::ranges::any_of(recordings, [](const Recording& r) { return !r.drive.empty(); });
+  if (effect == "coil-lag" || effect == "magnetic-remanence") {
+    if (!has_drive) {
+      return "no current or voltage was recorded";
+    }
+    if (!varies) {
+      return "the current is constant in every recording";
+    }
+  }
+  if (effect == "magnetic-saturation") {
+    if (!has_drive) {
+      return "no current or voltage was recorded";
+    }
+    if (drive_levels(recordings) < 3) {
+      return "fewer than three current levels: saturation looks like another slope of the force with current";
+    }
+  }
+  if (effect == "velocity-lag") {
+    const std::optional<ChannelLag> lag = velocity_channel_lag(recordings);
+    if (!lag) {
+      return "the velocity was not recorded but derived from the displacement without lag";
+    }
+    if (std::fabs(lag->lag) < std::max(3.0 * lag->std_error, 1e-4)) {
+      return fmt::format("the recorded velocity agrees with the slope of the displacement: lag {:.2g} ms",
+                         1e3 * lag->lag);
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<ChannelLag> velocity_channel_lag(const std::vector<Recording>& recordings) {
+  double cross = 0.0;
+  double energy = 0.0;
+  double squares = 0.0;
+  double neighbours = 0.0;
+  std::size_t samples = 0;
+  for (const Recording& recording : recordings) {
+    if (!recording.velocity_measured || recording.size() < 16) {
+      continue;
+    }
+    const std::vector<double> slope = derive_velocity(recording.time, recording.displacement);
+    double peak = 0.0;
+    for (const double v : slope) {
+      peak = std::max(peak, std::fabs(v));
+    }
+    // d(slope)/dt times -lag is the first-order difference of a lagged channel; normalised so that recordings count alike.
+    double before = 0.0;
+    for (std::size_t n = 1; n + 1 < slope.size(); ++n) {
+      const double acceleration =
+          (slope[n + 1] - slope[n - 1]) / (recording.time[n + 1] - recording.time[n - 1]) / std::max(peak, 1e-12);
+      const double difference = (recording.velocity[n] - slope[n]) / std::max(peak, 1e-12);
+      cross -= difference * acceleration;
+      energy += acceleration * acceleration;
+      squares += difference * difference;
+      neighbours += difference * before;
+      before = difference;
+      ++samples;
+    }
+  }
+  if (samples == 0 || !(energy > 0.0)) {
+    return std::nullopt;
+  }
+  ChannelLag result;
+  result.lag = cross / energy;
+  const double left = std::max(squares - result.lag * result.lag * energy, 0.0);
+  const double r = squares > 0.0 ? std::clamp(neighbours / squares, 0.0, 0.99) : 0.0;
+  result.std_error = std::sqrt(left / static_cast<double>(samples) / energy * (1.0 + r) / (1.0 - r));
+  return result;
+}
+
+std::vector<Unobservable> detection_limits(const Workbench& bench, const Fit& fit, const Misfit& misfit,
+                                           const std::vector<std::string>& effects) {
+  std::vector<Unobservable> result(effects.size());
+  for (std::size_t k = 0; k < effects.size(); ++k) {
+    const std::string& id = effects[k];
+    result[k].id = id;
+    Hypothesis what = fit.what;
+    what.effects.push_back(id);
+    const Layout layout = bench.layout(what);
+    // The fit's values, the effect at its neutral size but, where that hides its response, a little off it.
+    std::vector<double> point = layout.initial();
+    std::size_t size_at = layout.dimension();
+    for (std::size_t c = 0; c < layout.dimension(); ++c) {
+      const std::string& name = layout.names()[layout.coordinates()[c].parameter];
+      const bool fresh = name.starts_with(id + ".");
+      if (fresh && size_at == layout.dimension()) {
+        size_at = c;
+      }
+      if (!fresh) {
+        for (std::size_t f = 0; f < fit.layout->dimension(); ++f) {
+          const Coordinate& known = fit.layout->coordinates()[f];
+          if (fit.layout->names()[known.parameter] == name && known.node == layout.coordinates()[c].node) {
+            point[c] = fit.point[f];
+          }
+        }
+      }
+    }
+    if (size_at == layout.dimension()) {
+      result[k].reason = "its parameters are all held";
+      continue;
+    }
+    point[size_at] = std::clamp(point[size_at] + (point[size_at] > 0.9 ? -0.02 : 0.02), 0.0, 1.0);
+    const Response response = Objective(layout, bench.split().fit, bench.options()).evaluate({point, true});
+    const auto d = static_cast<Eigen::Index>(layout.dimension());
+    const Eigen::Map<const Eigen::MatrixXd> full(response.gauss_newton.data(), d, d);
+    std::vector<Eigen::Index> others;
+    for (Eigen::Index c = 0; c < d; ++c) {
+      if (!layout.names()[layout.coordinates()[static_cast<std::size_t>(c)].parameter].starts_with(id + ".") &&
+          full(c, c) > 0.0) {
+        others.push_back(c);
+      }
+    }
+    const auto s = static_cast<Eigen::Index>(size_at);
+    const double sensitivity = full(s, s);
+    if (!(sensitivity > 0.0) || response.cost[0] >= diverged_cost) {
+      result[k].reason = "it changes no force on these motions";
+      continue;
+    }
+    const auto m = static_cast<Eigen::Index>(others.size());
+    Eigen::MatrixXd base(m, m);
+    Eigen::VectorXd cross(m);
+    for (Eigen::Index i = 0; i < m; ++i) {
+      for (Eigen::Index j = 0; j < m; ++j) {
+        base(i, j) = full(others[static_cast<std::size_t>(i)], others[static_cast<std::size_t>(j)]);
+      }
+      cross[i] = full(others[static_cast<std::size_t>(i)], s);
+    }
+    base.diagonal() *= 1.0 + 1e-9;
+    const double kept = (sensitivity - cross.dot(base.ldlt().solve(cross))) / sensitivity;
+    if (!(kept > 1e-5)) {
+      result[k].reason = "the other parameters imitate it entirely on these recordings";
+      continue;
+    }
+    // size^2 * sensitivity * kept / squares * effective = what the criterion asks for.
+    const double asked = 12.0 + std::log(misfit.effective);
+    const double response_share = std::sqrt(asked * misfit.squares / (misfit.effective * kept));
+    result[k].detection_limit =
+        fmt::format("a force below {:.2g} % of the peak force (root mean square)", 100.0 * response_share);
+  }
+  return result;
+}
+
+}  // namespace hysteron

@@ -1,0 +1,75 @@
+#include "diagnose/record.hpp"
+
+namespace hysteron {
+
+using nlohmann::json;
+
+json diagnosis_json(const Diagnosis& diagnosis) {
+  const Search& search = diagnosis.search;
+  json effects = json::array();
+  for (std::size_t k = 0; k < diagnosis.verdict.effects.size(); ++k) {
+    const Named& named = diagnosis.verdict.effects[k];
+    json parameters = json::array();
+    for (const ParameterInterval& p : diagnosis.parameters[k]) {
+      parameters.push_back({{"name", p.name},
+                            {"value", p.value},
+                            {"unit", p.unit},
+                            {"ci95", p.std_error ? json{p.value - 1.96 * *p.std_error, p.value + 1.96 * *p.std_error}
+                                                 : json(nullptr)}});
+    }
+    effects.push_back({{"id", named.id},
+                       {"confidence", named.confidence},
+                       {"indistinguishable_from", named.indistinguishable_from},
+                       {"sentence", diagnosis.sentences[k]},
+                       {"parameters", parameters},
+                       {"nrmse_heldout_before", named.without->heldout},
+                       {"nrmse_heldout_after", named.fit->heldout},
+                       {"share_of_misfit", named.share_of_misfit}});
+  }
+  json locations = json::array();
+  for (const Location& location : diagnosis.locations) {
+    locations.push_back({{"where", location.where},
+                         {"variable", location.variable},
+                         {"from", location.from},
+                         {"to", location.to},
+                         {"unit", location.unit},
+                         {"share_of_misfit", location.share_of_misfit},
+                         {"share_of_samples", location.share_of_samples},
+                         {"recordings", location.recordings}});
+  }
+  json rejected = json::array();
+  for (const Rejected& row : diagnosis.rejected) {
+    rejected.push_back({{"id", row.id}, {"reason", row.reason}, {"p", row.p}});
+  }
+  json hidden = json::array();
+  for (const Unobservable& row : diagnosis.not_observable) {
+    if (row.reason.empty()) {
+      hidden.push_back({{"id", row.id}, {"detection_limit", row.detection_limit}});
+    } else {
+      hidden.push_back({{"id", row.id}, {"reason", row.reason}});
+    }
+  }
+  return {{"schema", "hysteron.diagnosis/1"},
+          {"baseline",
+           {{"model", search.base.what.model},
+            {"nrmse_fit", search.base.cost},
+            {"nrmse_heldout", search.base.heldout},
+            {"noise_floor_nrmse", diagnosis.noise_floor},
+            {"noise_floor_method", diagnosis.noise_floor_method}}},
+          {"verdict", diagnosis.verdict.word},
+          {"effects", effects},
+          {"locations", locations},
+          {"rejected", rejected},
+          {"not_observable", hidden},
+          {"augmented",
+           {{"model", search.augmented.what.model},
+            {"effects", search.augmented.what.effects},
+            {"richer_laws", search.augmented.what.richer},
+            {"nrmse_fit", search.augmented.cost},
+            {"nrmse_heldout", search.augmented.heldout},
+            {"remaining_structure", diagnosis.verdict.remaining_structure}}},
+          {"next_experiment", diagnosis.next_experiment},
+          {"notes", diagnosis.notes}};
+}
+
+}  // namespace hysteron

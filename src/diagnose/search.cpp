@@ -1,0 +1,294 @@
+#include "diagnose/search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "diagnose/noise.hpp"
+#include "diagnose/structure.hpp"
+
+namespace hysteron {
+namespace {
+
+// Rounds of a first look, and of a fit that is compared with others.
+constexpr int screening_rounds = 7;
+constexpr int fitting_rounds = 18;
+constexpr std::size_t survivors = 8;
+// An effect is worth a place when the criterion gains this much (on top of what choosing among many costs), and the
+// squared error falls by this share.
+constexpr double least_evidence = 6.0;
+constexpr double least_gain = 0.01;
+
+bool is_law(const std::string& id) { return id.starts_with("law:"); }
+
+Hypothesis with(const Hypothesis& what, const std::string& id) {
+  Hypothesis result = what;
+  if (is_law(id)) {
+    result.richer.push_back(id.substr(4));
+  } else {
+    result.effects.push_back(id);
+  }
+  return result;
+}
+
+Hypothesis without(const Hypothesis& what, const std::string& id) {
+  Hypothesis result = what;
+  std::erase(result.effects, id);
+  if (is_law(id)) {
+    const auto found = std::ranges::find(result.richer, id.substr(4));
+    if (found != result.richer.end()) {
+      result.richer.erase(found);
+    }
+  }
+  return result;
+}
+
+bool contains(const Hypothesis& what, const std::string& id) {
+  return is_law(id) ? std::ranges::find(what.richer, id.substr(4)) != what.richer.end()
+                    : std::ranges::find(what.effects, id) != what.effects.end();
+}
+
+// Parameters whose law in the drive could have one more order: as many as there are drive levels allow.
+std::vector<std::string> law_candidates(const Workbench& bench, const Hypothesis& base) {
+  std::set<long> levels;
+  bool varies = false;
+  for (const Recording& recording : bench.split().fit) {
+    if (recording.drive.empty()) {
+      return {};
+    }
+    const auto [low, high] = std::ranges::minmax(recording.drive);
+    varies = varies || high - low > 0.02 * std::max(std::fabs(low), std::fabs(high));
+    levels.insert(std::lround(1e3 * 0.5 * (low + high)));
+  }
+  const int most = varies ? 3 : static_cast<int>(levels.size()) - 1;
+  std::vector<std::string> result;
+  const Layout layout = bench.layout(base);
+  for (const ParameterLaw& law : layout.laws()) {
+    if (static_cast<int>(law.drive_nodes.size()) <= most) {
+      result.push_back("law:" + layout.names()[law.parameter]);
+    }
+  }
+  return result;
+}
+
+double squared(double value) { return value * value; }
+
+Tried weighed(const std::string& id, const Fit& fit, const Fit& before, double effective) {
+  Tried tried;
+  tried.id = id;
+  tried.fit = fit;
+  tried.gain = squared(before.cost) - squared(fit.cost);
+  tried.heldout_gain = squared(before.heldout) - squared(fit.heldout);
+  tried.evidence = evidence(squared(before.cost), squared(fit.cost),
+                            static_cast<double>(fit.dimension()) - static_cast<double>(before.dimension()), effective);
+  return tried;
+}
+
+// All candidates behind `before`, a few rounds each, the best taken further; best first.
+std::vector<Tried> stage(const Workbench& bench, const Fit& before, const std::vector<std::string>& candidates,
+                         double effective) {
+  std::vector<std::string> ids;
+  std::vector<Hypothesis> hypotheses;
+  for (const std::string& id : candidates) {
+    if (!contains(before.what, id) || is_law(id)) {
+      ids.push_back(id);
+      hypotheses.push_back(with(before.what, id));
+    }
+  }
+  std::vector<Fit> fits = bench.from_fit(hypotheses, before, screening_rounds);
+  std::vector<std::size_t> order(fits.size());
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    order[k] = k;
+  }
+  std::ranges::stable_sort(order, {}, [&](std::size_t k) { return fits[k].cost; });
+  const std::size_t count = std::min(survivors, order.size());
+  std::vector<Fit> best;
+  for (std::size_t k = 0; k < count; ++k) {
+    best.push_back(fits[order[k]]);
+  }
+  best = bench.polished(best, fitting_rounds);
+  std::vector<Tried> result;
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    result.push_back(weighed(ids[order[k]], k < count ? best[k] : fits[order[k]], before, effective));
+  }
+  std::ranges::stable_sort(result, [](const Tried& a, const Tried& b) { return a.evidence > b.evidence; });
+  return result;
+}
+
+bool worth(const Tried& tried, const Fit& before, double candidates) {
+  const double relative = tried.gain / squared(before.cost);
+  const double relative_heldout = tried.heldout_gain / squared(before.heldout);
+  return tried.evidence > least_evidence + 2.0 * std::log(candidates) && relative > least_gain &&
+         relative_heldout > -0.005;
+}
+
+}  // namespace
+
+double evidence(double before, double after, double more, double effective) {
+  return effective * std::log(before / after) - more * std::log(effective);
+}
+
+Misfit misfit_of(const Workbench& bench, const Fit& fit) {
+  Misfit result;
+  double cross = 0.0;
+  double energy = 0.0;
+  double predictable = 0.0;
+  double structure = 0.0;
+  const std::vector<Recording>& recordings = bench.split().fit;
+  for (const Recording& recording : recordings) {
+    const std::vector<double> r = bench.residual(fit, recording);
+    const double norm = normaliser(recording, bench.options().normalisation);
+    double squares = 0.0;
+    for (std::size_t n = 0; n < r.size(); ++n) {
+      squares += r[n] * r[n];
+      if (n > 0) {
+        cross += r[n] * r[n - 1] / (norm * norm);
+      }
+    }
+    energy += squares / (norm * norm);
+    const double mean = squares / static_cast<double>(r.size()) / (norm * norm);
+    const double share = std::max(0.0, predictable_share(recording, r));
+    predictable += share * mean;
+    const NoiseFloor floor = noise_floor(recording);
+    const double noise = squared(floor.sigma / norm);
+    // Periods tell the noise whatever its colour; without them only what repeats with the motion is surely not noise.
+    structure += floor.method == "cycles" ? std::max(0.0, mean - noise) : share * mean;
+    result.squares += mean;
+  }
+  const auto count = static_cast<double>(recordings.size());
+  result.squares /= count;
+  result.structure = structure / count;
+  result.predictable = predictable / count / result.squares;
+  result.noise = result.squares - result.structure;
+  result.correlation = std::clamp(cross / energy, 0.0, 0.999);
+  result.effective = std::max(static_cast<double>(bench.samples()) * (1.0 - result.correlation) / (1.0 + result.correlation),
+                              20.0);
+  return result;
+}
+
+Search search(const Workbench& bench, const Hypothesis& base, const SearchOptions& options,
+              const SearchProgress& progress) {
+  Search result;
+  progress(0.0, "fitting " + base.model);
+  result.base = bench.from_anywhere(base, options.base_budget);
+  result.base_misfit = misfit_of(bench, result.base);
+
+  std::vector<std::string> candidates = options.candidates;
+  const std::vector<std::string> laws = law_candidates(bench, base);
+  candidates.insert(candidates.end(), laws.begin(), laws.end());
+  const auto count = static_cast<double>(candidates.size());
+
+  Fit current = result.base;
+  double effective = result.base_misfit.effective;
+  std::vector<std::vector<Tried>> stages;
+  for (int depth = 0; depth < options.most_effects; ++depth) {
+    progress(0.1 + 0.6 * depth / options.most_effects, "trying " + std::to_string(candidates.size()) + " hypotheses behind " +
+                                                           std::to_string(current.what.effects.size()) + " effects");
+    std::vector<Tried> tried = stage(bench, current, candidates, effective);
+    // What a good model leaves tells the independent samples better than what a bad one does.
+    if (!tried.empty()) {
+      effective = std::max(effective, misfit_of(bench, tried.front().fit).effective);
+      for (Tried& one : tried) {
+        one = weighed(one.id, one.fit, current, effective);
+      }
+      std::ranges::stable_sort(tried, [](const Tried& a, const Tried& b) { return a.evidence > b.evidence; });
+    }
+    stages.push_back(tried);
+    const auto chosen = std::ranges::find_if(tried, [&](const Tried& one) { return worth(one, current, count); });
+    if (chosen == tried.end()) {
+      break;
+    }
+    current = chosen->fit;
+  }
+  result.first_stage = stages.empty() ? std::vector<Tried>{} : stages.front();
+
+  // Drop what stopped helping; set each against its rivals, and take a rival that does clearly better.
+  progress(0.7, "setting each effect against its rivals");
+  for (int pass = 0; pass < 3; ++pass) {
+    bool changed = false;
+    result.found.clear();
+    std::vector<std::string> parts = current.what.effects;
+    for (const std::string& name : current.what.richer) {
+      parts.push_back("law:" + name);
+    }
+    for (const std::string& id : parts) {
+      const Hypothesis less = without(current.what, id);
+      Found found;
+      found.id = id;
+      found.without = less == base ? result.base : bench.from_fit(less, current, fitting_rounds);
+      found.gain = squared(found.without.cost) - squared(current.cost);
+      found.evidence = evidence(squared(found.without.cost), squared(current.cost),
+                                static_cast<double>(current.dimension()) - static_cast<double>(found.without.dimension()),
+                                effective);
+      if (found.evidence < least_evidence || found.gain < least_gain * squared(found.without.cost)) {
+        current = found.without;
+        changed = true;
+        break;
+      }
+      std::vector<std::string> others;
+      for (const std::string& other : candidates) {
+        if (other != id && !contains(current.what, other)) {
+          others.push_back(other);
+        }
+      }
+      const std::vector<Tried> rivals =
+          less == base && !result.first_stage.empty() ? result.first_stage : stage(bench, found.without, others, effective);
+      const Tried* better = nullptr;
+      for (const Tried& rival : rivals) {
+        if (rival.id == id) {
+          continue;
+        }
+        Rival row;
+        row.id = rival.id;
+        row.share = rival.gain / found.gain;
+        row.fit = rival.fit;
+        row.evidence = evidence(squared(rival.fit.cost), squared(current.cost),
+                                static_cast<double>(current.dimension()) - static_cast<double>(rival.fit.dimension()),
+                                effective);
+        if (row.evidence < -least_evidence && (better == nullptr || rival.fit.cost < better->fit.cost)) {
+          better = &rival;
+        }
+        found.rivals.push_back(row);
+      }
+      std::ranges::stable_sort(found.rivals, [](const Rival& a, const Rival& b) { return a.share > b.share; });
+      if (better != nullptr && pass < 2) {
+        current = better->fit;
+        changed = true;
+        break;
+      }
+      result.found.push_back(std::move(found));
+    }
+    if (!changed) {
+      break;
+    }
+  }
+
+  result.augmented = bench.polished(current, fitting_rounds);
+  result.misfit = misfit_of(bench, result.augmented);
+  for (Found& found : result.found) {
+    found.share_of_misfit = std::clamp(
+        found.gain / std::max(result.base_misfit.squares - result.misfit.squares + result.misfit.structure, 1e-300), 0.0, 1.0);
+  }
+  std::erase_if(result.found, [&](const Found& found) {
+    if (is_law(found.id)) {
+      result.richer.push_back(found.id.substr(4));
+    }
+    return is_law(found.id);
+  });
+  std::ranges::stable_sort(result.found, [](const Found& a, const Found& b) { return a.gain > b.gain; });
+
+  if (!result.found.empty()) {
+    progress(0.9, "fitting other damper laws");
+    for (const char* law : {"bouc-wen", "hyperbolic-tangent", "algebraic-hysteresis", "modified-dahl", "lugre"}) {
+      if (base.model == law || find_model(law) == nullptr) {
+        continue;
+      }
+      const Fit other = bench.from_anywhere({law, {}, {}}, options.base_budget / 2);
+      result.other_laws.emplace_back(law, squared(other.cost));
+    }
+  }
+  progress(1.0, "done");
+  return result;
+}
+
+}  // namespace hysteron

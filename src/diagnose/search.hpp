@@ -1,0 +1,79 @@
+// Which physics was left out: effects tried one by one behind the base model, refitted jointly, added while the data ask
+// for it, dropped when they stop helping, and set against every rival that explains as much.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "diagnose/workbench.hpp"
+
+namespace hysteron {
+
+// Sums of squares are of NRMSE: cost^2 over the fitted recordings.
+struct Misfit {
+  double squares = 0.0;         // cost^2
+  double structure = 0.0;       // the part that is not noise
+  double noise = 0.0;           // squares - structure
+  double predictable = 0.0;     // share that repeats with the motion (structure.hpp)
+  double correlation = 0.0;     // lag-one correlation of the residual
+  double effective = 0.0;       // samples worth of independent information
+};
+
+// A hypothesis tried at one stage, against what stood before it.
+struct Tried {
+  std::string id;          // effect, or "law:PARAMETER" for a richer parameter law
+  Fit fit;
+  double evidence = 0.0;   // gain of the Bayesian information criterion with the effective samples, > 0 is for it
+  double gain = 0.0;       // squares before - squares after
+  double heldout_gain = 0.0;  // likewise on the judged recordings
+};
+
+struct Rival {
+  std::string id;
+  double share = 0.0;     // of the gain of the effect, explained by the rival in its place
+  double evidence = 0.0;  // for the effect against the rival
+  Fit fit;
+};
+
+struct Found {
+  std::string id;
+  Fit without;                // the final hypothesis less this effect, refitted
+  double gain = 0.0;          // squares without - squares with
+  double evidence = 0.0;
+  double share_of_misfit = 0.0;  // of the base's structure
+  std::vector<Rival> rivals;     // all that were refitted in its place, best first
+};
+
+struct Search {
+  Fit base;
+  Misfit base_misfit;
+  Fit augmented;  // the base itself when nothing was found
+  Misfit misfit;
+  std::vector<Found> found;              // effects of the augmented model, strongest first
+  std::vector<std::string> richer;       // parameter laws that were made richer
+  std::vector<Tried> first_stage;        // every single hypothesis against the base, best first
+  std::vector<std::pair<std::string, double>> other_laws;  // other base laws without effects: id, squares
+};
+
+// share of all the work done, what is being done
+using SearchProgress = std::function<void(double share, const std::string& stage)>;
+
+struct SearchOptions {
+  std::vector<std::string> candidates;  // effects to consider
+  int most_effects = 4;
+  std::size_t base_budget = 20000;
+};
+
+// `allowed`: candidates these recordings can show. Floor: see misfit_of.
+Search search(const Workbench& bench, const Hypothesis& base, const SearchOptions& options,
+              const SearchProgress& progress);
+
+// `floors`: noise of the force of each fitted recording, N, with whether it comes from cycles.
+Misfit misfit_of(const Workbench& bench, const Fit& fit);
+
+// Gain of the Bayesian information criterion from squares `before` to `after` for `more` parameters.
+double evidence(double before, double after, double more, double effective);
+
+}  // namespace hysteron

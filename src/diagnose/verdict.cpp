@@ -1,0 +1,142 @@
+#include "diagnose/verdict.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace hysteron {
+namespace {
+
+// A rival is as good when it explains all but this share of what the effect explains ...
+constexpr double least_margin = 0.04;
+// ... or all but this part of what is left unexplained: what is unknown may favour either.
+constexpr double margin_of_leftover = 0.5;
+// ... or when the criterion does not prefer the effect by this much.
+constexpr double least_evidence = 10.0;
+// An effect is named only if it explains at least this many times what stays unexplained.
+constexpr double least_gain_over_leftover = 1.0;
+// Another damper law does as well when its squared error is within this factor of the augmented model's.
+constexpr double law_factor = 1.1;
+
+bool is_law(const std::string& id) { return id.starts_with("law:"); }
+
+}  // namespace
+
+bool structured(const Misfit& misfit) {
+  const double ratio = misfit.structure / std::max(misfit.noise, 1e-300);
+  return ratio > 0.3 || (ratio > 0.08 && misfit.predictable > 0.03);
+}
+
+Verdict verdict_of(const Search& search) {
+  Verdict verdict;
+  verdict.remaining_structure = structured(search.misfit);
+  const double leftover = verdict.remaining_structure ? search.misfit.structure : 0.0;
+  if (search.found.empty()) {
+    verdict.word = verdict.remaining_structure ? "unattributed" : "complete";
+    if (verdict.remaining_structure) {
+      verdict.reason = "no known effect explains the misfit";
+    }
+    return verdict;
+  }
+  for (const auto& [law, squares] : search.other_laws) {
+    if (squares < law_factor * search.misfit.squares) {
+      verdict.word = "unattributed";
+      verdict.reason = "the damper law " + law + " without any added effect does as well as " + search.base.what.model +
+                       " with them: the base law is in question";
+      return verdict;
+    }
+  }
+  for (const Found& found : search.found) {
+    if (found.gain < least_gain_over_leftover * leftover) {
+      continue;
+    }
+    Named named;
+    named.id = found.id;
+    named.fit = &search.augmented;
+    named.without = &found.without;
+    named.share_of_misfit = found.share_of_misfit;
+    const double margin = std::max(least_margin, margin_of_leftover * leftover / found.gain);
+    double best_share = 0.0;
+    std::vector<const Rival*> as_good;
+    for (const Rival& rival : found.rivals) {
+      if (rival.share > 1.0 - margin || rival.evidence < least_evidence) {
+        if (is_law(rival.id)) {
+          named.laws_as_good.push_back(rival.id.substr(4));
+        } else {
+          named.indistinguishable_from.push_back(rival.id);
+          as_good.push_back(&rival);
+        }
+      } else {
+        best_share = std::max(best_share, rival.share);
+      }
+    }
+    const bool alone = named.indistinguishable_from.empty() && named.laws_as_good.empty();
+    const double clear = (1.0 - best_share) / margin;
+    const bool confirmed = search.augmented.heldout < named.without->heldout;
+    named.confidence = alone ? std::min(0.99, 1.0 - 0.3 / std::max(clear, 1.0)) * (confirmed ? 1.0 : 0.8)
+                             : 1.0 / static_cast<double>(1 + named.indistinguishable_from.size() + named.laws_as_good.size());
+    verdict.effects.push_back(named);
+    if (!alone && verdict.effects.size() == 1) {
+      // The strongest cannot be told from its rivals: the answer is the set.
+      for (const Rival* rival : as_good) {
+        Named other = named;
+        other.id = rival->id;
+        other.fit = &rival->fit;
+        std::erase(other.indistinguishable_from, rival->id);
+        other.indistinguishable_from.insert(other.indistinguishable_from.begin(), found.id);
+        other.share_of_misfit = named.share_of_misfit * std::min(1.0, rival->share);
+        verdict.effects.push_back(other);
+      }
+      verdict.word = "ambiguous";
+      return verdict;
+    }
+  }
+  if (verdict.effects.empty()) {
+    verdict.word = "unattributed";
+    verdict.reason = "the best known effect explains less of the misfit than stays unexplained";
+    return verdict;
+  }
+  verdict.word = "missing-physics";
+  return verdict;
+}
+
+std::string next_experiment(const std::vector<std::string>& candidates) {
+  static const std::map<std::string, std::string> separating = {
+      {"clearance", "two strokes at the same speed, one about as small as the suspected gap, at two currents: a gap keeps its width in mm, a compliance grows with the force"},
+      {"compliance", "current steps while the damper is held, and the same stroke at three currents: the deflection of a compliance grows with the force"},
+      {"entrapped-gas", "the same run at two charge pressures or after a long rest: only entrapped gas changes"},
+      {"inertia", "the same amplitude at frequencies an octave apart, and a run with the damper disconnected for the mass of the fixture"},
+      {"sensor-delay", "a current step at constant velocity and sines at frequencies an octave apart: a delay stays constant in ms"},
+      {"velocity-lag", "a sine at each of three frequencies with displacement and velocity recorded: the slope of the displacement shows the lag of the velocity channel"},
+      {"shear-thinning", "constant-velocity runs over at least a decade of speed"},
+      {"quadratic-damping", "constant-velocity runs over at least a decade of speed"},
+      {"series-dashpot", "slow triangles from 1 to 20 mm/s, and a hold after a fast stroke to see the force relax"},
+      {"seal-friction", "a slow triangle without current at several speeds below 20 mm/s"},
+      {"coulomb-friction", "a slow triangle without current at several speeds below 20 mm/s"},
+      {"gas-spring", "a slow full stroke around two mid-positions"},
+      {"asymmetry", "the same sine around two mid-positions: asymmetry follows the velocity, a gas spring the position"},
+      {"cavitation", "the same run at two gas pressures and at rising speed"},
+      {"end-stop", "a slow stroke to both ends"},
+      {"cubic-stiffness", "a slow full stroke around two mid-positions"},
+      {"self-heating", "a long run of constant severity, a pause, and the first recording again"},
+      {"degradation", "the first recording again at the end of the campaign, cold"},
+      {"stiction", "the same run after rests of different length"},
+      {"force-drift", "a minute of recording at rest before and after the run"},
+      {"coil-lag", "current steps up and down at constant velocity, at several levels"},
+      {"magnetic-remanence", "a current staircase up and down at constant velocity"},
+      {"magnetic-saturation", "at least five current levels up to the highest"},
+      {"pre-yield-hysteresis", "small strokes at several amplitudes below the knee"},
+      {"pinching", "small strokes inside a large one, at two amplitudes"},
+  };
+  for (const std::string& id : candidates) {
+    const auto found = separating.find(id);
+    if (found != separating.end()) {
+      return found->second;
+    }
+  }
+  return "the same motion at other frequencies, amplitudes and currents";
+}
+
+}  // namespace hysteron

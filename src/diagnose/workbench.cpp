@@ -1,0 +1,249 @@
+#include "diagnose/workbench.hpp"
+
+#include <omp.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "fit/driver.hpp"
+#include "fit/identify.hpp"
+
+namespace hysteron {
+namespace {
+
+constexpr std::size_t start_count = 8;  // one pack
+
+std::size_t node_drive(const ParameterLaw& law, std::size_t node) { return node % law.drive_nodes.size(); }
+std::size_t node_frequency(const ParameterLaw& law, std::size_t node) { return node / law.drive_nodes.size(); }
+
+// Values of a fit at the nodes of another layout, in unit coordinates; what the fit does not know stays as in `point`.
+// Returns which coordinates are new.
+std::vector<bool> take_over(const Fit& from, const Layout& to, std::vector<double>& point) {
+  std::vector<bool> fresh(to.dimension(), true);
+  const std::vector<std::string>& known = from.layout->names();
+  for (const ParameterLaw& law : to.laws()) {
+    const auto found = std::ranges::find(known, to.names()[law.parameter]);
+    if (found == known.end()) {
+      continue;
+    }
+    const auto index = static_cast<std::size_t>(found - known.begin());
+    const std::size_t count = law.drive_nodes.size() * law.frequency_nodes.size();
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::vector<double> values =
+          parameters_at(from.layout->held(), from.terms, law.drive_nodes[node_drive(law, k)],
+                        law.frequency_nodes[node_frequency(law, k)]);
+      point[law.first + k] = std::clamp(to.unit(law.first + k, values[index]), 0.0, 1.0);
+      fresh[law.first + k] = false;
+    }
+  }
+  return fresh;
+}
+
+// Radical inverse: evenly spread numbers in (0, 1).
+double halton(std::size_t index, std::size_t base) {
+  double result = 0.0;
+  double part = 1.0 / static_cast<double>(base);
+  for (std::size_t i = index + 1; i > 0; i /= base) {
+    result += part * static_cast<double>(i % base);
+    part /= static_cast<double>(base);
+  }
+  return result;
+}
+
+}  // namespace
+
+Workbench::Workbench(const std::vector<Recording>& all, Split split, LayoutOptions layout, ObjectiveOptions objective,
+                     std::uint64_t seed)
+    : scale_(scale_of(all)), split_(std::move(split)), layout_(std::move(layout)), options_(objective), seed_(seed) {
+  for (const Recording& recording : split_.fit) {
+    samples_ += recording.size();
+  }
+}
+
+Layout Workbench::layout(const Hypothesis& what) const {
+  LayoutOptions options = layout_;
+  const CompositeModel model = make_model(what.model, what.effects);
+  const std::vector<std::string> names = model.parameter_names();
+  // Another base law need not have the parameters of the first.
+  std::erase_if(options.by_current, [&](const auto& law) { return std::ranges::find(names, law.first) == names.end(); });
+  std::erase_if(options.by_frequency, [&](const auto& law) { return std::ranges::find(names, law.first) == names.end(); });
+  std::erase_if(options.fix, [&](const auto& law) { return std::ranges::find(names, law.first) == names.end(); });
+  std::erase_if(options.bounds, [&](const auto& law) { return std::ranges::find(names, law.first) == names.end(); });
+  for (const std::string& name : what.richer) {
+    options.by_current[name] += 1;
+  }
+  return Layout(model, scale_, options);
+}
+
+Fit Workbench::finished(const Hypothesis& what, const Layout& layout, std::vector<double> point, double cost) const {
+  Fit fit;
+  fit.what = what;
+  fit.layout = std::make_shared<const Layout>(layout);
+  fit.terms = layout.terms(point);
+  fit.point = std::move(point);
+  fit.cost = cost;
+  double sum = 0.0;
+  for (const Judged& judged : split_.judge) {
+    const std::vector<double> r = residual(fit, judged.recording);
+    double squares = 0.0;
+    for (std::size_t n = judged.from; n < r.size(); ++n) {
+      squares += r[n] * r[n];
+    }
+    const double norm = normaliser(judged.recording, options_.normalisation);
+    sum += squares / static_cast<double>(r.size() - judged.from) / (norm * norm);
+  }
+  fit.heldout = std::sqrt(sum / static_cast<double>(split_.judge.size()));
+  if (!std::isfinite(fit.heldout)) {
+    fit.heldout = diverged_cost;
+  }
+  return fit;
+}
+
+// Independent descents in step, so that their points share packs.
+Fit Workbench::descended(const Hypothesis& what, const Layout& layout, const Objective& objective,
+                         const std::vector<std::vector<double>>& starts, int rounds) const {
+  const SolverEntry* entry = find_solver("lm");
+  struct Run {
+    std::unique_ptr<Solver> solver;
+    std::vector<double> best;
+    double cost = diverged_cost;
+  };
+  std::vector<Run> runs;
+  for (const std::vector<double>& start : starts) {
+    Problem problem;
+    problem.dimension = layout.dimension();
+    problem.budget = static_cast<std::size_t>(rounds + 1) * (layout.dimension() + 1);
+    problem.stream = Stream(seed_);
+    problem.linear = layout.linear();
+    problem.start = start;
+    runs.push_back({entry->make(problem), start, diverged_cost});
+  }
+  for (int round = 0; round < rounds; ++round) {
+    Request batch;
+    batch.derivatives = true;
+    std::vector<std::size_t> asked;
+    std::vector<Request> requests(runs.size());
+    for (std::size_t k = 0; k < runs.size(); ++k) {
+      requests[k] = runs[k].solver->ask();
+      if (!requests[k].points.empty()) {
+        asked.push_back(k);
+        batch.points.insert(batch.points.end(), requests[k].points.begin(), requests[k].points.end());
+      }
+    }
+    if (asked.empty()) {
+      break;
+    }
+    const Response answer = objective.evaluate(batch);
+    const std::size_t d = layout.dimension();
+    for (std::size_t i = 0; i < asked.size(); ++i) {
+      Run& run = runs[asked[i]];
+      const auto slice = [&](const std::vector<double>& values, std::size_t width) {
+        return std::vector<double>(values.begin() + static_cast<std::ptrdiff_t>(i * width),
+                                   values.begin() + static_cast<std::ptrdiff_t>((i + 1) * width));
+      };
+      if (answer.cost[i] < run.cost) {
+        run.cost = answer.cost[i];
+        run.best = requests[asked[i]].points;
+      }
+      run.solver->tell(requests[asked[i]],
+                       {{answer.cost[i]}, slice(answer.gradient, d), slice(answer.gauss_newton, d * d)});
+    }
+  }
+  const auto best = std::ranges::min_element(runs, {}, &Run::cost);
+  return finished(what, layout, best->best, best->cost);
+}
+
+Fit Workbench::from_anywhere(const Hypothesis& what, std::size_t budget) const {
+  const Layout layout = this->layout(what);
+  const Objective objective(layout, split_.fit, options_);
+  Problem problem;
+  problem.dimension = layout.dimension();
+  problem.budget = budget;
+  problem.stream = Stream(seed_).child("base").child(what.model);
+  problem.linear = layout.linear();
+  problem.start = layout.initial();
+  const RunResult run = run_solver(*find_solver("multistart-lm"), problem,
+                                   [&](const Request& request) { return objective.evaluate(request); });
+  return finished(what, layout, run.best, run.cost);
+}
+
+Fit Workbench::from_fit(const Hypothesis& what, const Fit& warm, int rounds) const {
+  const Layout layout = this->layout(what);
+  const Objective objective(layout, split_.fit, options_);
+  std::vector<double> known = layout.initial();
+  const std::vector<bool> fresh = take_over(warm, layout, known);
+  std::vector<std::vector<double>> starts;
+  constexpr std::array<double, start_count> pushes = {0.03, -0.03, 0.15, -0.15, 0.4, -0.4, 0.08, -0.08};
+  constexpr std::array<std::size_t, 4> bases = {2, 3, 5, 7};
+  for (std::size_t k = 0; k < start_count; ++k) {
+    std::vector<double> start = known;
+    std::size_t part = 0;
+    for (std::size_t c = 0; c < start.size(); ++c) {
+      if (!fresh[c]) {
+        continue;
+      }
+      const bool first_of_part = part == 0;
+      ++part;
+      const double neutral = start[c];
+      if (first_of_part || layout.coordinates()[c].linear) {
+        // The size of the effect: away from nothing, to either side where there is one.
+        const double push = neutral < 0.02 ? std::fabs(pushes[k]) : (neutral > 0.98 ? -std::fabs(pushes[k]) : pushes[k]);
+        start[c] = std::clamp(neutral + push, 0.0, 1.0);
+      } else if (k > 1) {
+        start[c] = 0.05 + 0.9 * halton(k, bases[std::min<std::size_t>(part - 1, bases.size() - 1)]);
+      }
+    }
+    starts.push_back(std::move(start));
+  }
+  if (std::ranges::none_of(fresh, [](bool yes) { return yes; })) {
+    starts.resize(1);
+  }
+  return descended(what, layout, objective, starts, rounds);
+}
+
+Fit Workbench::polished(const Fit& fit, int rounds) const {
+  const Objective objective(*fit.layout, split_.fit, options_);
+  return descended(fit.what, *fit.layout, objective, {fit.point}, rounds);
+}
+
+Fit Workbench::on_all(const Fit& fit, const std::vector<Recording>& all, int rounds) const {
+  const Objective objective(*fit.layout, all, options_);
+  Fit result = descended(fit.what, *fit.layout, objective, {fit.point}, rounds);
+  result.heldout = fit.heldout;
+  return result;
+}
+
+std::vector<Fit> Workbench::from_fit(const std::vector<Hypothesis>& what, const Fit& warm, int rounds) const {
+  std::vector<Fit> fits(what.size());
+  Workbench single = *this;
+  single.options_.threads = 1;
+  const int threads = options_.threads > 0 ? options_.threads : omp_get_max_threads();
+#pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
+  for (std::size_t k = 0; k < what.size(); ++k) {
+    fits[k] = single.from_fit(what[k], warm, rounds);
+  }
+  return fits;
+}
+
+std::vector<Fit> Workbench::polished(const std::vector<Fit>& fits, int rounds) const {
+  std::vector<Fit> result(fits.size());
+  Workbench single = *this;
+  single.options_.threads = 1;
+  const int threads = options_.threads > 0 ? options_.threads : omp_get_max_threads();
+#pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
+  for (std::size_t k = 0; k < fits.size(); ++k) {
+    result[k] = single.polished(fits[k], rounds);
+  }
+  return result;
+}
+
+std::vector<double> Workbench::residual(const Fit& fit, const Recording& recording) const {
+  const Target target = make_target(recording, options_);
+  std::vector<double> r = predict(fit.layout->model(), fit.layout->held(), fit.terms, target);
+  for (std::size_t n = 0; n < r.size(); ++n) {
+    r[n] -= recording.force[n];
+  }
+  return r;
+}
+
+}  // namespace hysteron
