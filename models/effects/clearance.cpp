@@ -61,7 +61,7 @@ struct Clearance {
     const T inverse = T(1.0) / p[2];
     const T bearing = tanh(q * inverse);
     const T open = half * inverse * (T(1.0) - bearing * bearing);
-    return {q * soft + half * bearing, soft + open, T(-2.0) * open * bearing * inverse, T(1.0) / p[3], T(1.0)};
+    return {q * soft + half * bearing, soft + open, T(-2.0) * open * bearing * inverse, T(1.0) / p[3], T(1.0), p[2]};
   }
 };
 

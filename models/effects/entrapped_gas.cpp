@@ -36,7 +36,7 @@ struct EntrappedGas {
     const T inverse = T(1.0) / p[1];
     const T full = tanh(q * inverse);
     const T slope = p[0] * inverse * (T(1.0) - full * full);
-    return {p[0] * full, slope, T(-2.0) * slope * full * inverse, T(1.0) / p[2], T(1.0)};
+    return {p[0] * full, slope, T(-2.0) * slope * full * inverse, T(1.0) / p[2], T(1.0), p[1]};
   }
 };
 

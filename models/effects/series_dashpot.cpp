@@ -27,8 +27,12 @@ struct SeriesDashpot {
     const T limited = tanh(over);
     const T slope = T(1.0) - limited * limited;
     const T size = min(abs(q), T(stroke)) + T(stroke) * limited;
-    return {select(q < T(0.0), -size, size), slope,
-            select(q < T(0.0), T(2.0 / stroke), T(-2.0 / stroke)) * slope * limited, p[0], T(0.0)};
+    return {select(q < T(0.0), -size, size),
+            slope,
+            select(q < T(0.0), T(2.0 / stroke), T(-2.0 / stroke)) * slope * limited,
+            p[0],
+            T(0.0),
+            T(0.0)};
   }
 };
 

@@ -168,7 +168,7 @@ class Assembly {
         state[static_cast<std::size_t>(i)] = value_of(s[i]);
       }
       const Yield<Value> values{value_of(yield.deflection), value_of(yield.slope), value_of(yield.bend),
-                                value_of(yield.gain), value_of(yield.hold)};
+                                value_of(yield.gain),       value_of(yield.hold),  value_of(yield.width)};
       const Input<Value> at = value_input(in);
       const Value u = root(top, values_.data(), state.data(), at, q.v, values, relief);
       const Value resistance = damping(top, values_.data(), state.data(), moved(at, values.slope * u), relief);
@@ -252,7 +252,10 @@ class Assembly {
         in = {in.x - yield.deflection, in.v - yield.slope * u, in.drive, in.time};
         const Value lambda = element_stiffness(i, s, in, yield, u, speed, relief);
         relief[i] = select(lambda > Value(rate_limit), Value(rate_limit) / lambda, Value(1.0));
-        total = total + min(lambda, Value(rate_limit));
+        // The step must not pass over the knee of the deflection.
+        const auto bent = yield.width > Value(0.0);
+        const Value passing = abs(u) / select(bent, abs(*state) + yield.width, Value(1.0));
+        total = total + min(lambda + select(bent, passing, Value(0.0)), Value(rate_limit));
         continue;
       }
       if (link.states > 0 && link.values->stiffness != nullptr) {
@@ -340,10 +343,7 @@ void march_segment(const Assembly<T>& system, const Motion& motion, std::size_t 
                    typename Assembly<T>::Start& start, States<T>& state) {
   using Value = value_t<T>;
   const MotionInterval& interval = motion.intervals[n];
-  const double coarse = detail::coarseness(interval.length);
-  const double limit = motion.step_limit /
-                       (detail::near_reversal(motion, n) ? std::max(detail::refinement, coarse) : coarse) /
-                       interval.length;
+  const double limit = motion.step_limit / interval.length;
   const Value shortest((to - from) / max_substeps);
   Value theta(from);
   States<T> next;

@@ -66,6 +66,7 @@ struct Yield {
   T bend;        // D''
   T gain;        // > 0, or 0 where the element is rigid
   T hold;        // >= 0
+  T width;       // change of q from 0 over which D bends; 0 where D is straight
 };
 
 // Samples of a motion prepared for marching (simulate/motion.hpp).
