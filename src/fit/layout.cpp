@@ -151,7 +151,8 @@ Layout::Layout(CompositeModel model, const DataScale& scale, const LayoutOptions
     const double factor = std::pow(scale.force / 1000.0, card.dimension.force) *
                           std::pow(scale.length / 0.025, card.dimension.length) *
                           std::pow(scale.velocity / 0.3, card.dimension.velocity);
-    if (!card.fixed) {
+    // Held times and speeds round off the equations and stay; a held force is one of the device.
+    if (!card.fixed || card.dimension.force != 0.0) {
       card.lower *= factor;
       card.upper *= factor;
       card.initial *= factor;

@@ -2,6 +2,8 @@
 // translation unit.
 #pragma once
 
+#include <algorithm>
+
 #include "simulate/march.hpp"
 #include "simulate/part.hpp"
 
@@ -53,23 +55,59 @@ struct Fused {
 template <class M>
 concept HasDrive = M::has_drive;
 
+template <class M>
+concept HasLoadedRate = M::has_loaded_rate;
+// A loaded rate makes the force depend on its own past.
+template <class M>
+concept Bends = HasLoadedRate<M> || M::bends_force;
+template <class M>
+concept IsSeries = M::is_series;
+template <class M>
+concept HasExcite = M::has_excite;
+
+template <class M, class T>
+constexpr PartOperations<T> series_operations() {
+  static_assert(M::states == 1);
+  PartOperations<T> result;
+  result.yield = [](const T* p, const T& q, Yield<T>& yield) {
+    yield = M::yield(as_array<T, parameter_count<M>>(p), q);
+  };
+  result.force = [](const T*, const T*, const Input<T>&, T&) {};
+  return result;
+}
+
 template <class M, class T>
 constexpr PartOperations<T> operations() {
   PartOperations<T> result;
+  if constexpr (HasExcite<M>) {
+    result.excite = [](const T* p, T* memory, double elapsed, T& drive) {
+      drive = M::excite(as_array<T, parameter_count<M>>(p), *reinterpret_cast<std::array<T, excitation_memory>*>(memory),
+                        elapsed, drive);
+    };
+  }
   if constexpr (HasDrive<M>) {
     result.drive = [](const T* p, const T* s, Input<T>& in) {
       M::drive(as_array<T, parameter_count<M>>(p), as_array<T, M::states>(s), in);
     };
   }
   if constexpr (M::states > 0) {
-    result.rate = [](const T* p, const T* s, const Input<T>& in, T* rates) { Fused<M>::rate(p, s, in, rates); };
+    if constexpr (HasLoadedRate<M>) {
+      result.loaded_rate = [](const T* p, const T* s, const Input<T>& in, const T& below, T* rates) {
+        const auto values = M::loaded_rate(as_array<T, parameter_count<M>>(p), as_array<T, M::states>(s), in, below);
+        std::copy(values.begin(), values.end(), rates);
+      };
+    } else {
+      result.rate = [](const T* p, const T* s, const Input<T>& in, T* rates) { Fused<M>::rate(p, s, in, rates); };
+    }
     result.stiffness = [](const T* p, double speed) { return Fused<M>::stiffness(p, speed); };
   }
   result.force = [](const T* p, const T* s, const Input<T>& in, T& force) {
     force = M::force(as_array<T, parameter_count<M>>(p), as_array<T, M::states>(s), in, force);
   };
-  result.march = [](const Motion& motion, const T* p, std::size_t stride, std::size_t begin, std::size_t end, T* state,
-                    T* out) { march<T>(Fused<M>{}, motion, p, stride, begin, end, state, out); };
+  if constexpr (!HasLoadedRate<M>) {
+    result.march = [](const Motion& motion, const T* p, std::size_t stride, std::size_t begin, std::size_t end,
+                      T* state, T* out) { march<T>(Fused<M>{}, motion, p, stride, begin, end, state, out); };
+  }
   return result;
 }
 
@@ -85,9 +123,17 @@ constexpr Part compile() {
   part.equations = M::equations;
   part.parameters = M::parameters;
   part.states = M::states;
-  part.on_double = detail::operations<M, double>();
-  part.on_lanes = detail::operations<M, Lanes>();
-  part.on_dual = detail::operations<M, LaneDual>();
+  if constexpr (detail::IsSeries<M>) {
+    part.bends = true;
+    part.on_double = detail::series_operations<M, double>();
+    part.on_lanes = detail::series_operations<M, Lanes>();
+    part.on_dual = detail::series_operations<M, LaneDual>();
+  } else {
+    part.bends = detail::Bends<M>;
+    part.on_double = detail::operations<M, double>();
+    part.on_lanes = detail::operations<M, Lanes>();
+    part.on_dual = detail::operations<M, LaneDual>();
+  }
   return part;
 }
 

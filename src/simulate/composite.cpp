@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "core/suggest.hpp"
+#include "simulate/assembly.hpp"
 #include "simulate/march.hpp"
 
 namespace hysteron {
@@ -100,6 +101,11 @@ const Part* find_effect(std::string_view id) { return find(effect_catalogue(), i
 std::vector<Parameter> CompositeModel::parameters() const {
   std::vector<Parameter> result(law->parameters.begin(), law->parameters.end());
   for (const Part* effect : effects) {
+    if (effect->bends) {
+      for (Parameter& below : result) {
+        below.linear = false;
+      }
+    }
     result.insert(result.end(), effect->parameters.begin(), effect->parameters.end());
   }
   return result;
@@ -153,6 +159,10 @@ void CompositeModel::march(const Motion& motion, const T* p, std::size_t stride,
       }
       parameter += effect->parameters.size();
     }
+    return;
+  }
+  if (needs_assembly<T>(*this)) {
+    march_assembly<T>(*this, motion, p, stride, begin, end, state, out);
     return;
   }
   hysteron::march<T>(Chain<T>(*this), motion, p, stride, begin, end, state, out);

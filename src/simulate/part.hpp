@@ -7,6 +7,11 @@
 //   template <class T> rate(p, s, in)      -> array<T, states>   time derivatives of its states (if states > 0)
 //   template <class T> stiffness(p, speed) -> T     bound of |d rate / d state| in 1/s at |velocity| <= speed (likewise)
 //   template <class T> drive(p, s, in)     -> Input<T>   what the parts below see (optional)
+// A rate that needs the force below has `loaded_rate(p, s, in, below)` in place of `rate`. A series element, behind which
+// everything nearer to the law is deflected, has one state q and in place of rate, stiffness and force
+//   template <class T> yield(p, q)         -> Yield<T>
+// A part that changes the drive before the laws of the parameters are evaluated has
+//   template <class T> excite(p, memory, elapsed, drive) -> T    (array<T, 2> memory, see below)
 // where p is std::array<T, parameter count> in the order of the card.
 #pragma once
 
@@ -52,8 +57,23 @@ struct Input {
   T time;   // s since the start of the recording
 };
 
+// Deflection D(q) of a series element and the law of its state, whose element force is that of the links below it:
+//   q' = gain (F - hold q)
+template <class T>
+struct Yield {
+  T deflection;  // D, m
+  T slope;       // D' >= 0
+  T bend;        // D''
+  T gain;        // > 0, or 0 where the element is rigid
+  T hold;        // >= 0
+  T width;       // change of q from 0 over which D bends; 0 where D is straight
+};
+
 // Samples of a motion prepared for marching (simulate/motion.hpp).
 struct Motion;
+
+// Values an excite operation keeps from one sample to the next.
+inline constexpr std::size_t excitation_memory = 2;
 
 // Directions differentiated in one sweep.
 inline constexpr int sweep_directions = 4;
@@ -67,6 +87,12 @@ struct PartOperations {
   void (*rate)(const T* p, const T* s, const Input<T>& in, T* rates) = nullptr;
   void (*force)(const T* p, const T* s, const Input<T>& in, T& force) = nullptr;
   Value (*stiffness)(const T* p, double speed) = nullptr;
+  // As rate, with the force below.
+  void (*loaded_rate)(const T* p, const T* s, const Input<T>& in, const T& below, T* rates) = nullptr;
+  void (*yield)(const T* p, const T& q, Yield<T>& result) = nullptr;
+  // Replaces the drive of a sample, `elapsed` s after the one before (negative: the first) by the one that acts.
+  // `memory` holds excitation_memory values that belong to this part and recording.
+  void (*excite)(const T* p, T* memory, double elapsed, T& drive) = nullptr;
   // March of this part alone over samples [begin, end): writes force of sample n to out[n - begin], and leaves the
   // state of sample `end` in `state`. Parameters of sample n stand at p + (n - begin) * stride; stride 0 is constant.
   void (*march)(const Motion& motion, const T* p, std::size_t stride, std::size_t begin, std::size_t end, T* state,
@@ -81,6 +107,7 @@ struct Part {
   std::span<const std::string_view> equations;
   std::span<const Parameter> parameters;
   int states = 0;
+  bool bends = false;  // the force is not affine in the force below, so that parameters below are not linear
   PartOperations<double> on_double;
   PartOperations<Lanes> on_lanes;
   PartOperations<LaneDual> on_dual;

@@ -1,0 +1,73 @@
+// Play between damper and machine: pins, rod ends. The damper rests while the gap is crossed.
+//   F = F_law(x - d, v - d') = q + tau q',   d = C_c q + (gap / 2) tanh(q / f_c)
+// q is the contact force: below f_c = 1 % of the peak force of the device the contact is open, above it bears with the
+// compliance C_c = 1 / k_c, 0 unless freed. tau = 0.5 ms damps the contact. gap is the full width of the play, in whose
+// middle the recording starts.
+// Source: standard (backlash with contact stiffness), with the dead zone rounded at f_c.
+#include "simulate/compile.hpp"
+
+namespace hysteron {
+namespace {
+
+struct Clearance {
+  static constexpr std::string_view id = "clearance";
+  static constexpr std::string_view title = "Clearance (play with contact stiffness)";
+  static constexpr std::string_view reference = "standard (backlash with contact stiffness)";
+  static constexpr std::string_view equations[] = {"F = F_law(x - d, v - d') = q + tau q'",
+                                                   "d = C_c q + (gap / 2) tanh(q / f_c)"};
+  static constexpr int states = 1;
+  static constexpr bool is_series = true;
+  static constexpr Parameter parameters[] = {
+      {"gap", "g", "m", "full width of the play", 0.0, 5.0e-3, 0.0, Scale::linear, {0, 1, 0}},
+      {"C_c",
+       "1/k_c",
+       "m/N",
+       "compliance of the closed contact",
+       0.0,
+       1.0e-6,
+       0.0,
+       Scale::linear,
+       {-1, 1, 0},
+       false,
+       true},
+      {"f_c",
+       "f_c",
+       "N",
+       "force at which the contact bears",
+       2.0,
+       1.0e2,
+       1.0e1,
+       Scale::logarithmic,
+       {1, 0, 0},
+       false,
+       true},
+      {"tau",
+       "tau",
+       "s",
+       "relaxation time of the contact damping",
+       2.0e-4,
+       5.0e-3,
+       5.0e-4,
+       Scale::logarithmic,
+       {},
+       false,
+       true},
+  };
+
+  template <class T>
+  static Yield<T> yield(const std::array<T, 4>& p, const T& q) {
+    const T half = T(0.5) * p[0];
+    const T& soft = p[1];
+    const T inverse = T(1.0) / p[2];
+    const T bearing = tanh(q * inverse);
+    const T open = half * inverse * (T(1.0) - bearing * bearing);
+    return {q * soft + half * bearing, soft + open, T(-2.0) * open * bearing * inverse, T(1.0) / p[3], T(1.0), p[2]};
+  }
+};
+
+}  // namespace
+
+extern const Part effect_clearance;
+constexpr Part effect_clearance = compile<Clearance>();
+
+}  // namespace hysteron

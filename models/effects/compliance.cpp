@@ -1,0 +1,45 @@
+// A spring in series with the damper: compressibility of the fluid, compliance of rod and mounts.
+//   F = F_law(x - d, v - d') = q + tau q',   d = C q,   C = 1 / k_s
+// A small damping tau k_s in the spring, tau = 0.5 ms, makes d' a function of the state for every law.
+// Source: Maxwell element; standard.
+#include "simulate/compile.hpp"
+
+namespace hysteron {
+namespace {
+
+struct Compliance {
+  static constexpr std::string_view id = "compliance";
+  static constexpr std::string_view title = "Series compliance";
+  static constexpr std::string_view reference = "standard (Maxwell element)";
+  static constexpr std::string_view equations[] = {"F = F_law(x - d, v - d') = q + tau q'", "d = C q"};
+  static constexpr int states = 1;
+  static constexpr bool is_series = true;
+  static constexpr Parameter parameters[] = {
+      {"C", "1/k_s", "m/N", "compliance of the series spring", 0.0, 1.0e-5, 0.0, Scale::linear, {-1, 1, 0}},
+      {"tau",
+       "tau",
+       "s",
+       "relaxation time of the spring's own damping",
+       2.0e-4,
+       5.0e-3,
+       5.0e-4,
+       Scale::logarithmic,
+       {},
+       false,
+       true},
+  };
+
+  template <class T>
+  static Yield<T> yield(const std::array<T, 2>& p, const T& q) {
+    const T& C = p[0];
+    const T& tau = p[1];
+    return {C * q, C, T(0.0), T(1.0) / tau, T(1.0), T(0.0)};
+  }
+};
+
+}  // namespace
+
+extern const Part effect_compliance;
+constexpr Part effect_compliance = compile<Compliance>();
+
+}  // namespace hysteron

@@ -1,0 +1,44 @@
+// A dashpot in series with everything below: the force rolls off at low speed and relaxes.
+//   F = F_law(x - d, v - d'),   d' = F / c1
+// The deflection is that of the dashpot up to |d| = 0.5 m and saturates beyond, towards 1 m, so that a law with
+// negative stiffness or an offset force cannot run away. Source: the dashpot c1 of Spencer, Dyke, Sain, Carlson, J.
+// Eng. Mech. 123 (1997) 230-238, put in series with the whole law.
+#include "simulate/compile.hpp"
+
+namespace hysteron {
+namespace {
+
+struct SeriesDashpot {
+  static constexpr std::string_view id = "series-dashpot";
+  static constexpr std::string_view title = "Series dashpot (low-speed roll-off)";
+  static constexpr std::string_view reference =
+      "Spencer et al., J. Eng. Mech. 123 (1997) 230-238; Maxwell dashpot in series with the law";
+  static constexpr std::string_view equations[] = {"F = F_law(x - d, v - d')", "d' = e F, e = 1 / c1"};
+  static constexpr int states = 1;
+  static constexpr bool is_series = true;
+  static constexpr Parameter parameters[] = {
+      {"e", "1/c1", "m/(N s)", "speed of the series dashpot per force", 0.0, 3.0e-4, 0.0, Scale::linear, {-1, 0, 1}},
+  };
+
+  template <class T>
+  static Yield<T> yield(const std::array<T, 1>& p, const T& q) {
+    constexpr double stroke = 0.5;
+    const T over = max(abs(q) - T(stroke), T(0.0)) * T(1.0 / stroke);
+    const T limited = tanh(over);
+    const T slope = T(1.0) - limited * limited;
+    const T size = min(abs(q), T(stroke)) + T(stroke) * limited;
+    return {select(q < T(0.0), -size, size),
+            slope,
+            select(q < T(0.0), T(2.0 / stroke), T(-2.0 / stroke)) * slope * limited,
+            p[0],
+            T(0.0),
+            T(0.0)};
+  }
+};
+
+}  // namespace
+
+extern const Part effect_series_dashpot;
+constexpr Part effect_series_dashpot = compile<SeriesDashpot>();
+
+}  // namespace hysteron

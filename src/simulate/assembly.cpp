@@ -1,0 +1,418 @@
+#include "simulate/assembly.hpp"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <vector>
+
+#include "simulate/march.hpp"
+
+namespace hysteron {
+namespace {
+
+constexpr std::size_t max_links = 9;
+constexpr int max_iterations = 40;
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+template <class V>
+using Relief = std::array<V, max_links>;  // factor on the gain of each series link
+template <class T>
+using States = std::array<T, static_cast<std::size_t>(max_states)>;
+
+template <class V>
+struct Root {
+  V u;
+  V slope;  // g'
+};
+
+template <class T>
+class Assembly {
+ public:
+  using Value = value_t<T>;
+  static constexpr bool differentiates = !std::is_same_v<T, Value>;
+
+  explicit Assembly(const CompositeModel& model) {
+    const auto add = [&](const Part& part) {
+      links_.push_back({&part.on<T>(), &part.on<Value>(), parameters_, states_, part.states});
+      parameters_ += part.parameters.size();
+      states_ += part.states;
+    };
+    add(*model.law);
+    for (const Part* effect : model.effects) {
+      add(*effect);
+    }
+    values_.resize(parameters_);
+    still_.resize(links_.size());
+    moving_.resize(links_.size());
+  }
+
+  [[nodiscard]] int states() const { return states_; }
+
+  void set_parameters(const T* p) {
+    p_ = p;
+    for (std::size_t j = 0; j < parameters_; ++j) {
+      values_[j] = value_of(p[j]);
+    }
+    for (std::size_t i = 0; i < links_.size(); ++i) {
+      const Link& link = links_[i];
+      if (link.values->stiffness != nullptr) {
+        still_[i] = link.values->stiffness(values_.data() + link.parameter, 0.0);
+        moving_[i] = link.values->stiffness(values_.data() + link.parameter, 1.0) - still_[i];
+      }
+    }
+  }
+
+  // Force at the start of a step, its rates, the bound of their stiffness and the relief to step with.
+  struct Start {
+    T force;
+    States<T> rates;
+    Value stiffness;
+    Relief<Value> relief;
+  };
+  void start(const States<T>& s, const Input<T>& in, double speed, Start& result) const {
+    result.relief.fill(Value(1.0));
+    result.force = evaluate(links_.size(), p_, s.data(), in, result.relief, result.rates.data());
+    States<Value> state;
+    States<Value> rates;
+    for (int i = 0; i < states_; ++i) {
+      state[static_cast<std::size_t>(i)] = value_of(s[static_cast<std::size_t>(i)]);
+      rates[static_cast<std::size_t>(i)] = value_of(result.rates[static_cast<std::size_t>(i)]);
+    }
+    result.stiffness = survey(state.data(), value_input(in), rates.data(), speed, result.relief);
+    auto slowed = result.relief[0] < Value(1.0);
+    for (std::size_t i = 1; i < links_.size(); ++i) {
+      slowed = slowed | (result.relief[i] < Value(1.0));
+    }
+    if (any(slowed)) {
+      result.force = evaluate(links_.size(), p_, s.data(), in, result.relief, result.rates.data());
+    }
+  }
+
+  void rate(const States<T>& s, const Input<T>& in, const Relief<Value>& relief, States<T>& rates) const {
+    evaluate(links_.size(), p_, s.data(), in, relief, rates.data());
+  }
+
+ private:
+  struct Link {
+    const PartOperations<T>* operations;
+    const PartOperations<Value>* values;
+    std::size_t parameter;
+    int state;
+    int states;
+  };
+
+  static Input<Value> value_input(const Input<T>& in) {
+    return {value_of(in.x), value_of(in.v), value_of(in.drive), value_of(in.time)};
+  }
+  template <class U>
+  static const PartOperations<U>& operations(const Link& link) {
+    if constexpr (std::is_same_v<U, T>) {
+      return *link.operations;
+    } else {
+      return *link.values;
+    }
+  }
+
+  // Force of the links [0, top) under `in`, and their rates unless null.
+  template <class U>
+  U evaluate(std::size_t top, const U* p, const U* s, const Input<U>& in, const Relief<Value>& relief, U* rates) const {
+    if (top == 0) {
+      return U(0.0);
+    }
+    const Link& link = links_[top - 1];
+    const PartOperations<U>& part = operations<U>(link);
+    const U* own = p + link.parameter;
+    const U* state = s + link.state;
+    if (part.yield != nullptr) {
+      Yield<U> yield;
+      part.yield(own, *state, yield);
+      yield.gain = yield.gain * U(relief[top - 1]);
+      const Input<U> shifted{in.x - yield.deflection, in.v, in.drive, in.time};
+      const U u = solve(top - 1, p, s, shifted, *state, yield, relief);
+      if (rates != nullptr) {
+        rates[link.state] = u;
+      }
+      return evaluate(top - 1, p, s, moved(shifted, yield.slope * u), relief, rates);
+    }
+    Input<U> seen = in;
+    if (part.drive != nullptr) {
+      part.drive(own, state, seen);
+    }
+    U force = evaluate(top - 1, p, s, seen, relief, rates);
+    if (rates != nullptr && link.states > 0) {
+      if (part.loaded_rate != nullptr) {
+        part.loaded_rate(own, state, in, force, rates + link.state);
+      } else {
+        part.rate(own, state, in, rates + link.state);
+      }
+    }
+    part.force(own, state, in, force);
+    return force;
+  }
+
+  template <class U>
+  static Input<U> moved(const Input<U>& in, const U& speed) {
+    return {in.x, in.v - speed, in.drive, in.time};
+  }
+
+  // Rate u of the state of a series element above the links [0, top); `in` holds the deflected displacement.
+  template <class U>
+  U solve(std::size_t top, const U* p, const U* s, const Input<U>& in, const U& q, const Yield<U>& yield,
+          const Relief<Value>& relief) const {
+    if constexpr (std::is_same_v<U, Value>) {
+      return root(top, p, s, in, q, yield, relief);
+    } else {
+      States<Value> state;
+      const int below = links_[top].state;
+      for (int i = 0; i < below; ++i) {
+        state[static_cast<std::size_t>(i)] = value_of(s[i]);
+      }
+      const Yield<Value> values{value_of(yield.deflection), value_of(yield.slope), value_of(yield.bend),
+                                value_of(yield.gain),       value_of(yield.hold),  value_of(yield.width)};
+      const Input<Value> at = value_input(in);
+      const Value u = root(top, values_.data(), state.data(), at, q.v, values, relief);
+      const Value resistance = damping(top, values_.data(), state.data(), moved(at, values.slope * u), relief);
+      const Value slope = fma(values.gain * values.slope, resistance, Value(1.0));
+      const U known(u);
+      const U force = evaluate(top, p, s, moved(in, yield.slope * known), relief, static_cast<U*>(nullptr));
+      const U residual = known - yield.gain * (force - yield.hold * q);
+      return chain(residual, u, Value(-1.0) / slope);
+    }
+  }
+
+  // dF/dv of the links [0, top), by a difference that is small against the width of the laws' steepest steps.
+  Value damping(std::size_t top, const Value* p, const Value* s, const Input<Value>& in,
+                const Relief<Value>& relief) const {
+    const Value h = fma(abs(in.v), Value(1e-5), Value(1e-7));
+    Input<Value> above = in;
+    Input<Value> below = in;
+    above.v = in.v + h;
+    below.v = in.v - h;
+    const Value up = evaluate<Value>(top, p, s, above, relief, nullptr);
+    const Value down = evaluate<Value>(top, p, s, below, relief, nullptr);
+    return (up - down) / (above.v - below.v);
+  }
+
+  // The root of g by secants kept within the bracket, which end where g is its own rounding; lanes that are done stay.
+  Value root(std::size_t top, const Value* p, const Value* s, const Input<Value>& in, const Value& q,
+             const Yield<Value>& yield, const Relief<Value>& relief) const {
+    const Value held = yield.hold * q;
+    Value tolerance;
+    const auto residual = [&](const Value& u) {
+      const Value force = evaluate<Value>(top, p, s, moved(in, yield.slope * u), relief, nullptr);
+      tolerance = Value(1e-12) * (abs(u) + yield.gain * (abs(force) + abs(held)));
+      return u - yield.gain * (force - held);
+    };
+    Value before(0.0);
+    Value g_before = residual(before);
+    Value low = min(Value(0.0), -g_before);
+    Value high = max(Value(0.0), -g_before);
+    Value u = -g_before;
+    Value g = residual(u);
+    const auto narrow = [&]() {
+      low = select(g < Value(0.0), max(low, u), low);
+      high = select(g > Value(0.0), min(high, u), high);
+    };
+    narrow();
+    for (int k = 0; k < max_iterations; ++k) {
+      const auto active = abs(g) > tolerance;
+      if (!any(active)) {
+        break;
+      }
+      const Value change = g - g_before;
+      const auto steep = abs(change) > Value(k % 4 == 3 ? infinite : 0.0);  // now and then the middle
+      Value next = u - g * (u - before) / select(steep, change, Value(1.0));
+      const Value middle = Value(0.5) * (low + high);
+      next = select(steep & (next > low) & (next < high), next, middle);
+      next = select(active, next, u);
+      before = select(active, u, before);
+      g_before = select(active, g, g_before);
+      const Value kept = tolerance;
+      const Value g_next = residual(next);
+      u = next;
+      g = select(active, g_next, g);
+      tolerance = select(active, tolerance, kept);
+      narrow();
+    }
+    return u;
+  }
+
+  // Bound of the stiffness of all rates at a state with known rates; sets the relief that keeps every element within
+  // rate_limit. A link is taken to move at least as fast as the recording does.
+  Value survey(const Value* s, Input<Value> in, const Value* rates, double speed, Relief<Value>& relief) const {
+    Value total(0.0);
+    const Value* p = values_.data();
+    for (std::size_t i = links_.size(); i-- > 0;) {
+      const Link& link = links_[i];
+      const Value* state = s + link.state;
+      if (link.values->yield != nullptr) {
+        Yield<Value> yield;
+        link.values->yield(p + link.parameter, *state, yield);
+        const Value& u = rates[link.state];
+        in = {in.x - yield.deflection, in.v - yield.slope * u, in.drive, in.time};
+        const Value lambda = element_stiffness(i, s, in, yield, u, speed, relief);
+        relief[i] = select(lambda > Value(rate_limit), Value(rate_limit) / lambda, Value(1.0));
+        // The step must not pass over the knee of the deflection.
+        const auto bent = yield.width > Value(0.0);
+        const Value passing = abs(u) / select(bent, abs(*state) + yield.width, Value(1.0));
+        total = total + min(lambda + select(bent, passing, Value(0.0)), Value(rate_limit));
+        continue;
+      }
+      if (link.states > 0 && link.values->stiffness != nullptr) {
+        total = total + fma(max(abs(in.v), Value(speed)), moving_[i], still_[i]);
+      }
+      if (link.values->drive != nullptr) {
+        link.values->drive(p + link.parameter, state, in);
+      }
+    }
+    return total;
+  }
+
+  Value element_stiffness(std::size_t top, const Value* s, const Input<Value>& in, const Yield<Value>& yield,
+                          const Value& u, double speed, const Relief<Value>& relief) const {
+    const Value* p = values_.data();
+    const int below = links_[top].state;
+    const Value resistance = max(damping(top, p, s, in, relief), Value(0.0));
+    Value stiffness(0.0);
+    if (below > 0 || top > 0) {
+      const Value fast = abs(in.v) + Value(0.01 * speed + 1e-9);
+      constexpr double moment = 1e-7;  // s
+      States<Value> rest;
+      States<Value> rates;
+      States<Value> shifted;
+      Input<Value> probe = in;
+      probe.v = Value(0.0);
+      evaluate<Value>(top, p, s, probe, relief, rest.data());
+      const Value force = evaluate<Value>(top, p, s, in, relief, nullptr);
+      for (const double direction : {1.0, -1.0}) {
+        probe.v = Value(direction) * fast;
+        evaluate<Value>(top, p, s, probe, relief, rates.data());
+        for (std::size_t i = 0; i < static_cast<std::size_t>(below); ++i) {
+          shifted[i] = s[i] + Value(moment) * (rates[i] - rest[i]);
+        }
+        Input<Value> after = in;
+        after.x = in.x + Value(moment) * probe.v;
+        const Value rise = evaluate<Value>(top, p, shifted.data(), after, relief, nullptr) - force;
+        stiffness = max(stiffness, abs(rise / (Value(moment) * fast)));
+      }
+    }
+    const Value numerator = yield.hold + yield.slope * stiffness + abs(yield.bend * u) * resistance;
+    return yield.gain * numerator / fma(yield.gain * yield.slope, resistance, Value(1.0));
+  }
+
+  std::vector<Link> links_;  // law first
+  std::size_t parameters_ = 0;
+  int states_ = 0;
+  const T* p_ = nullptr;
+  std::vector<Value> values_;
+  std::vector<Value> still_;  // stiffness bound of a link = still + moving |v|
+  std::vector<Value> moving_;
+};
+
+template <class T>
+void advance(const Assembly<T>& system, const value_t<T>& h, const typename Assembly<T>::Start& start,
+             const Input<T>& middle, const Input<T>& end, const States<T>& state, States<T>& next) {
+  using Value = value_t<T>;
+  const auto count = static_cast<std::size_t>(system.states());
+  States<T> k2;
+  States<T> k3;
+  States<T> k4;
+  States<T> trial;
+  const auto shift = [&](const Value& step, const States<T>& k) {
+    for (std::size_t i = 0; i < count; ++i) {
+      trial[i] = detail::scaled_sum(step, k[i], state[i]);
+    }
+  };
+  const Value half = Value(0.5) * h;
+  shift(half, start.rates);
+  system.rate(trial, middle, start.relief, k2);
+  shift(half, k2);
+  system.rate(trial, middle, start.relief, k3);
+  shift(h, k3);
+  system.rate(trial, end, start.relief, k4);
+  const Value sixth = Value(1.0 / 6.0) * h;
+  for (std::size_t i = 0; i < count; ++i) {
+    next[i] =
+        detail::scaled_sum(sixth, detail::scaled_sum(Value(2.0), k2[i] + k3[i], start.rates[i] + k4[i]), state[i]);
+  }
+}
+
+// Over the part [from, to] of interval n; `start` belongs to `from` when `known`.
+template <class T>
+void march_segment(const Assembly<T>& system, const Motion& motion, std::size_t n, double from, double to, bool known,
+                   typename Assembly<T>::Start& start, States<T>& state) {
+  using Value = value_t<T>;
+  const MotionInterval& interval = motion.intervals[n];
+  const double limit = motion.step_limit / interval.length;
+  const Value shortest((to - from) / max_substeps);
+  Value theta(from);
+  States<T> next;
+  auto active = theta < Value(to);
+  while (any(active)) {
+    const Input<T> in = detail::input_at<T>(motion, n, theta);
+    if (!known) {
+      system.start(state, in, interval.speed, start);
+    }
+    known = false;
+    const Value left = Value(to) - theta;
+    Value step = Value(limit) / start.stiffness;
+    step = select(step < shortest, shortest, step);
+    step = select(step < left, step, left);  // all that is left for a lane with NaN
+    const Value reached = select(step < left * Value(1.0 - 1e-9), theta + step, Value(to));
+    const Value middle = fma(Value(0.5), step, theta);
+    advance<T>(system, step * Value(interval.length), start, detail::input_at<T>(motion, n, middle),
+               detail::input_at<T>(motion, n, reached), state, next);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(system.states()); ++i) {
+      state[i] = select(active, next[i], state[i]);
+    }
+    theta = select(active, reached, theta);
+    active = theta < Value(to);
+  }
+}
+
+}  // namespace
+
+template <class T>
+bool needs_assembly(const CompositeModel& model) {
+  return std::ranges::any_of(model.effects, [](const Part* effect) {
+    return effect->on<T>().yield != nullptr || effect->on<T>().loaded_rate != nullptr;
+  });
+}
+
+template <class T>
+void march_assembly(const CompositeModel& model, const Motion& motion, const T* p, std::size_t stride,
+                    std::size_t begin, std::size_t end, T* state, T* out) {
+  Assembly<T> system(model);
+  States<T> current;
+  std::copy_n(state, system.states(), current.begin());
+  typename Assembly<T>::Start start;
+  for (std::size_t n = begin; n < end; ++n) {
+    if (n == begin || stride > 0) {
+      system.set_parameters(p + (n - begin) * stride);
+    }
+    const bool last = n >= motion.intervals.size();
+    system.start(current, detail::input_of_sample<T>(motion, n), last ? 0.0 : motion.intervals[n].speed, start);
+    out[n - begin] = start.force;
+    if (last) {
+      continue;
+    }
+    const MotionInterval& interval = motion.intervals[n];
+    march_segment<T>(system, motion, n, 0.0, interval.reversal_at, true, start, current);
+    if (interval.reversal) {
+      march_segment<T>(system, motion, n, interval.reversal_at, 1.0, false, start, current);
+    }
+  }
+  std::copy_n(current.begin(), system.states(), state);
+}
+
+template bool needs_assembly<double>(const CompositeModel&);
+template bool needs_assembly<Lanes>(const CompositeModel&);
+template bool needs_assembly<LaneDual>(const CompositeModel&);
+template void march_assembly<double>(const CompositeModel&, const Motion&, const double*, std::size_t, std::size_t,
+                                     std::size_t, double*, double*);
+template void march_assembly<Lanes>(const CompositeModel&, const Motion&, const Lanes*, std::size_t, std::size_t,
+                                    std::size_t, Lanes*, Lanes*);
+template void march_assembly<LaneDual>(const CompositeModel&, const Motion&, const LaneDual*, std::size_t, std::size_t,
+                                       std::size_t, LaneDual*, LaneDual*);
+
+}  // namespace hysteron

@@ -1,0 +1,37 @@
+// Chains in which a part needs the force of the parts below it: series elements, behind which the parts below are
+// deflected, and states driven by the force. The motion that a part sees then is no longer the recorded one, and
+// neither is the stiffness, so the step follows the state.
+//
+// A series element (Yield, part.hpp) with state q deflects by D(q), and the links below see x - D, v - D' u with u =
+// q'. u solves, at every stage,
+//   g(u) = u - gain (F_below(x - D, v - D' u) - hold q) = 0,
+// which has g' = 1 + gain D' dF/dv >= 1 for every law whose force does not fall with velocity: one root, between 0 and
+// -g(0). The derivatives of u follow from the implicit function theorem.
+//
+// The rate of the element's state falls with q as
+//   lambda = gain (hold + D' K + |D'' u| dF/dv) / (1 + gain D' dF/dv),
+// K being the instantaneous stiffness of the links below: the slope of their force when they are moved with their
+// states following. K and dF/dv are probed at the start of every step, K in both directions of motion. Where lambda
+// would pass rate_limit the element is slowed down by a smaller gain, which is more damping of its own.
+#pragma once
+
+#include <cstddef>
+
+#include "simulate/composite.hpp"
+#include "simulate/part.hpp"
+
+namespace hysteron {
+
+// 1/s
+inline constexpr double rate_limit = 5e4;
+
+// Whether the model needs the march below: it holds a series element or a rate that needs the force.
+template <class T>
+[[nodiscard]] bool needs_assembly(const CompositeModel& model);
+
+// As CompositeModel::march.
+template <class T>
+void march_assembly(const CompositeModel& model, const Motion& motion, const T* p, std::size_t stride,
+                    std::size_t begin, std::size_t end, T* state, T* out);
+
+}  // namespace hysteron
