@@ -74,5 +74,6 @@ void add_simulate(CLI::App& program);
 void add_score(CLI::App& program);
 void add_catalogue(CLI::App& program);
 void add_generate(CLI::App& program);
+void add_challenge(CLI::App& program);
 
 }  // namespace hysteron::app

@@ -23,6 +23,7 @@ int main(int count, char** arguments) {
   app::add_score(program);
   app::add_catalogue(program);
   app::add_generate(program);
+  app::add_challenge(program);
   try {
     program.parse(count, arguments);
   } catch (const CLI::Success& success) {
