@@ -23,6 +23,7 @@ Needs merged(const Needs& a, const Needs& b) {
   all.frequencies = std::max(a.frequencies, b.frequencies);
   all.one_level = a.one_level || b.one_level;
   all.one_frequency = a.one_frequency || b.one_frequency;
+  all.steady = a.steady || b.steady;
   all.small_amplitudes = a.small_amplitudes || b.small_amplitudes;
   all.speed_decade = a.speed_decade || b.speed_decade;
   return all;
@@ -42,6 +43,8 @@ Law draw_true_law(Draws& draws, const Task& task) {
   if (task.level == Level::wrong_base) {
     laws = {Law::bouc_wen, Law::modified_bouc_wen, Law::tanh_hysteresis, Law::lugre};
   }
+  // A law without a knee takes up little.
+  if (task.level == Level::absorbed) std::erase(laws, Law::bingham);
   for (const std::string& id : task.effects) {
     const HiddenEffect& effect = hidden_effect(id);
     std::erase_if(laws, [&](Law law) { return std::ranges::find(effect.laws, law) == effect.laws.end(); });
@@ -53,11 +56,11 @@ Law draw_true_law(Draws& draws, const Task& task) {
 double draw_share(Draws& draws, Level level, double noise) {
   switch (level) {
     case Level::buried:
-      return noise * draws.uniform(0.9, 1.8);
+      return noise * draws.uniform(0.35, 0.9);
     case Level::foreign:
-      return draws.log_uniform(0.06, 0.3);
+      return draws.log_uniform(0.03, 0.2);
     default:
-      return draws.log_uniform(0.03, 0.3);
+      return draws.log_uniform(0.02, 0.2);
   }
 }
 
@@ -127,15 +130,13 @@ Forces difference(const Forces& a, const Forces& b) {
   return result;
 }
 
-// 99th percentile of the change in the recording that changes most.
+// Root mean square of the change in the recording that changes most.
 double largest_change(const Forces& change) {
   double largest = 0.0;
   for (const std::vector<double>& recording : change) {
-    std::vector<double> sizes;
-    for (const double value : recording) sizes.push_back(std::abs(value));
-    const auto at = sizes.begin() + static_cast<std::ptrdiff_t>(0.99 * static_cast<double>(sizes.size() - 1));
-    std::nth_element(sizes.begin(), at, sizes.end());
-    largest = std::max(largest, *at);
+    double squares = 0.0;
+    for (const double value : recording) squares += value * value;
+    largest = std::max(largest, std::sqrt(squares / static_cast<double>(recording.size())));
   }
   return largest;
 }
@@ -213,7 +214,7 @@ Concealed make_concealed(const Task& task, std::uint64_t seed) {
     needs = merged(needs, task.level == Level::unexcited ? effect.starved : effect.needs);
     c.velocity_given = c.velocity_given || effect.needs_velocity_channel;
   }
-  if (task.level == Level::absorbed) needs = merged(needs, {.levels = 3, .frequencies = 3});
+  if (task.level == Level::absorbed) needs = merged(needs, {.levels = 3, .frequencies = 3, .steady = true});
   c.design = draw_design(draws, task, needs);
   if (needs.long_runs && c.design == Design::broadband) c.design = Design::mixed;
   const Law law = draw_true_law(draws, task);

@@ -14,7 +14,7 @@ namespace hysteron::challenge {
 
 struct HiddenTruth {
   std::string id;
-  double share = 0.0;  // 99th percentile of the change of force in the recording it changes most, over peak force
+  double share = 0.0;  // RMS of the change of force in the recording it changes most, over the campaign's peak
   double strength = 0.0;
   std::vector<TrueParameter> parameters;
   // What a re-fit of the law's parameters cannot take up, to first order, as NRMSE: over all recordings together, and

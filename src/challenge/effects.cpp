@@ -24,7 +24,7 @@ constexpr Needs steps{.drive_steps = true, .levels = 3};
 constexpr Needs constant{.one_level = true};
 constexpr Needs long_runs{.long_runs = true};
 constexpr Needs frequencies{.frequencies = 3};
-constexpr Needs one_frequency{.one_frequency = true};
+constexpr Needs one_frequency{.one_frequency = true, .steady = true};
 constexpr Needs small{.levels = 2, .frequencies = 2, .small_amplitudes = true};
 constexpr Needs levels_and_frequencies{.levels = 3, .frequencies = 3};
 
@@ -348,7 +348,7 @@ std::vector<HiddenEffect> make() {
        false,
        false,
        series_laws,
-       5e-3,
+       1e-3,
        0.6,
        [](P& p, const D& d, double s, Draws shape) {
          p.gap = s * d.smallest_amplitude;
@@ -367,7 +367,7 @@ std::vector<HiddenEffect> make() {
        false,
        false,
        series_laws,
-       5e-3,
+       1e-3,
        0.5,
        [](P& p, const D& d, double s, Draws) { p.series_stiffness = d.force / (s * d.amplitude); },
        [](const P& p) -> Truths {
@@ -382,7 +382,7 @@ std::vector<HiddenEffect> make() {
        false,
        false,
        series_laws,
-       5e-3,
+       1e-3,
        0.5,
        [](P& p, const D& d, double s, Draws shape) {
          p.pocket_length = s * d.amplitude;

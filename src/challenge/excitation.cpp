@@ -234,7 +234,7 @@ Excitation draw_excitation(const Stream& stream, Design design, const Needs& nee
       break;
   }
   // A ramp holds more than one frequency.
-  const bool from_rest = !needs.one_frequency && (needs.from_rest || draws.chance(0.6));
+  const bool from_rest = !needs.steady && (needs.from_rest || draws.chance(0.6));
   const double middle = draws.chance(0.3) ? amplitude * draws.uniform(-0.3, 0.3) : 0.0;
   double total = 0.0;
   for (std::size_t k = 0; k < result.tests.size(); ++k) {

@@ -65,6 +65,7 @@ struct Needs {
   int frequencies = 1;         // at least so many frequencies of the sines
   bool one_level = false;      // unexcited: the drive never changes
   bool one_frequency = false;  // unexcited: a single frequency
+  bool steady = false;         // motions that have always been: one frequency at a time
   bool small_amplitudes = false;
   bool speed_decade = false;
 };
