@@ -75,5 +75,6 @@ void add_score(CLI::App& program);
 void add_catalogue(CLI::App& program);
 void add_generate(CLI::App& program);
 void add_diagnose(CLI::App& program);
+void add_challenge(CLI::App& program);
 
 }  // namespace hysteron::app

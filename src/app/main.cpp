@@ -24,6 +24,7 @@ int main(int count, char** arguments) {
   app::add_catalogue(program);
   app::add_generate(program);
   app::add_diagnose(program);
+  app::add_challenge(program);
   try {
     program.parse(count, arguments);
   } catch (const CLI::Success& success) {

@@ -1,0 +1,134 @@
+#include "challenge/absorption.hpp"
+
+#include <cmath>
+
+#include "challenge/chain.hpp"
+
+namespace hysteron::challenge {
+namespace {
+
+struct Nudge {
+  double Physics::*parameter;
+  double step;
+};
+
+std::vector<Nudge> nudges(const Physics& p) {
+  const double force = 0.01 * p.force_scale;
+  const double drive = 1.0;
+  const double speed = std::max(p.c_a + p.c_b, 1e-9);
+  std::vector<Nudge> list = {{&Physics::alpha_a, force},
+                             {&Physics::alpha_b, force / drive},
+                             {&Physics::c_a, 0.03 * speed},
+                             {&Physics::c_b, 0.03 * speed / drive}};
+  const double spring = force / p.length_scale;
+  switch (p.law) {
+    case Law::bouc_wen:
+      list.insert(list.end(), {{&Physics::k0, spring},
+                               {&Physics::f0, force},
+                               {&Physics::A, 0.03 * p.A},
+                               {&Physics::beta, 0.03 * p.beta},
+                               {&Physics::gamma, 0.03 * p.gamma},
+                               {&Physics::n, 0.03 * p.n}});
+      break;
+    case Law::modified_bouc_wen:
+      list.insert(list.end(), {{&Physics::k0, spring},
+                               {&Physics::k1, spring},
+                               {&Physics::c1, 0.03 * p.c1},
+                               {&Physics::A, 0.03 * p.A},
+                               {&Physics::beta, 0.03 * p.beta},
+                               {&Physics::gamma, 0.03 * p.gamma},
+                               {&Physics::n, 0.03 * p.n}});
+      break;
+    case Law::tanh_hysteresis:
+      list.insert(list.end(), {{&Physics::k0, spring},
+                               {&Physics::f0, force},
+                               {&Physics::v_y, 0.03 * p.v_y},
+                               {&Physics::v_h, 0.03 * p.v_h}});
+      break;
+    case Law::bingham:
+      list.insert(list.end(), {{&Physics::f0, force}});
+      break;
+    case Law::lugre:
+      list.insert(list.end(), {{&Physics::k0, spring},
+                               {&Physics::f0, force},
+                               {&Physics::x_b, 0.03 * p.x_b},
+                               {&Physics::ratio, 0.03},
+                               {&Physics::v_st, 0.03 * p.v_st},
+                               {&Physics::s1, 0.03 * speed}});
+      break;
+  }
+  return list;
+}
+
+// Takes the part of `column` along the orthonormal `basis` out of it.
+void remove_parts(std::vector<double>& column, const std::vector<std::vector<double>>& basis) {
+  for (int pass = 0; pass < 2; ++pass) {
+    for (const std::vector<double>& direction : basis) {
+      double along = 0.0;
+      for (std::size_t k = 0; k < column.size(); ++k) along += column[k] * direction[k];
+      for (std::size_t k = 0; k < column.size(); ++k) column[k] -= along * direction[k];
+    }
+  }
+}
+
+double norm(const std::vector<double>& column) {
+  double sum = 0.0;
+  for (const double value : column) sum += value * value;
+  return std::sqrt(sum);
+}
+
+std::vector<double> stacked(const Forces& forces, const std::vector<double>& peaks, std::size_t first,
+                            std::size_t last) {
+  std::vector<double> column;
+  for (std::size_t r = first; r < last; ++r) {
+    for (const double value : forces[r]) column.push_back(value / peaks[r]);
+  }
+  return column;
+}
+
+}  // namespace
+
+std::vector<Forces> law_derivatives(const Physics& physics, const std::vector<Test>& tests, double rate, int decimation,
+                                    const Forces& at_truth) {
+  std::vector<Forces> result;
+  for (const Nudge& nudge : nudges(physics)) {
+    Physics changed = physics;
+    changed.*nudge.parameter += nudge.step;
+    Forces column;
+    for (std::size_t r = 0; r < tests.size(); ++r) {
+      std::vector<double> force = clean_force(changed, simulate(changed, tests[r], rate), decimation);
+      for (std::size_t k = 0; k < force.size(); ++k) force[k] = (force[k] - at_truth[r][k]) / nudge.step;
+      column.push_back(std::move(force));
+    }
+    result.push_back(std::move(column));
+  }
+  return result;
+}
+
+Forces left_over(const Forces& change, const std::vector<Forces>& derivatives, const std::vector<double>& peaks,
+                 bool single) {
+  Forces result = change;
+  const std::size_t count = change.size();
+  for (std::size_t first = 0; first < count; first = single ? first + 1 : count) {
+    const std::size_t last = single ? first + 1 : count;
+    std::vector<std::vector<double>> basis;
+    for (const Forces& derivative : derivatives) {
+      std::vector<double> column = stacked(derivative, peaks, first, last);
+      const double before = norm(column);
+      remove_parts(column, basis);
+      const double after = norm(column);
+      if (after < 1e-6 * before || after == 0.0) continue;
+      for (double& value : column) value /= after;
+      basis.push_back(std::move(column));
+    }
+    std::vector<double> left = stacked(change, peaks, first, last);
+    remove_parts(left, basis);
+    std::size_t at = 0;
+    for (std::size_t r = first; r < last; ++r) {
+      for (double& value : result[r]) value = left[at++] * peaks[r];
+    }
+  }
+  return result;
+}
+
+}  // namespace hysteron::challenge

@@ -1,0 +1,39 @@
+// What kinds of concealed campaigns there are, and which campaign of a run is of which kind.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace hysteron::challenge {
+
+enum class Level {
+  plain,       // one effect of the catalogue, detectable to large
+  buried,      // one effect, below the noise sample by sample
+  absorbed,    // one effect that the base model swallows in any single recording
+  pairs,       // two effects
+  wrong_base,  // the campaign file names another law than the true one; with and without an effect
+  foreign,     // a cause that is in no catalogue
+  none,        // nothing is missing: coloured noise, coarse quantisation, outliers, sensor noise, scatter of the rig
+  unexcited    // an effect is there, and these recordings do not excite it
+};
+inline constexpr int level_count = 8;
+
+[[nodiscard]] std::string_view name_of(Level level);
+// InputError when it is no level.
+[[nodiscard]] Level level_of(std::string_view name);
+
+// A campaign to be made: its level and what is hidden in it.
+struct Task {
+  int number = 1;  // from 1
+  Level level = Level::plain;
+  std::vector<std::string> effects;  // ids; empty: nothing is missing
+};
+
+// The first `count` tasks over the given levels (all when empty) and effects (all when empty). Each level goes through
+// the effects that it can take in turn, so that every effect occurs.
+[[nodiscard]] std::vector<Task> plan(int count, const std::vector<Level>& levels,
+                                     const std::vector<std::string>& effects, std::uint64_t seed);
+
+}  // namespace hysteron::challenge
