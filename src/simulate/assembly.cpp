@@ -33,6 +33,7 @@ class Assembly {
 
   explicit Assembly(const CompositeModel& model) {
     const auto add = [&](const Part& part) {
+      series_ = series_ || part.on<T>().yield != nullptr;
       links_.push_back({&part.on<T>(), &part.on<Value>(), parameters_, states_, part.states});
       parameters_ += part.parameters.size();
       states_ += part.states;
@@ -47,6 +48,7 @@ class Assembly {
   }
 
   [[nodiscard]] int states() const { return states_; }
+  [[nodiscard]] bool series() const { return series_; }
 
   void set_parameters(const T* p) {
     p_ = p;
@@ -255,7 +257,7 @@ class Assembly {
         // The step must not pass over the knee of the deflection.
         const auto bent = yield.width > Value(0.0);
         const Value passing = abs(u) / select(bent, abs(*state) + yield.width, Value(1.0));
-        total = total + min(lambda + select(bent, passing, Value(0.0)), Value(rate_limit));
+        total = total + min(lambda, Value(rate_limit)) + select(bent, passing, Value(0.0));
         continue;
       }
       if (link.states > 0 && link.values->stiffness != nullptr) {
@@ -303,6 +305,7 @@ class Assembly {
   std::vector<Link> links_;  // law first
   std::size_t parameters_ = 0;
   int states_ = 0;
+  bool series_ = false;
   const T* p_ = nullptr;
   std::vector<Value> values_;
   std::vector<Value> still_;  // stiffness bound of a link = still + moving |v|
@@ -343,7 +346,11 @@ void march_segment(const Assembly<T>& system, const Motion& motion, std::size_t 
                    typename Assembly<T>::Start& start, States<T>& state) {
   using Value = value_t<T>;
   const MotionInterval& interval = motion.intervals[n];
-  const double limit = motion.step_limit / interval.length;
+  // The steps of series elements are short already beside the kinks of the law.
+  const double coarse = detail::coarseness(interval.length);
+  const double even = system.series() ? 0.5 + 0.5 * coarse : coarse;
+  const double finer = detail::near_reversal(motion, n) ? std::max(detail::refinement, even) : even;
+  const double limit = motion.step_limit / finer / interval.length;
   const Value shortest((to - from) / max_substeps);
   Value theta(from);
   States<T> next;
