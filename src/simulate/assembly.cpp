@@ -14,8 +14,12 @@ constexpr std::size_t max_links = 9;
 constexpr int max_iterations = 40;
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
+// What a step holds of its series links: a factor on the gain, and dF/dv of the links below as the root's first guess.
 template <class V>
-using Relief = std::array<V, max_links>;  // factor on the gain of each series link
+struct Relief {
+  std::array<V, max_links> factor;
+  std::array<V, max_links> resistance;
+};
 template <class T>
 using States = std::array<T, static_cast<std::size_t>(max_states)>;
 
@@ -72,7 +76,8 @@ class Assembly {
     Relief<Value> relief;
   };
   void start(const States<T>& s, const Input<T>& in, double speed, Start& result) const {
-    result.relief.fill(Value(1.0));
+    result.relief.factor.fill(Value(1.0));
+    result.relief.resistance.fill(Value(0.0));
     result.force = evaluate(links_.size(), p_, s.data(), in, result.relief, result.rates.data());
     States<Value> state;
     States<Value> rates;
@@ -81,12 +86,18 @@ class Assembly {
       rates[static_cast<std::size_t>(i)] = value_of(result.rates[static_cast<std::size_t>(i)]);
     }
     result.stiffness = survey(state.data(), value_input(in), rates.data(), speed, result.relief);
-    auto slowed = result.relief[0] < Value(1.0);
+    // Lanes that are not slowed keep their bits whether or not a neighbour is.
+    auto slowed = result.relief.factor[0] < Value(1.0);
     for (std::size_t i = 1; i < links_.size(); ++i) {
-      slowed = slowed | (result.relief[i] < Value(1.0));
+      slowed = slowed | (result.relief.factor[i] < Value(1.0));
     }
     if (any(slowed)) {
-      result.force = evaluate(links_.size(), p_, s.data(), in, result.relief, result.rates.data());
+      States<T> rates_slowed;
+      const T force = evaluate(links_.size(), p_, s.data(), in, result.relief, rates_slowed.data());
+      result.force = select(slowed, force, result.force);
+      for (std::size_t i = 0; i < static_cast<std::size_t>(states_); ++i) {
+        result.rates[i] = select(slowed, rates_slowed[i], result.rates[i]);
+      }
     }
   }
 
@@ -128,7 +139,7 @@ class Assembly {
     if (part.yield != nullptr) {
       Yield<U> yield;
       part.yield(own, *state, yield);
-      yield.gain = yield.gain * U(relief[top - 1]);
+      yield.gain = yield.gain * U(relief.factor[top - 1]);
       const Input<U> shifted{in.x - yield.deflection, in.v, in.drive, in.time};
       const U u = solve(top - 1, p, s, shifted, *state, yield, relief);
       if (rates != nullptr) {
@@ -185,7 +196,7 @@ class Assembly {
   // dF/dv of the links [0, top), by a difference that is small against the width of the laws' steepest steps.
   Value damping(std::size_t top, const Value* p, const Value* s, const Input<Value>& in,
                 const Relief<Value>& relief) const {
-    const Value h = fma(abs(in.v), Value(1e-5), Value(1e-7));
+    const Value h = fma(abs(in.v), Value(1e-3), Value(1e-6));
     Input<Value> above = in;
     Input<Value> below = in;
     above.v = in.v + h;
@@ -202,14 +213,14 @@ class Assembly {
     Value tolerance;
     const auto residual = [&](const Value& u) {
       const Value force = evaluate<Value>(top, p, s, moved(in, yield.slope * u), relief, nullptr);
-      tolerance = Value(1e-12) * (abs(u) + yield.gain * (abs(force) + abs(held)));
+      tolerance = Value(1e-11) * (abs(u) + yield.gain * (abs(force) + abs(held)));
       return u - yield.gain * (force - held);
     };
     Value before(0.0);
     Value g_before = residual(before);
     Value low = min(Value(0.0), -g_before);
     Value high = max(Value(0.0), -g_before);
-    Value u = -g_before;
+    Value u = -g_before / fma(yield.gain * yield.slope, relief.resistance[top], Value(1.0));
     Value g = residual(u);
     const auto narrow = [&]() {
       low = select(g < Value(0.0), max(low, u), low);
@@ -252,12 +263,15 @@ class Assembly {
         link.values->yield(p + link.parameter, *state, yield);
         const Value& u = rates[link.state];
         in = {in.x - yield.deflection, in.v - yield.slope * u, in.drive, in.time};
-        const Value lambda = element_stiffness(i, s, in, yield, u, speed, relief);
-        relief[i] = select(lambda > Value(rate_limit), Value(rate_limit) / lambda, Value(1.0));
+        const Value lambda = element_stiffness(i, s, in, yield, speed, relief);
+        relief.factor[i] = select(lambda > Value(rate_limit), Value(rate_limit) / lambda, Value(1.0));
         // The step must not pass over the knee of the deflection.
         const auto bent = yield.width > Value(0.0);
         const Value passing = abs(u) / select(bent, abs(*state) + yield.width, Value(1.0));
-        total = total + min(lambda, Value(rate_limit)) + select(bent, passing, Value(0.0));
+        const Value resistance = relief.resistance[i];
+        const Value bending =
+            yield.gain * abs(yield.bend * u) * resistance / fma(yield.gain * yield.slope, resistance, Value(1.0));
+        total = total + min(lambda, Value(rate_limit)) + select(bent, passing, Value(0.0)) + bending;
         continue;
       }
       if (link.states > 0 && link.values->stiffness != nullptr) {
@@ -271,34 +285,33 @@ class Assembly {
   }
 
   Value element_stiffness(std::size_t top, const Value* s, const Input<Value>& in, const Yield<Value>& yield,
-                          const Value& u, double speed, const Relief<Value>& relief) const {
+                          double speed, Relief<Value>& relief) const {
     const Value* p = values_.data();
     const int below = links_[top].state;
     const Value resistance = max(damping(top, p, s, in, relief), Value(0.0));
+    relief.resistance[top] = resistance;
     Value stiffness(0.0);
-    if (below > 0 || top > 0) {
-      const Value fast = abs(in.v) + Value(0.01 * speed + 1e-9);
-      constexpr double moment = 1e-7;  // s
-      States<Value> rest;
-      States<Value> rates;
-      States<Value> shifted;
-      Input<Value> probe = in;
-      probe.v = Value(0.0);
-      evaluate<Value>(top, p, s, probe, relief, rest.data());
-      const Value force = evaluate<Value>(top, p, s, in, relief, nullptr);
-      for (const double direction : {1.0, -1.0}) {
-        probe.v = Value(direction) * fast;
-        evaluate<Value>(top, p, s, probe, relief, rates.data());
-        for (std::size_t i = 0; i < static_cast<std::size_t>(below); ++i) {
-          shifted[i] = s[i] + Value(moment) * (rates[i] - rest[i]);
-        }
-        Input<Value> after = in;
-        after.x = in.x + Value(moment) * probe.v;
-        const Value rise = evaluate<Value>(top, p, shifted.data(), after, relief, nullptr) - force;
-        stiffness = max(stiffness, abs(rise / (Value(moment) * fast)));
+    const Value fast = abs(in.v) + Value(0.01 * speed + 1e-9);
+    constexpr double moment = 1e-7;  // s
+    States<Value> rest;
+    States<Value> rates;
+    States<Value> shifted;
+    Input<Value> probe = in;
+    probe.v = Value(0.0);
+    evaluate<Value>(top, p, s, probe, relief, rest.data());
+    const Value force = evaluate<Value>(top, p, s, in, relief, nullptr);
+    for (const double direction : {1.0, -1.0}) {
+      probe.v = Value(direction) * fast;
+      evaluate<Value>(top, p, s, probe, relief, rates.data());
+      for (std::size_t i = 0; i < static_cast<std::size_t>(below); ++i) {
+        shifted[i] = s[i] + Value(moment) * (rates[i] - rest[i]);
       }
+      Input<Value> after = in;
+      after.x = in.x + Value(moment) * probe.v;
+      const Value rise = evaluate<Value>(top, p, shifted.data(), after, relief, nullptr) - force;
+      stiffness = max(stiffness, abs(rise / (Value(moment) * fast)));
     }
-    const Value numerator = yield.hold + yield.slope * stiffness + abs(yield.bend * u) * resistance;
+    const Value numerator = yield.hold + yield.slope * stiffness;
     return yield.gain * numerator / fma(yield.gain * yield.slope, resistance, Value(1.0));
   }
 
