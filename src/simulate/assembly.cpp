@@ -37,7 +37,6 @@ class Assembly {
 
   explicit Assembly(const CompositeModel& model) {
     const auto add = [&](const Part& part) {
-      series_ = series_ || part.on<T>().yield != nullptr;
       links_.push_back({&part.on<T>(), &part.on<Value>(), parameters_, states_, part.states});
       parameters_ += part.parameters.size();
       states_ += part.states;
@@ -52,7 +51,6 @@ class Assembly {
   }
 
   [[nodiscard]] int states() const { return states_; }
-  [[nodiscard]] bool series() const { return series_; }
 
   void set_parameters(const T* p) {
     p_ = p;
@@ -68,11 +66,12 @@ class Assembly {
     }
   }
 
-  // Force at the start of a step, its rates, the bound of their stiffness and the relief to step with.
+  // Force at the start of a step, its rates, the bounds of their stiffness and the relief to step with.
   struct Start {
     T force;
     States<T> rates;
-    Value stiffness;
+    Value elements;   // stiffness of the series elements, 1/s
+    Value stiffness;  // of all other links
     Relief<Value> relief;
   };
   void start(const States<T>& s, const Input<T>& in, double speed, Start& result) const {
@@ -85,7 +84,7 @@ class Assembly {
       state[static_cast<std::size_t>(i)] = value_of(s[static_cast<std::size_t>(i)]);
       rates[static_cast<std::size_t>(i)] = value_of(result.rates[static_cast<std::size_t>(i)]);
     }
-    result.stiffness = survey(state.data(), value_input(in), rates.data(), speed, result.relief);
+    survey(state.data(), value_input(in), rates.data(), speed, result);
     // Lanes that are not slowed keep their bits whether or not a neighbour is.
     auto slowed = result.relief.factor[0] < Value(1.0);
     for (std::size_t i = 1; i < links_.size(); ++i) {
@@ -250,10 +249,12 @@ class Assembly {
     return u;
   }
 
-  // Bound of the stiffness of all rates at a state with known rates; sets the relief that keeps every element within
+  // Bounds of the stiffness of all rates at a state with known rates; sets the relief that keeps every element within
   // rate_limit. A link is taken to move at least as fast as the recording does.
-  Value survey(const Value* s, Input<Value> in, const Value* rates, double speed, Relief<Value>& relief) const {
-    Value total(0.0);
+  void survey(const Value* s, Input<Value> in, const Value* rates, double speed, Start& result) const {
+    result.elements = Value(0.0);
+    result.stiffness = Value(0.0);
+    Relief<Value>& relief = result.relief;
     const Value* p = values_.data();
     for (std::size_t i = links_.size(); i-- > 0;) {
       const Link& link = links_[i];
@@ -271,17 +272,17 @@ class Assembly {
         const Value resistance = relief.resistance[i];
         const Value bending =
             yield.gain * abs(yield.bend * u) * resistance / fma(yield.gain * yield.slope, resistance, Value(1.0));
-        total = total + min(lambda, Value(rate_limit)) + select(bent, passing, Value(0.0)) + bending;
+        result.elements =
+            result.elements + min(lambda, Value(rate_limit)) + select(bent, passing, Value(0.0)) + bending;
         continue;
       }
       if (link.states > 0 && link.values->stiffness != nullptr) {
-        total = total + fma(max(abs(in.v), Value(speed)), moving_[i], still_[i]);
+        result.stiffness = result.stiffness + fma(max(abs(in.v), Value(speed)), moving_[i], still_[i]);
       }
       if (link.values->drive != nullptr) {
         link.values->drive(p + link.parameter, state, in);
       }
     }
-    return total;
   }
 
   Value element_stiffness(std::size_t top, const Value* s, const Input<Value>& in, const Yield<Value>& yield,
@@ -318,22 +319,25 @@ class Assembly {
   std::vector<Link> links_;  // law first
   std::size_t parameters_ = 0;
   int states_ = 0;
-  bool series_ = false;
   const T* p_ = nullptr;
   std::vector<Value> values_;
   std::vector<Value> still_;  // stiffness bound of a link = still + moving |v|
   std::vector<Value> moving_;
 };
 
+// Room for one step, made once: clearing it would cost as much as the step.
 template <class T>
-void advance(const Assembly<T>& system, const value_t<T>& h, const typename Assembly<T>::Start& start,
-             const Input<T>& middle, const Input<T>& end, const States<T>& state, States<T>& next) {
+struct Room {
+  typename Assembly<T>::Start start;
+  States<T> k2, k3, k4, trial, next;
+};
+
+template <class T>
+void advance(const Assembly<T>& system, const value_t<T>& h, const Input<T>& middle, const Input<T>& end,
+             const States<T>& state, Room<T>& room) {
   using Value = value_t<T>;
   const auto count = static_cast<std::size_t>(system.states());
-  States<T> k2;
-  States<T> k3;
-  States<T> k4;
-  States<T> trial;
+  auto& [start, k2, k3, k4, trial, next] = room;
   const auto shift = [&](const Value& step, const States<T>& k) {
     for (std::size_t i = 0; i < count; ++i) {
       trial[i] = detail::scaled_sum(step, k[i], state[i]);
@@ -356,17 +360,16 @@ void advance(const Assembly<T>& system, const value_t<T>& h, const typename Asse
 // Over the part [from, to] of interval n; `start` belongs to `from` when `known`.
 template <class T>
 void march_segment(const Assembly<T>& system, const Motion& motion, std::size_t n, double from, double to, bool known,
-                   typename Assembly<T>::Start& start, States<T>& state) {
+                   Room<T>& room, States<T>& state) {
   using Value = value_t<T>;
   const MotionInterval& interval = motion.intervals[n];
-  // The steps of series elements are short already beside the kinks of the law.
+  // The kinks are those of the laws: elements are smooth on the scale that their own stiffness tells.
   const double coarse = detail::coarseness(interval.length);
-  const double even = system.series() ? 0.5 + 0.5 * coarse : coarse;
-  const double finer = detail::near_reversal(motion, n) ? std::max(detail::refinement, even) : even;
-  const double limit = motion.step_limit / finer / interval.length;
+  const double finer = detail::near_reversal(motion, n) ? std::max(detail::refinement, coarse) : coarse;
+  const double limit = motion.step_limit / interval.length;
   const Value shortest((to - from) / max_substeps);
   Value theta(from);
-  States<T> next;
+  auto& start = room.start;
   auto active = theta < Value(to);
   while (any(active)) {
     const Input<T> in = detail::input_at<T>(motion, n, theta);
@@ -375,15 +378,15 @@ void march_segment(const Assembly<T>& system, const Motion& motion, std::size_t 
     }
     known = false;
     const Value left = Value(to) - theta;
-    Value step = Value(limit) / start.stiffness;
+    Value step = Value(limit) / fma(Value(finer), start.stiffness, start.elements);
     step = select(step < shortest, shortest, step);
     step = select(step < left, step, left);  // all that is left for a lane with NaN
     const Value reached = select(step < left * Value(1.0 - 1e-9), theta + step, Value(to));
     const Value middle = fma(Value(0.5), step, theta);
-    advance<T>(system, step * Value(interval.length), start, detail::input_at<T>(motion, n, middle),
-               detail::input_at<T>(motion, n, reached), state, next);
+    advance<T>(system, step * Value(interval.length), detail::input_at<T>(motion, n, middle),
+               detail::input_at<T>(motion, n, reached), state, room);
     for (std::size_t i = 0; i < static_cast<std::size_t>(system.states()); ++i) {
-      state[i] = select(active, next[i], state[i]);
+      state[i] = select(active, room.next[i], state[i]);
     }
     theta = select(active, reached, theta);
     active = theta < Value(to);
@@ -405,7 +408,8 @@ void march_assembly(const CompositeModel& model, const Motion& motion, const T* 
   Assembly<T> system(model);
   States<T> current;
   std::copy_n(state, system.states(), current.begin());
-  typename Assembly<T>::Start start;
+  Room<T> room;
+  auto& start = room.start;
   for (std::size_t n = begin; n < end; ++n) {
     if (n == begin || stride > 0) {
       system.set_parameters(p + (n - begin) * stride);
@@ -417,9 +421,9 @@ void march_assembly(const CompositeModel& model, const Motion& motion, const T* 
       continue;
     }
     const MotionInterval& interval = motion.intervals[n];
-    march_segment<T>(system, motion, n, 0.0, interval.reversal_at, true, start, current);
+    march_segment<T>(system, motion, n, 0.0, interval.reversal_at, true, room, current);
     if (interval.reversal) {
-      march_segment<T>(system, motion, n, interval.reversal_at, 1.0, false, start, current);
+      march_segment<T>(system, motion, n, interval.reversal_at, 1.0, false, room, current);
     }
   }
   std::copy_n(current.begin(), system.states(), state);
