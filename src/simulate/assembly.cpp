@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <vector>
 
@@ -74,7 +75,8 @@ class Assembly {
     Value stiffness;  // of all other links
     Relief<Value> relief;
   };
-  void start(const States<T>& s, const Input<T>& in, double speed, Start& result) const {
+  // `speed` and `acceleration` bound those of the recorded motion over the interval.
+  void start(const States<T>& s, const Input<T>& in, double speed, double acceleration, Start& result) const {
     result.relief.factor.fill(Value(1.0));
     result.relief.resistance.fill(Value(0.0));
     result.force = evaluate(links_.size(), p_, s.data(), in, result.relief, result.rates.data());
@@ -84,7 +86,7 @@ class Assembly {
       state[static_cast<std::size_t>(i)] = value_of(s[static_cast<std::size_t>(i)]);
       rates[static_cast<std::size_t>(i)] = value_of(result.rates[static_cast<std::size_t>(i)]);
     }
-    survey(state.data(), value_input(in), rates.data(), speed, result);
+    survey(state.data(), value_input(in), rates.data(), speed, acceleration, result);
     // Lanes that are not slowed keep their bits whether or not a neighbour is.
     auto slowed = result.relief.factor[0] < Value(1.0);
     for (std::size_t i = 1; i < links_.size(); ++i) {
@@ -251,7 +253,8 @@ class Assembly {
 
   // Bounds of the stiffness of all rates at a state with known rates; sets the relief that keeps every element within
   // rate_limit. A link is taken to move at least as fast as the recording does.
-  void survey(const Value* s, Input<Value> in, const Value* rates, double speed, Start& result) const {
+  void survey(const Value* s, Input<Value> in, const Value* rates, double speed, double acceleration,
+              Start& result) const {
     result.elements = Value(0.0);
     result.stiffness = Value(0.0);
     Relief<Value>& relief = result.relief;
@@ -264,16 +267,19 @@ class Assembly {
         link.values->yield(p + link.parameter, *state, yield);
         const Value& u = rates[link.state];
         in = {in.x - yield.deflection, in.v - yield.slope * u, in.drive, in.time};
-        const Value lambda = element_stiffness(i, s, in, yield, speed, relief);
-        relief.factor[i] = select(lambda > Value(rate_limit), Value(rate_limit) / lambda, Value(1.0));
-        // The step must not pass over the knee of the deflection.
-        const auto bent = yield.width > Value(0.0);
-        const Value passing = abs(u) / select(bent, abs(*state) + yield.width, Value(1.0));
+        const Value stiffness = instantaneous_stiffness(i, s, in, speed, relief);
         const Value resistance = relief.resistance[i];
-        const Value bending =
-            yield.gain * abs(yield.bend * u) * resistance / fma(yield.gain * yield.slope, resistance, Value(1.0));
-        result.elements =
-            result.elements + min(lambda, Value(rate_limit)) + select(bent, passing, Value(0.0)) + bending;
+        const Value gain = yield.gain / fma(yield.gain * yield.slope, resistance, Value(1.0));
+        const Value lambda = gain * (yield.hold + yield.slope * stiffness);
+        relief.factor[i] = select(lambda > Value(rate_limit), Value(rate_limit) / lambda, Value(1.0));
+        // The step must not pass over the knee of the deflection, be it on the way now or about to be pushed there by
+        // the motion: u' = push.
+        const auto bent = yield.width > Value(0.0);
+        const Value span = select(bent, abs(*state) + yield.width, Value(1.0));
+        const Value push = gain * (resistance * Value(acceleration) + stiffness * (abs(in.v) + Value(speed)));
+        const Value passing = select(bent, abs(u) / span + sqrt(push / span), Value(0.0));
+        const Value bending = gain * abs(yield.bend * u) * resistance;
+        result.elements = result.elements + min(lambda, Value(rate_limit)) + passing + bending;
         continue;
       }
       if (link.states > 0 && link.values->stiffness != nullptr) {
@@ -285,12 +291,12 @@ class Assembly {
     }
   }
 
-  Value element_stiffness(std::size_t top, const Value* s, const Input<Value>& in, const Yield<Value>& yield,
-                          double speed, Relief<Value>& relief) const {
+  // K of the links [0, top); sets their resistance.
+  Value instantaneous_stiffness(std::size_t top, const Value* s, const Input<Value>& in, double speed,
+                                Relief<Value>& relief) const {
     const Value* p = values_.data();
     const int below = links_[top].state;
-    const Value resistance = max(damping(top, p, s, in, relief), Value(0.0));
-    relief.resistance[top] = resistance;
+    relief.resistance[top] = max(damping(top, p, s, in, relief), Value(0.0));
     Value stiffness(0.0);
     const Value fast = abs(in.v) + Value(0.01 * speed + 1e-9);
     constexpr double moment = 1e-7;  // s
@@ -312,8 +318,7 @@ class Assembly {
       const Value rise = evaluate<Value>(top, p, shifted.data(), after, relief, nullptr) - force;
       stiffness = max(stiffness, abs(rise / (Value(moment) * fast)));
     }
-    const Value numerator = yield.hold + yield.slope * stiffness;
-    return yield.gain * numerator / fma(yield.gain * yield.slope, resistance, Value(1.0));
+    return stiffness;
   }
 
   std::vector<Link> links_;  // law first
@@ -357,6 +362,11 @@ void advance(const Assembly<T>& system, const value_t<T>& h, const Input<T>& mid
   }
 }
 
+double acceleration_of(const MotionInterval& interval) {
+  const double* c = interval.v;
+  return (std::fabs(c[1]) + 2.0 * std::fabs(c[2]) + 3.0 * std::fabs(c[3])) / interval.length;
+}
+
 // Over the part [from, to] of interval n; `start` belongs to `from` when `known`.
 template <class T>
 void march_segment(const Assembly<T>& system, const Motion& motion, std::size_t n, double from, double to, bool known,
@@ -374,7 +384,7 @@ void march_segment(const Assembly<T>& system, const Motion& motion, std::size_t 
   while (any(active)) {
     const Input<T> in = detail::input_at<T>(motion, n, theta);
     if (!known) {
-      system.start(state, in, interval.speed, start);
+      system.start(state, in, interval.speed, acceleration_of(interval), start);
     }
     known = false;
     const Value left = Value(to) - theta;
@@ -415,7 +425,8 @@ void march_assembly(const CompositeModel& model, const Motion& motion, const T* 
       system.set_parameters(p + (n - begin) * stride);
     }
     const bool last = n >= motion.intervals.size();
-    system.start(current, detail::input_of_sample<T>(motion, n), last ? 0.0 : motion.intervals[n].speed, start);
+    system.start(current, detail::input_of_sample<T>(motion, n), last ? 0.0 : motion.intervals[n].speed,
+                 last ? 0.0 : acceleration_of(motion.intervals[n]), start);
     out[n - begin] = start.force;
     if (last) {
       continue;
