@@ -1,8 +1,7 @@
 // The force falls for good with the work done, as of wear, leakage or fluid breakdown.
-//   F <- F / (1 + d s),   s' = |v|
-// s is the travelled distance: the dissipated energy of a force of constant size (the force of the law is not known to
-// the states of an effect). Unlike self-heating it does not recover. d is not linear together with the forces of the
-// law.
+//   F <- F / (1 + d E),   E' = F v
+// E is the work done on the damper so far: its dissipated energy but for what springs hold. Unlike self-heating it does
+// not recover. It acts on all of the force below, so nothing below is linear. 1 + d E is kept above 0.1.
 // Source: the strength degradation 1 / nu of Baber, Noori, J. Eng. Mech. 111 (1985) 1010-1026, applied to the
 // whole force.
 #include "simulate/compile.hpp"
@@ -13,16 +12,18 @@ namespace {
 struct Degradation {
   static constexpr std::string_view id = "degradation";
   static constexpr std::string_view title = "Degradation";
-  static constexpr std::string_view reference = "loss of force over accumulated work; travel as its measure";
-  static constexpr std::string_view equations[] = {"F <- F / (1 + d s)", "s' = |v|"};
+  static constexpr std::string_view reference = "loss of force over accumulated work; after Baber, Noori 1985";
+  static constexpr std::string_view equations[] = {"F <- F / (1 + d E)", "E' = F v"};
   static constexpr int states = 1;
+  static constexpr bool has_loaded_rate = true;
   static constexpr Parameter parameters[] = {
-      {"d", "d", "1/m", "relative loss of force per travelled distance", 0.0, 1.0, 0.0, Scale::linear, {0, -1, 0}},
+      {"d", "d", "1/J", "relative loss of force per work done", 0.0, 2.0e-3, 0.0, Scale::linear, {-1, -1, 0}},
   };
 
   template <class T>
-  static std::array<T, 1> rate(const std::array<T, 1>& /*p*/, const std::array<T, 1>& /*s*/, const Input<T>& in) {
-    return {abs(in.v)};
+  static std::array<T, 1> loaded_rate(const std::array<T, 1>& p, const std::array<T, 1>& s, const Input<T>& in,
+                                      const T& below) {
+    return {below / max(T(1.0) + p[0] * s[0], T(0.1)) * in.v};
   }
   template <class T>
   static T stiffness(const std::array<T, 1>& /*p*/, double /*speed*/) {
@@ -30,8 +31,7 @@ struct Degradation {
   }
   template <class T>
   static T force(const std::array<T, 1>& p, const std::array<T, 1>& s, const Input<T>& /*in*/, const T& below) {
-    const T& d = p[0];
-    return below / (T(1.0) + d * s[0]);
+    return below / max(T(1.0) + p[0] * s[0], T(0.1));
   }
 };
 

@@ -1,9 +1,8 @@
 // The damper warms up as it works and its force falls.
-//   F <- F exp(-b q),   q' = |v| - q / tau
-// q stands for the excess temperature: the heat of a force of constant size over the travelled distance, lost with the
-// thermal time constant tau. The force of the law is not known to the states of an effect, so the dissipated power F v
-// enters by |v| with the mean force in b. It acts on all of the force below, so b is not linear together with the
-// forces of the law.
+//   F <- F exp(-b q),   q' = F v - q / tau
+// q is the heat stored above the surroundings: the power of the warm damper, lost with the thermal time constant tau. b
+// is the relative loss of force per kelvin over the heat capacity. It acts on all of the force below, so nothing below
+// is linear.
 // Source: exponential temperature law of viscosity, F ~ exp(-b (T - T0)).
 #include "simulate/compile.hpp"
 
@@ -13,18 +12,21 @@ namespace {
 struct SelfHeating {
   static constexpr std::string_view id = "self-heating";
   static constexpr std::string_view title = "Self-heating";
-  static constexpr std::string_view reference = "exponential viscosity law; travel as the measure of heat";
-  static constexpr std::string_view equations[] = {"F <- F exp(-b q)", "q' = |v| - q / tau"};
+  static constexpr std::string_view reference = "exponential viscosity law, first-order heat balance";
+  static constexpr std::string_view equations[] = {"F <- F exp(-b q)", "q' = F v - q / tau"};
   static constexpr int states = 1;
+  static constexpr bool has_loaded_rate = true;
   static constexpr Parameter parameters[] = {
-      {"b", "b", "1/m", "relative loss of force per travelled distance", 0.0, 1.0, 0.0, Scale::linear, {0, -1, 0}},
+      {"b", "b", "1/J", "relative loss of force per stored heat", 0.0, 2.0e-3, 0.0, Scale::linear, {-1, -1, 0}},
       {"tau", "tau", "s", "thermal time constant", 1.0, 2.0e3, 6.0e1, Scale::logarithmic, {}},
   };
 
   template <class T>
-  static std::array<T, 1> rate(const std::array<T, 2>& p, const std::array<T, 1>& s, const Input<T>& in) {
+  static std::array<T, 1> loaded_rate(const std::array<T, 2>& p, const std::array<T, 1>& s, const Input<T>& in,
+                                      const T& below) {
+    const T& b = p[0];
     const T& tau = p[1];
-    return {abs(in.v) - s[0] / tau};
+    return {below * exp(-b * s[0]) * in.v - s[0] / tau};
   }
   template <class T>
   static T stiffness(const std::array<T, 2>& p, double /*speed*/) {

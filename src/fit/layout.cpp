@@ -17,12 +17,13 @@ std::vector<double> nodes(double low, double high, int order) {
   return result;
 }
 
-std::vector<double> lagrange(const std::vector<double>& at, double x) {
-  std::vector<double> weight(at.size(), 1.0);
+template <class T>
+std::vector<T> lagrange(const std::vector<double>& at, const T& x) {
+  std::vector<T> weight(at.size(), T(1.0));
   for (std::size_t k = 0; k < at.size(); ++k) {
     for (std::size_t m = 0; m < at.size(); ++m) {
       if (m != k) {
-        weight[k] *= (x - at[m]) / (at[k] - at[m]);
+        weight[k] *= (x - T(at[m])) / T(at[k] - at[m]);
       }
     }
   }
@@ -229,17 +230,21 @@ double Layout::unit(std::size_t c, double value) const {
   return std::clamp(u, 0.0, 1.0);
 }
 
-std::vector<double> Layout::weights(const ParameterLaw& law, double drive, double frequency) {
-  const std::vector<double> by_drive = lagrange(law.drive_nodes, drive);
-  const std::vector<double> by_frequency = lagrange(law.frequency_nodes, frequency);
-  std::vector<double> result;
+template <class T>
+std::vector<T> Layout::weights(const ParameterLaw& law, const T& drive, double frequency) {
+  const std::vector<T> by_drive = lagrange<T>(law.drive_nodes, drive);
+  const std::vector<double> by_frequency = lagrange<double>(law.frequency_nodes, frequency);
+  std::vector<T> result;
   for (const double wf : by_frequency) {
-    for (const double wd : by_drive) {
-      result.push_back(wd * wf);
+    for (const T& wd : by_drive) {
+      result.push_back(wd * T(wf));
     }
   }
   return result;
 }
+template std::vector<double> Layout::weights(const ParameterLaw&, const double&, double);
+template std::vector<Lanes> Layout::weights(const ParameterLaw&, const Lanes&, double);
+template std::vector<LaneDual> Layout::weights(const ParameterLaw&, const LaneDual&, double);
 
 std::vector<double> Layout::initial() const {
   std::vector<double> u;

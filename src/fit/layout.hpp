@@ -80,8 +80,9 @@ class Layout {
   [[nodiscard]] double physical(std::size_t c, double u) const;
   [[nodiscard]] double slope(std::size_t c, double u) const;
   [[nodiscard]] double unit(std::size_t c, double value) const;
-  // Weights of a law's nodes at a drive level and frequency.
-  [[nodiscard]] static std::vector<double> weights(const ParameterLaw& law, double drive, double frequency);
+  // Weights of a law's nodes at a drive level and frequency; T is double, Lanes or LaneDual.
+  template <class T>
+  [[nodiscard]] static std::vector<T> weights(const ParameterLaw& law, const T& drive, double frequency);
 
   // The card's initial values as a point of the unit box.
   [[nodiscard]] std::vector<double> initial() const;

@@ -3,6 +3,7 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 
@@ -45,13 +46,14 @@ Lanes lanes_of(const std::vector<double>& points, std::size_t dimension, std::si
 
 // Parameters of a pack at one drive level: nodes weighted by the law. For duals, the directions of this sweep are the
 // coordinates [sweep, sweep + sweep_directions).
-template <class T>
-void parameters_of_pack(const Layout& layout, const std::vector<T>& nodes, double drive, double frequency, T* p) {
+template <class T, class Drive>
+void parameters_of_pack(const Layout& layout, const std::vector<T>& nodes, const Drive& drive, double frequency,
+                        T* p) {
   for (std::size_t j = 0; j < layout.cards().size(); ++j) {
     p[j] = T(layout.held()[j]);
   }
   for (const ParameterLaw& law : layout.laws()) {
-    const std::vector<double> weights = Layout::weights(law, drive, frequency);
+    const std::vector<Drive> weights = Layout::weights<Drive>(law, drive, frequency);
     T value = T(weights[0]) * nodes[law.first];
     for (std::size_t k = 1; k < weights.size(); ++k) {
       value = fma(T(weights[k]), nodes[law.first + k], value);
@@ -59,6 +61,40 @@ void parameters_of_pack(const Layout& layout, const std::vector<T>& nodes, doubl
     p[law.parameter] = weights.size() == 1 ? nodes[law.first] : value;
   }
 }
+
+// The effects that change the drive before the laws of the parameters are evaluated (PartOperations::excite), in time
+// order over the samples of a recording.
+template <class T>
+class Excitation {
+ public:
+  explicit Excitation(const CompositeModel& model) {
+    std::size_t parameter = model.law->parameters.size();
+    for (const Part* effect : model.effects) {
+      if (effect->on<T>().excite != nullptr) {
+        parts_.push_back({effect->on<T>().excite, parameter, {}});
+      }
+      parameter += effect->parameters.size();
+    }
+    std::ranges::reverse(parts_);  // outermost first
+  }
+  [[nodiscard]] bool none() const { return parts_.empty(); }
+  // Drive that acts at a sample whose parameters at the recorded drive are p.
+  T act(double drive, double elapsed, const T* p) {
+    T result(drive);
+    for (Step& part : parts_) {
+      part.excite(p + part.parameter, part.memory.data(), elapsed, result);
+    }
+    return result;
+  }
+
+ private:
+  struct Step {
+    decltype(PartOperations<T>::excite) excite;
+    std::size_t parameter;
+    std::array<T, excitation_memory> memory;
+  };
+  std::vector<Step> parts_;
+};
 
 // Marches a target block by block and hands (first sample, count, force) to the sink.
 template <class T, class Parameters, class Sink>
@@ -70,16 +106,24 @@ void march_target(const CompositeModel& model, const Target& target, const Param
   std::vector<T> p(target.drive_varies ? width * (block_samples + 1) : width);
   std::vector<T> state(max_states);
   std::vector<T> out(block_samples);
+  Excitation<T> excitation(model);
+  const auto parameters_of = [&](double drive, double elapsed, T* values) {
+    parameters_at_drive(drive, values);
+    if (!excitation.none()) {
+      parameters_at_drive(excitation.act(drive, elapsed, values), values);
+    }
+  };
   const auto block = [&](std::size_t begin, std::size_t end) {
     if (target.drive_varies) {
       for (std::size_t n = begin; n < end; ++n) {
-        parameters_at_drive(target.motion.drive[n], p.data() + (n - begin) * width);
+        const double elapsed = n == 0 ? -1.0 : target.motion.time[n] - target.motion.time[n - 1];
+        parameters_of(target.motion.drive[n], elapsed, p.data() + (n - begin) * width);
       }
     }
     model.march<T>(target.motion, p.data(), stride, begin, end, state.data(), out.data());
   };
   if (!target.drive_varies) {
-    parameters_at_drive(target.drive, p.data());
+    parameters_of(target.drive, -1.0, p.data());
   }
   for (std::size_t begin = 0; begin < target.preroll; begin += block_samples) {
     block(begin, std::min(begin + block_samples, target.preroll));
@@ -260,7 +304,7 @@ void Objective::run_pack<Lanes>(const std::vector<double>& points, std::size_t f
   Lanes alive;
   march_target<Lanes>(
       layout_.model(), target,
-      [&](double drive, Lanes* p) { parameters_of_pack(layout_, nodes, drive, target.frequency, p); },
+      [&](const auto& drive, Lanes* p) { parameters_of_pack(layout_, nodes, drive, target.frequency, p); },
       [&](std::size_t begin, std::size_t samples, const Lanes* out) {
         for (std::size_t k = 0; k < samples; ++k) {
           const Lanes residual = out[k] - Lanes(target.force[begin + k]);
@@ -296,7 +340,7 @@ void Objective::run_pack<LaneDual>(const std::vector<double>& points, std::size_
     }
     march_target<LaneDual>(
         layout_.model(), target,
-        [&](double drive, LaneDual* p) { parameters_of_pack(layout_, nodes, drive, target.frequency, p); },
+        [&](const auto& drive, LaneDual* p) { parameters_of_pack(layout_, nodes, drive, target.frequency, p); },
         [&](std::size_t begin, std::size_t block, const LaneDual* out) {
           for (std::size_t k = 0; k < block; ++k) {
             for (std::size_t c = low; c < high; ++c) {

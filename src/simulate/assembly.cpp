@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <vector>
 
@@ -14,8 +15,12 @@ constexpr std::size_t max_links = 9;
 constexpr int max_iterations = 40;
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
+// What a step holds of its series links: a factor on the gain, and dF/dv of the links below as the root's first guess.
 template <class V>
-using Relief = std::array<V, max_links>;  // factor on the gain of each series link
+struct Relief {
+  std::array<V, max_links> factor;
+  std::array<V, max_links> resistance;
+};
 template <class T>
 using States = std::array<T, static_cast<std::size_t>(max_states)>;
 
@@ -62,15 +67,18 @@ class Assembly {
     }
   }
 
-  // Force at the start of a step, its rates, the bound of their stiffness and the relief to step with.
+  // Force at the start of a step, its rates, the bounds of their stiffness and the relief to step with.
   struct Start {
     T force;
     States<T> rates;
-    Value stiffness;
+    Value elements;   // stiffness of the series elements, 1/s
+    Value stiffness;  // of all other links
     Relief<Value> relief;
   };
-  void start(const States<T>& s, const Input<T>& in, double speed, Start& result) const {
-    result.relief.fill(Value(1.0));
+  // `speed` and `acceleration` bound those of the recorded motion over the interval.
+  void start(const States<T>& s, const Input<T>& in, double speed, double acceleration, Start& result) const {
+    result.relief.factor.fill(Value(1.0));
+    result.relief.resistance.fill(Value(0.0));
     result.force = evaluate(links_.size(), p_, s.data(), in, result.relief, result.rates.data());
     States<Value> state;
     States<Value> rates;
@@ -78,13 +86,19 @@ class Assembly {
       state[static_cast<std::size_t>(i)] = value_of(s[static_cast<std::size_t>(i)]);
       rates[static_cast<std::size_t>(i)] = value_of(result.rates[static_cast<std::size_t>(i)]);
     }
-    result.stiffness = survey(state.data(), value_input(in), rates.data(), speed, result.relief);
-    auto slowed = result.relief[0] < Value(1.0);
+    survey(state.data(), value_input(in), rates.data(), speed, acceleration, result);
+    // Lanes that are not slowed keep their bits whether or not a neighbour is.
+    auto slowed = result.relief.factor[0] < Value(1.0);
     for (std::size_t i = 1; i < links_.size(); ++i) {
-      slowed = slowed | (result.relief[i] < Value(1.0));
+      slowed = slowed | (result.relief.factor[i] < Value(1.0));
     }
     if (any(slowed)) {
-      result.force = evaluate(links_.size(), p_, s.data(), in, result.relief, result.rates.data());
+      States<T> rates_slowed;
+      const T force = evaluate(links_.size(), p_, s.data(), in, result.relief, rates_slowed.data());
+      result.force = select(slowed, force, result.force);
+      for (std::size_t i = 0; i < static_cast<std::size_t>(states_); ++i) {
+        result.rates[i] = select(slowed, rates_slowed[i], result.rates[i]);
+      }
     }
   }
 
@@ -126,7 +140,7 @@ class Assembly {
     if (part.yield != nullptr) {
       Yield<U> yield;
       part.yield(own, *state, yield);
-      yield.gain = yield.gain * U(relief[top - 1]);
+      yield.gain = yield.gain * U(relief.factor[top - 1]);
       const Input<U> shifted{in.x - yield.deflection, in.v, in.drive, in.time};
       const U u = solve(top - 1, p, s, shifted, *state, yield, relief);
       if (rates != nullptr) {
@@ -183,7 +197,7 @@ class Assembly {
   // dF/dv of the links [0, top), by a difference that is small against the width of the laws' steepest steps.
   Value damping(std::size_t top, const Value* p, const Value* s, const Input<Value>& in,
                 const Relief<Value>& relief) const {
-    const Value h = fma(abs(in.v), Value(1e-5), Value(1e-7));
+    const Value h = fma(abs(in.v), Value(1e-3), Value(1e-6));
     Input<Value> above = in;
     Input<Value> below = in;
     above.v = in.v + h;
@@ -200,14 +214,14 @@ class Assembly {
     Value tolerance;
     const auto residual = [&](const Value& u) {
       const Value force = evaluate<Value>(top, p, s, moved(in, yield.slope * u), relief, nullptr);
-      tolerance = Value(1e-12) * (abs(u) + yield.gain * (abs(force) + abs(held)));
+      tolerance = Value(1e-11) * (abs(u) + yield.gain * (abs(force) + abs(held)));
       return u - yield.gain * (force - held);
     };
     Value before(0.0);
     Value g_before = residual(before);
     Value low = min(Value(0.0), -g_before);
     Value high = max(Value(0.0), -g_before);
-    Value u = -g_before;
+    Value u = -g_before / fma(yield.gain * yield.slope, relief.resistance[top], Value(1.0));
     Value g = residual(u);
     const auto narrow = [&]() {
       low = select(g < Value(0.0), max(low, u), low);
@@ -237,10 +251,13 @@ class Assembly {
     return u;
   }
 
-  // Bound of the stiffness of all rates at a state with known rates; sets the relief that keeps every element within
+  // Bounds of the stiffness of all rates at a state with known rates; sets the relief that keeps every element within
   // rate_limit. A link is taken to move at least as fast as the recording does.
-  Value survey(const Value* s, Input<Value> in, const Value* rates, double speed, Relief<Value>& relief) const {
-    Value total(0.0);
+  void survey(const Value* s, Input<Value> in, const Value* rates, double speed, double acceleration,
+              Start& result) const {
+    result.elements = Value(0.0);
+    result.stiffness = Value(0.0);
+    Relief<Value>& relief = result.relief;
     const Value* p = values_.data();
     for (std::size_t i = links_.size(); i-- > 0;) {
       const Link& link = links_[i];
@@ -250,54 +267,58 @@ class Assembly {
         link.values->yield(p + link.parameter, *state, yield);
         const Value& u = rates[link.state];
         in = {in.x - yield.deflection, in.v - yield.slope * u, in.drive, in.time};
-        const Value lambda = element_stiffness(i, s, in, yield, u, speed, relief);
-        relief[i] = select(lambda > Value(rate_limit), Value(rate_limit) / lambda, Value(1.0));
-        // The step must not pass over the knee of the deflection.
+        const Value stiffness = instantaneous_stiffness(i, s, in, speed, relief);
+        const Value resistance = relief.resistance[i];
+        const Value gain = yield.gain / fma(yield.gain * yield.slope, resistance, Value(1.0));
+        const Value lambda = gain * (yield.hold + yield.slope * stiffness);
+        relief.factor[i] = select(lambda > Value(rate_limit), Value(rate_limit) / lambda, Value(1.0));
+        // The step must not pass over the knee of the deflection, be it on the way now or about to be pushed there by
+        // the motion: u' = push.
         const auto bent = yield.width > Value(0.0);
-        const Value passing = abs(u) / select(bent, abs(*state) + yield.width, Value(1.0));
-        total = total + min(lambda + select(bent, passing, Value(0.0)), Value(rate_limit));
+        const Value span = select(bent, abs(*state) + yield.width, Value(1.0));
+        const Value push = gain * (resistance * Value(acceleration) + stiffness * (abs(in.v) + Value(speed)));
+        const Value passing = select(bent, abs(u) / span + sqrt(push / span), Value(0.0));
+        const Value bending = gain * abs(yield.bend * u) * resistance;
+        result.elements = result.elements + min(lambda, Value(rate_limit)) + passing + bending;
         continue;
       }
       if (link.states > 0 && link.values->stiffness != nullptr) {
-        total = total + fma(max(abs(in.v), Value(speed)), moving_[i], still_[i]);
+        result.stiffness = result.stiffness + fma(max(abs(in.v), Value(speed)), moving_[i], still_[i]);
       }
       if (link.values->drive != nullptr) {
         link.values->drive(p + link.parameter, state, in);
       }
     }
-    return total;
   }
 
-  Value element_stiffness(std::size_t top, const Value* s, const Input<Value>& in, const Yield<Value>& yield,
-                          const Value& u, double speed, const Relief<Value>& relief) const {
+  // K of the links [0, top); sets their resistance.
+  Value instantaneous_stiffness(std::size_t top, const Value* s, const Input<Value>& in, double speed,
+                                Relief<Value>& relief) const {
     const Value* p = values_.data();
     const int below = links_[top].state;
-    const Value resistance = max(damping(top, p, s, in, relief), Value(0.0));
+    relief.resistance[top] = max(damping(top, p, s, in, relief), Value(0.0));
     Value stiffness(0.0);
-    if (below > 0 || top > 0) {
-      const Value fast = abs(in.v) + Value(0.01 * speed + 1e-9);
-      constexpr double moment = 1e-7;  // s
-      States<Value> rest;
-      States<Value> rates;
-      States<Value> shifted;
-      Input<Value> probe = in;
-      probe.v = Value(0.0);
-      evaluate<Value>(top, p, s, probe, relief, rest.data());
-      const Value force = evaluate<Value>(top, p, s, in, relief, nullptr);
-      for (const double direction : {1.0, -1.0}) {
-        probe.v = Value(direction) * fast;
-        evaluate<Value>(top, p, s, probe, relief, rates.data());
-        for (std::size_t i = 0; i < static_cast<std::size_t>(below); ++i) {
-          shifted[i] = s[i] + Value(moment) * (rates[i] - rest[i]);
-        }
-        Input<Value> after = in;
-        after.x = in.x + Value(moment) * probe.v;
-        const Value rise = evaluate<Value>(top, p, shifted.data(), after, relief, nullptr) - force;
-        stiffness = max(stiffness, abs(rise / (Value(moment) * fast)));
+    const Value fast = abs(in.v) + Value(0.01 * speed + 1e-9);
+    constexpr double moment = 1e-7;  // s
+    States<Value> rest;
+    States<Value> rates;
+    States<Value> shifted;
+    Input<Value> probe = in;
+    probe.v = Value(0.0);
+    evaluate<Value>(top, p, s, probe, relief, rest.data());
+    const Value force = evaluate<Value>(top, p, s, in, relief, nullptr);
+    for (const double direction : {1.0, -1.0}) {
+      probe.v = Value(direction) * fast;
+      evaluate<Value>(top, p, s, probe, relief, rates.data());
+      for (std::size_t i = 0; i < static_cast<std::size_t>(below); ++i) {
+        shifted[i] = s[i] + Value(moment) * (rates[i] - rest[i]);
       }
+      Input<Value> after = in;
+      after.x = in.x + Value(moment) * probe.v;
+      const Value rise = evaluate<Value>(top, p, shifted.data(), after, relief, nullptr) - force;
+      stiffness = max(stiffness, abs(rise / (Value(moment) * fast)));
     }
-    const Value numerator = yield.hold + yield.slope * stiffness + abs(yield.bend * u) * resistance;
-    return yield.gain * numerator / fma(yield.gain * yield.slope, resistance, Value(1.0));
+    return stiffness;
   }
 
   std::vector<Link> links_;  // law first
@@ -309,15 +330,19 @@ class Assembly {
   std::vector<Value> moving_;
 };
 
+// Room for one step, made once: clearing it would cost as much as the step.
 template <class T>
-void advance(const Assembly<T>& system, const value_t<T>& h, const typename Assembly<T>::Start& start,
-             const Input<T>& middle, const Input<T>& end, const States<T>& state, States<T>& next) {
+struct Room {
+  typename Assembly<T>::Start start;
+  States<T> k2, k3, k4, trial, next;
+};
+
+template <class T>
+void advance(const Assembly<T>& system, const value_t<T>& h, const Input<T>& middle, const Input<T>& end,
+             const States<T>& state, Room<T>& room) {
   using Value = value_t<T>;
   const auto count = static_cast<std::size_t>(system.states());
-  States<T> k2;
-  States<T> k3;
-  States<T> k4;
-  States<T> trial;
+  auto& [start, k2, k3, k4, trial, next] = room;
   const auto shift = [&](const Value& step, const States<T>& k) {
     for (std::size_t i = 0; i < count; ++i) {
       trial[i] = detail::scaled_sum(step, k[i], state[i]);
@@ -337,33 +362,41 @@ void advance(const Assembly<T>& system, const value_t<T>& h, const typename Asse
   }
 }
 
+double acceleration_of(const MotionInterval& interval) {
+  const double* c = interval.v;
+  return (std::fabs(c[1]) + 2.0 * std::fabs(c[2]) + 3.0 * std::fabs(c[3])) / interval.length;
+}
+
 // Over the part [from, to] of interval n; `start` belongs to `from` when `known`.
 template <class T>
 void march_segment(const Assembly<T>& system, const Motion& motion, std::size_t n, double from, double to, bool known,
-                   typename Assembly<T>::Start& start, States<T>& state) {
+                   Room<T>& room, States<T>& state) {
   using Value = value_t<T>;
   const MotionInterval& interval = motion.intervals[n];
+  // The kinks are those of the laws: elements are smooth on the scale that their own stiffness tells.
+  const double coarse = detail::coarseness(interval.length);
+  const double finer = detail::near_reversal(motion, n) ? std::max(detail::refinement, coarse) : coarse;
   const double limit = motion.step_limit / interval.length;
   const Value shortest((to - from) / max_substeps);
   Value theta(from);
-  States<T> next;
+  auto& start = room.start;
   auto active = theta < Value(to);
   while (any(active)) {
     const Input<T> in = detail::input_at<T>(motion, n, theta);
     if (!known) {
-      system.start(state, in, interval.speed, start);
+      system.start(state, in, interval.speed, acceleration_of(interval), start);
     }
     known = false;
     const Value left = Value(to) - theta;
-    Value step = Value(limit) / start.stiffness;
+    Value step = Value(limit) / fma(Value(finer), start.stiffness, start.elements);
     step = select(step < shortest, shortest, step);
     step = select(step < left, step, left);  // all that is left for a lane with NaN
     const Value reached = select(step < left * Value(1.0 - 1e-9), theta + step, Value(to));
     const Value middle = fma(Value(0.5), step, theta);
-    advance<T>(system, step * Value(interval.length), start, detail::input_at<T>(motion, n, middle),
-               detail::input_at<T>(motion, n, reached), state, next);
+    advance<T>(system, step * Value(interval.length), detail::input_at<T>(motion, n, middle),
+               detail::input_at<T>(motion, n, reached), state, room);
     for (std::size_t i = 0; i < static_cast<std::size_t>(system.states()); ++i) {
-      state[i] = select(active, next[i], state[i]);
+      state[i] = select(active, room.next[i], state[i]);
     }
     theta = select(active, reached, theta);
     active = theta < Value(to);
@@ -385,21 +418,23 @@ void march_assembly(const CompositeModel& model, const Motion& motion, const T* 
   Assembly<T> system(model);
   States<T> current;
   std::copy_n(state, system.states(), current.begin());
-  typename Assembly<T>::Start start;
+  Room<T> room;
+  auto& start = room.start;
   for (std::size_t n = begin; n < end; ++n) {
     if (n == begin || stride > 0) {
       system.set_parameters(p + (n - begin) * stride);
     }
     const bool last = n >= motion.intervals.size();
-    system.start(current, detail::input_of_sample<T>(motion, n), last ? 0.0 : motion.intervals[n].speed, start);
+    system.start(current, detail::input_of_sample<T>(motion, n), last ? 0.0 : motion.intervals[n].speed,
+                 last ? 0.0 : acceleration_of(motion.intervals[n]), start);
     out[n - begin] = start.force;
     if (last) {
       continue;
     }
     const MotionInterval& interval = motion.intervals[n];
-    march_segment<T>(system, motion, n, 0.0, interval.reversal_at, true, start, current);
+    march_segment<T>(system, motion, n, 0.0, interval.reversal_at, true, room, current);
     if (interval.reversal) {
-      march_segment<T>(system, motion, n, interval.reversal_at, 1.0, false, start, current);
+      march_segment<T>(system, motion, n, interval.reversal_at, 1.0, false, room, current);
     }
   }
   std::copy_n(current.begin(), system.states(), state);

@@ -1,0 +1,42 @@
+// Remanence of the magnetic circuit: after a step down of the current the field stays higher than after a step up to
+// the same current, and stays so.
+//   m <- min(max(m, i - w), i + w),   i <- i + rho (m - i)
+// m is a play of half width w behind the current, starting at the first current of the recording, so that nothing
+// changes while the current is constant. Without parameters that follow the drive the effect does nothing.
+// Source: play operator; Krasnosel'skii, Pokrovskii, Systems with Hysteresis, Springer 1989.
+#include "simulate/compile.hpp"
+
+namespace hysteron {
+namespace {
+
+struct MagneticRemanence {
+  static constexpr std::string_view id = "magnetic-remanence";
+  static constexpr std::string_view title = "Magnetic remanence";
+  static constexpr std::string_view reference =
+      "play operator; Krasnosel'skii, Pokrovskii, Systems with Hysteresis, Springer 1989";
+  static constexpr std::string_view equations[] = {"m <- min(max(m, i - w), i + w)", "i <- i + rho (m - i)"};
+  static constexpr int states = 0;
+  static constexpr bool has_excite = true;
+  static constexpr Parameter parameters[] = {
+      {"rho", "rho", "1", "share of the drive that remains behind", 0.0, 1.0, 0.0, Scale::linear, {}},
+      {"w", "w", "A", "half width of the play", 1.0e-2, 2.0, 2.0e-1, Scale::logarithmic, {}},
+  };
+
+  template <class T>
+  static T excite(const std::array<T, 2>& p, std::array<T, excitation_memory>& memory, double elapsed, const T& drive) {
+    T& m = memory[0];
+    m = elapsed < 0.0 ? drive : min(max(m, drive - p[1]), drive + p[1]);
+    return drive + p[0] * (m - drive);
+  }
+  template <class T>
+  static T force(const std::array<T, 2>& /*p*/, const std::array<T, 0>& /*s*/, const Input<T>& /*in*/, const T& below) {
+    return below;
+  }
+};
+
+}  // namespace
+
+extern const Part effect_magnetic_remanence;
+constexpr Part effect_magnetic_remanence = compile<MagneticRemanence>();
+
+}  // namespace hysteron

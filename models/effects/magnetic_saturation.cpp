@@ -1,0 +1,49 @@
+// Saturation of the magnetic circuit: the parameters that follow the current see less of it.
+//   i <- i_s tanh(i / i_s),   sigma = 1 / i_s^2
+// sigma = 0 is no saturation. Without parameters that follow the drive the effect does nothing, and at one level of the
+// drive it cannot be told from them.
+// Source: standard saturation curve.
+#include "simulate/compile.hpp"
+
+namespace hysteron {
+namespace {
+
+struct MagneticSaturation {
+  static constexpr std::string_view id = "magnetic-saturation";
+  static constexpr std::string_view title = "Magnetic saturation";
+  static constexpr std::string_view reference = "standard saturation curve";
+  static constexpr std::string_view equations[] = {"i <- i_s tanh(i / i_s), sigma = 1 / i_s^2"};
+  static constexpr int states = 0;
+  static constexpr bool has_excite = true;
+  static constexpr Parameter parameters[] = {
+      {"sigma",
+       "1/i_s^2",
+       "1/A^2",
+       "inverse square of the drive at which the circuit saturates",
+       0.0,
+       2.5e1,
+       0.0,
+       Scale::linear,
+       {}},
+  };
+
+  template <class T>
+  static T excite(const std::array<T, 1>& p, std::array<T, excitation_memory>& /*memory*/, double /*elapsed*/,
+                  const T& drive) {
+    const T a = p[0] * drive * drive;
+    const T root = sqrt(max(a, T(1e-4)));
+    const T series = T(1.0) - a * (T(1.0 / 3.0) - a * T(2.0 / 15.0));
+    return drive * select(a < T(1e-4), series, tanh(root) / root);
+  }
+  template <class T>
+  static T force(const std::array<T, 1>& /*p*/, const std::array<T, 0>& /*s*/, const Input<T>& /*in*/, const T& below) {
+    return below;
+  }
+};
+
+}  // namespace
+
+extern const Part effect_magnetic_saturation;
+constexpr Part effect_magnetic_saturation = compile<MagneticSaturation>();
+
+}  // namespace hysteron

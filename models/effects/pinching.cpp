@@ -1,0 +1,36 @@
+// Pinching: the force is smaller around the middle of the stroke, where worn or slipping parts do not bear.
+//   F <- F (1 - p exp(-((x - x_p) / w)^2))
+// It acts on all of the force below, so p is not linear together with the forces of the law. The law baber-noori has
+// pinching inside its hysteresis instead.
+// Source: the slip function of Baber, Noori, J. Vib. Acoust. 108 (1986) 411-420, written in the displacement.
+#include "simulate/compile.hpp"
+
+namespace hysteron {
+namespace {
+
+struct Pinching {
+  static constexpr std::string_view id = "pinching";
+  static constexpr std::string_view title = "Pinching around mid-stroke";
+  static constexpr std::string_view reference =
+      "after Baber, Noori, J. Vib. Acoust. 108 (1986) 411-420; written in the displacement";
+  static constexpr std::string_view equations[] = {"F <- F (1 - p exp(-((x - x_p) / w)^2))"};
+  static constexpr int states = 0;
+  static constexpr Parameter parameters[] = {
+      {"p", "p", "1", "relative loss of force in the middle", -0.5, 0.95, 0.0, Scale::linear, {}},
+      {"x_p", "x_p", "m", "middle of the weak range", -1.0e-2, 1.0e-2, 0.0, Scale::linear, {0, 1, 0}},
+      {"w", "w", "m", "half width of the weak range", 5.0e-4, 1.5e-2, 4.0e-3, Scale::logarithmic, {0, 1, 0}},
+  };
+
+  template <class T>
+  static T force(const std::array<T, 3>& p, const std::array<T, 0>& /*s*/, const Input<T>& in, const T& below) {
+    const T relative = (in.x - p[1]) / p[2];
+    return below * (T(1.0) - p[0] * exp(-relative * relative));
+  }
+};
+
+}  // namespace
+
+extern const Part effect_pinching;
+constexpr Part effect_pinching = compile<Pinching>();
+
+}  // namespace hysteron

@@ -1,0 +1,149 @@
+// Identification with effects: sizes of series elements are found again, and the drive path acts on the laws of the
+// parameters.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "fit/identify.hpp"
+#include "synthetic.hpp"
+
+namespace hysteron {
+namespace {
+
+using testing::motion;
+using testing::set_drive;
+using testing::set_force;
+
+constexpr std::uint64_t seed = 1807;
+
+struct Truth {
+  std::string effect;
+  std::string parameter;
+  double value;
+  double tolerance;  // relative
+};
+
+class SeriesFit : public ::testing::TestWithParam<Truth> {};
+
+TEST_P(SeriesFit, FindsTheSizeInNoisyForces) {
+  const Truth& truth = GetParam();
+  SCOPED_TRACE("seed " + std::to_string(seed));
+  std::vector<Recording> recordings = {motion("slow.csv", {{0.02, 0.7}}, 2.0, 120, 0.3),
+                                       motion("fast.csv", {{0.008, 2.6}}, 1.0, 120, 0.2)};
+  const CompositeModel model = make_model("bouc-wen", {truth.effect});
+  LayoutOptions made;
+  made.fix = {{"alpha", 600.0}, {"c0", 1500.0}, {"k0", 2000.0}, {"f0", 20.0},
+              {"x_y", 8e-4},    {"share", 0.6}, {"n", 1.5}};
+  made.fix[truth.effect + "." + truth.parameter] = truth.value;
+  const Layout layout(model, DataScale{}, made);
+  for (std::size_t r = 0; r < recordings.size(); ++r) {
+    set_force(recordings[r], layout, layout.terms(layout.initial()), {}, 0.01, Stream(seed).child(r));
+  }
+  Campaign campaign;
+  campaign.recordings = recordings;
+  campaign.roles.assign(recordings.size(), Role::fit);
+  IdentifyOptions options;
+  options.effects = {truth.effect};
+  options.budget = 1000;
+  options.seed = seed;
+  options.objective.threads = 2;
+  const Identification result = identify(campaign, "bouc-wen", options, {});
+  EXPECT_LT(result.cost, 0.0115);  // 1 % of noise
+  const std::string name = truth.effect + "." + truth.parameter;
+  const auto found = std::ranges::find_if(result.estimates, [&](const Estimate& e) { return e.name == name; });
+  ASSERT_NE(found, result.estimates.end());
+  EXPECT_NEAR(found->term.value, truth.value, truth.tolerance * truth.value);
+}
+
+INSTANTIATE_TEST_SUITE_P(Effects, SeriesFit,
+                         ::testing::Values(Truth{"clearance", "gap", 1.2e-3, 0.1}, Truth{"compliance", "C", 3e-6, 0.2}),
+                         [](const auto& instance) { return instance.param.effect; });
+
+// Force of a dashpot whose coefficient follows the drive, at constant speed: the drive that acts.
+std::vector<double> acting(const std::string& effect, const std::map<std::string, double>& values,
+                           const std::vector<double>& drive) {
+  Recording recording;
+  recording.file = "drive.csv";
+  for (std::size_t n = 0; n < drive.size(); ++n) {
+    recording.time.push_back(0.01 * static_cast<double>(n));
+    recording.displacement.push_back(0.1 * recording.time.back());
+    recording.velocity.push_back(0.1);
+    recording.force.push_back(1.0);
+  }
+  recording.drive = drive;
+  recording.drive_kind = DriveKind::current;
+  const CompositeModel model = make_model("viscous", {effect});
+  std::vector<double> held(model.parameter_count(), 0.0);
+  const auto names = model.parameter_names();
+  for (const auto& [name, value] : values) {
+    held[static_cast<std::size_t>(std::ranges::find(names, effect + "." + name) - names.begin())] = value;
+  }
+  // c0 = 10 i: the force is the drive that acts.
+  return predict(model, held, {{0, 1, 0, 10.0}}, make_target(recording, {}));
+}
+
+TEST(Drive, SaturationIsTheCurveOfTheSource) {
+  std::vector<double> drive;
+  for (int n = 0; n <= 30; ++n) drive.push_back(0.1 * n);
+  for (const double limit : {0.7, 1.5}) {
+    const auto force = acting("magnetic-saturation", {{"sigma", 1.0 / (limit * limit)}}, drive);
+    for (std::size_t n = 0; n < drive.size(); ++n) {
+      EXPECT_NEAR(force[n], limit * std::tanh(drive[n] / limit), 1e-9);
+    }
+  }
+  const auto none = acting("magnetic-saturation", {{"sigma", 0.0}}, drive);
+  const auto hardly = acting("magnetic-saturation", {{"sigma", 1e-6}}, drive);
+  for (std::size_t n = 0; n < drive.size(); ++n) {
+    EXPECT_NEAR(none[n], drive[n], 1e-12);
+    const double a = 1e-6 * drive[n] * drive[n];
+    EXPECT_NEAR(hardly[n], drive[n] * (1.0 - a / 3.0 + 2.0 * a * a / 15.0), 1e-14 * (1.0 + drive[n]));
+  }
+  // Constant drives are saturated too.
+  EXPECT_NEAR(acting("magnetic-saturation", {{"sigma", 1.0}}, {2.0, 2.0, 2.0}).back(), std::tanh(2.0), 1e-12);
+}
+
+TEST(Drive, RemanencePersistsAfterAStepDown) {
+  const auto force =
+      acting("magnetic-remanence", {{"rho", 0.5}, {"w", 0.2}}, {0.5, 0.5, 1.0, 1.0, 2.0, 2.0, 1.0, 1.0, 1.0, 0.5});
+  const std::vector<double> theory = {0.5, 0.5, 0.9, 0.9, 1.9, 1.9, 1.1, 1.1, 1.1, 0.6};
+  for (std::size_t n = 0; n < theory.size(); ++n) EXPECT_NEAR(force[n], theory[n], 1e-12) << n;
+  for (const double constant : acting("magnetic-remanence", {{"rho", 0.5}, {"w", 0.2}}, {0.7, 0.7, 0.7})) {
+    EXPECT_NEAR(constant, 0.7, 1e-12);
+  }
+}
+
+// Derivatives through the drive: the gradient of the objective against differences.
+TEST(Drive, GradientOfTheEffectsOnTheDrive) {
+  for (const std::string effect : {"magnetic-saturation", "magnetic-remanence"}) {
+    Recording recording = motion("m.csv", {{0.02, 1.1}}, 1.5, 120, 0.2);
+    for (std::size_t n = 0; n < recording.size(); ++n) {
+      recording.drive.push_back(0.8 + 0.6 * std::sin(9.0 * recording.time[n]));
+      recording.force.push_back(500.0 * recording.velocity[n] + 1.0);
+    }
+    recording.drive_kind = DriveKind::current;
+    LayoutOptions options;
+    options.by_current = {{"alpha", 1}, {"c0", 2}};
+    const Layout layout(make_model("bouc-wen", {effect}), scale_of({recording}), options);
+    const Objective objective(layout, {recording}, {});
+    std::vector<double> u(layout.dimension(), 0.35);
+    const Response exact = objective.evaluate({u, true});
+    EXPECT_EQ(exact.cost[0], objective.evaluate({u, false}).cost[0]);
+    for (std::size_t c = 0; c < u.size(); ++c) {
+      const double h = 1e-6;
+      std::vector<double> above = u;
+      std::vector<double> below = u;
+      above[c] += h;
+      below[c] -= h;
+      const double up = objective.evaluate({above, false}).cost[0];
+      const double down = objective.evaluate({below, false}).cost[0];
+      const double slope = (up * up - down * down) / (4.0 * h);
+      EXPECT_NEAR(exact.gradient[c], slope, 1e-3 * std::fabs(slope) + 1e-6 * exact.cost[0] * exact.cost[0])
+          << effect << " " << c;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace hysteron
