@@ -8,10 +8,14 @@
 #include <set>
 
 #include "diagnose/noise.hpp"
+#include "diagnose/thin.hpp"
 #include "fit/identify.hpp"
 
 namespace hysteron {
 namespace {
+
+// What hypotheses are compared on.
+constexpr std::size_t quick_samples = 9000;
 
 std::string title_of(const std::string& effect) {
   const Part* part = find_effect(effect);
@@ -123,7 +127,8 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const DiagnoseOpti
       notes.push_back("the drive varies and no laws were given: --by-current " + list + " assumed");
     }
   }
-  Workbench bench(campaign.recordings, split_of(campaign), layout, options.objective, options.seed);
+  const DataScale scale = scale_of(campaign.recordings);
+  Workbench bench(scale, split_of(campaign), layout, options.objective, options.seed);
   notes.push_back(bench.split().how);
 
   SearchOptions searching;
@@ -143,7 +148,12 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const DiagnoseOpti
   const Hypothesis base{options.model, {}, {}};
   auto result = std::make_unique<Diagnosis>(Diagnosis{std::move(bench), {}, {}, 0.0, {}, {}, {}, {}, {}, {}, {}, {}, notes});
   Diagnosis& diagnosis = *result;
-  diagnosis.search = search(diagnosis.bench, base, searching, progress);
+  Split fewer = diagnosis.bench.split();
+  fewer.fit = thinned(fewer.fit, quick_samples);
+  ObjectiveOptions coarse = options.objective;
+  coarse.tolerance = std::max(coarse.tolerance, 1e-2);
+  const Workbench quick(scale, std::move(fewer), layout, coarse, options.seed);
+  diagnosis.search = search(quick, diagnosis.bench, base, searching, progress);
   diagnosis.verdict = verdict_of(diagnosis.search);
 
   double floor = 0.0;
@@ -185,8 +195,8 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const DiagnoseOpti
     if (listed(tried.id) || find_effect(tried.id) == nullptr) {
       continue;
     }
-    const Fit& before = diagnosis.search.base;
-    const double effective = diagnosis.search.misfit.effective;
+    const Fit& before = diagnosis.search.quick_base;
+    const double effective = diagnosis.search.effective;
     const double statistic =
         effective * std::log(std::max(before.cost * before.cost / (tried.fit.cost * tried.fit.cost), 1.0));
     const double more = std::max(1.0, static_cast<double>(tried.fit.dimension() - before.dimension()));
@@ -194,7 +204,7 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const DiagnoseOpti
     row.id = tried.id;
     row.p = boost::math::gamma_q(0.5 * more, 0.5 * statistic);
     const double share = std::max(0.0, tried.gain) /
-                         std::max(before.cost * before.cost - diagnosis.search.augmented.cost * diagnosis.search.augmented.cost, 1e-300);
+                         std::max(before.cost * before.cost - diagnosis.search.quick_augmented.cost * diagnosis.search.quick_augmented.cost, 1e-300);
     if (tried.evidence < 0.0) {
       row.reason = "alone it explains no more than chance";
     } else if (!diagnosis.search.found.empty()) {

@@ -11,9 +11,11 @@ namespace hysteron {
 namespace {
 
 // Rounds of a first look, and of a fit that is compared with others.
-constexpr int screening_rounds = 7;
-constexpr int fitting_rounds = 18;
-constexpr std::size_t survivors = 8;
+constexpr int screening_rounds = 5;
+constexpr int fitting_rounds = 15;
+constexpr std::size_t survivors = 6;
+// Rivals set against an effect in its place: the best of all stages.
+constexpr std::size_t rival_count = 9;
 // An effect is worth a place when the criterion gains this much (on top of what choosing among many costs), and the
 // squared error falls by this share.
 constexpr double least_evidence = 6.0;
@@ -166,20 +168,43 @@ Misfit misfit_of(const Workbench& bench, const Fit& fit) {
   return result;
 }
 
-Search search(const Workbench& bench, const Hypothesis& base, const SearchOptions& options,
+// The hypotheses that came closest at any stage.
+std::vector<std::string> closest(const std::vector<std::vector<Tried>>& stages, std::size_t count) {
+  std::vector<std::pair<double, std::string>> ranked;
+  for (const std::vector<Tried>& stage : stages) {
+    for (const Tried& tried : stage) {
+      const double best = std::max(stage.front().gain, 1e-300);
+      const auto known = std::ranges::find(ranked, tried.id, &std::pair<double, std::string>::second);
+      if (known == ranked.end()) {
+        ranked.emplace_back(-tried.gain / best, tried.id);
+      } else {
+        known->first = std::min(known->first, -tried.gain / best);
+      }
+    }
+  }
+  std::ranges::stable_sort(ranked, {}, &std::pair<double, std::string>::first);
+  std::vector<std::string> result;
+  for (std::size_t k = 0; k < std::min(count, ranked.size()); ++k) {
+    result.push_back(ranked[k].second);
+  }
+  return result;
+}
+
+Search search(const Workbench& bench, const Workbench& fine, const Hypothesis& base, const SearchOptions& options,
               const SearchProgress& progress) {
   Search result;
   progress(0.0, "fitting " + base.model);
-  result.base = bench.from_anywhere(base, options.base_budget);
-  result.base_misfit = misfit_of(bench, result.base);
+  result.quick_base = bench.from_anywhere(base, options.base_budget);
+  result.base = fine.polished(result.quick_base, fitting_rounds);
+  result.base_misfit = misfit_of(fine, result.base);
 
   std::vector<std::string> candidates = options.candidates;
   const std::vector<std::string> laws = law_candidates(bench, base);
   candidates.insert(candidates.end(), laws.begin(), laws.end());
   const auto count = static_cast<double>(candidates.size());
 
-  Fit current = result.base;
-  double effective = result.base_misfit.effective;
+  Fit current = result.quick_base;
+  double effective = misfit_of(bench, current).effective;
   std::vector<std::vector<Tried>> stages;
   for (int depth = 0; depth < options.most_effects; ++depth) {
     progress(0.1 + 0.6 * depth / options.most_effects, "trying " + std::to_string(candidates.size()) + " hypotheses behind " +
@@ -215,7 +240,7 @@ Search search(const Workbench& bench, const Hypothesis& base, const SearchOption
       const Hypothesis less = without(current.what, id);
       Found found;
       found.id = id;
-      found.without = less == base ? result.base : bench.from_fit(less, current, fitting_rounds);
+      found.without = less == base ? result.quick_base : bench.from_fit(less, current, fitting_rounds);
       found.gain = squared(found.without.cost) - squared(current.cost);
       found.evidence = evidence(squared(found.without.cost), squared(current.cost),
                                 static_cast<double>(current.dimension()) - static_cast<double>(found.without.dimension()),
@@ -226,7 +251,7 @@ Search search(const Workbench& bench, const Hypothesis& base, const SearchOption
         break;
       }
       std::vector<std::string> others;
-      for (const std::string& other : candidates) {
+      for (const std::string& other : closest(stages, rival_count)) {
         if (other != id && !contains(current.what, other)) {
           others.push_back(other);
         }
@@ -263,8 +288,14 @@ Search search(const Workbench& bench, const Hypothesis& base, const SearchOption
     }
   }
 
-  result.augmented = bench.polished(current, fitting_rounds);
-  result.misfit = misfit_of(bench, result.augmented);
+  progress(0.8, "fitting the augmented model to all samples");
+  result.effective = effective;
+  result.quick_augmented = current;
+  result.augmented = current.what == base ? result.base : fine.polished(current, fitting_rounds);
+  result.misfit = misfit_of(fine, result.augmented);
+  for (Found& found : result.found) {
+    found.without = found.without.what == base ? result.base : fine.polished(found.without, screening_rounds);
+  }
   for (Found& found : result.found) {
     found.share_of_misfit = std::clamp(
         found.gain / std::max(result.base_misfit.squares - result.misfit.squares + result.misfit.structure, 1e-300), 0.0, 1.0);

@@ -53,6 +53,10 @@ struct Search {
   Misfit misfit;
   std::vector<Found> found;              // effects of the augmented model, strongest first
   std::vector<std::string> richer;       // parameter laws that were made richer
+  // As the comparison saw them, on the quick workbench.
+  Fit quick_base;
+  Fit quick_augmented;
+  double effective = 0.0;                // samples worth of independent information there
   std::vector<Tried> first_stage;        // every single hypothesis against the base, best first
   std::vector<std::pair<std::string, double>> other_laws;  // other base laws without effects: id, squares
 };
@@ -66,11 +70,12 @@ struct SearchOptions {
   std::size_t base_budget = 20000;
 };
 
-// `allowed`: candidates these recordings can show. Floor: see misfit_of.
-Search search(const Workbench& bench, const Hypothesis& base, const SearchOptions& options,
+// Hypotheses are compared on `quick` (thinned recordings, coarse integration); the base and the augmented model are
+// then fitted on `fine`, of the same box, and their costs and misfits are those there.
+Search search(const Workbench& quick, const Workbench& fine, const Hypothesis& base, const SearchOptions& options,
               const SearchProgress& progress);
 
-// `floors`: noise of the force of each fitted recording, N, with whether it comes from cycles.
+// Over the fitted recordings of the workbench.
 Misfit misfit_of(const Workbench& bench, const Fit& fit);
 
 // Gain of the Bayesian information criterion from squares `before` to `after` for `more` parameters.

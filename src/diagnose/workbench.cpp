@@ -52,9 +52,9 @@ double halton(std::size_t index, std::size_t base) {
 
 }  // namespace
 
-Workbench::Workbench(const std::vector<Recording>& all, Split split, LayoutOptions layout, ObjectiveOptions objective,
+Workbench::Workbench(const DataScale& scale, Split split, LayoutOptions layout, ObjectiveOptions objective,
                      std::uint64_t seed)
-    : scale_(scale_of(all)), split_(std::move(split)), layout_(std::move(layout)), options_(objective), seed_(seed) {
+    : scale_(scale), split_(std::move(split)), layout_(std::move(layout)), options_(objective), seed_(seed) {
   for (const Recording& recording : split_.fit) {
     samples_ += recording.size();
   }

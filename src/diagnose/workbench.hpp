@@ -34,8 +34,8 @@ struct Fit {
 
 class Workbench {
  public:
-  Workbench(const std::vector<Recording>& all, Split split, LayoutOptions layout, ObjectiveOptions objective,
-            std::uint64_t seed);
+  // `scale` of the whole campaign, so that every workbench of it searches one box.
+  Workbench(const DataScale& scale, Split split, LayoutOptions layout, ObjectiveOptions objective, std::uint64_t seed);
 
   [[nodiscard]] const Split& split() const { return split_; }
   [[nodiscard]] const ObjectiveOptions& options() const { return options_; }

@@ -24,7 +24,7 @@ double normaliser(const Recording& recording, Normalisation normalisation);
 struct ObjectiveOptions {
   Normalisation normalisation = Normalisation::max_abs;
   Weighting weighting = Weighting::per_recording;
-  double tolerance = 1e-4;
+  double tolerance = 1e-4;  // relative error of the integration; from 1e-2 on kinks between samples are not resolved
   int threads = 0;  // 0: OpenMP's default
 };
 

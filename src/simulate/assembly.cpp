@@ -374,10 +374,10 @@ void march_segment(const Assembly<T>& system, const Motion& motion, std::size_t 
   using Value = value_t<T>;
   const MotionInterval& interval = motion.intervals[n];
   // The kinks are those of the laws: elements are smooth on the scale that their own stiffness tells.
-  const double coarse = detail::coarseness(interval.length);
-  const double finer = detail::near_reversal(motion, n) ? std::max(detail::refinement, coarse) : coarse;
+  const double coarse = detail::coarseness(motion, interval.length);
+  const double finer = detail::near_reversal(motion, n) ? std::max(motion.finer_at_reversals, coarse) : coarse;
   const double limit = motion.step_limit / interval.length;
-  const Value shortest((to - from) / max_substeps);
+  const Value shortest((to - from) / motion.most_substeps);
   Value theta(from);
   auto& start = room.start;
   auto active = theta < Value(to);

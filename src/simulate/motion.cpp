@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-
 namespace hysteron {
 namespace {
 
@@ -49,8 +48,8 @@ double zero_crossing(const double* c) {
 
 }  // namespace
 
-Motion make_motion(std::span<const double> time, std::span<const double> displacement,
-                   std::span<const double> velocity, std::span<const double> drive, double tolerance) {
+Motion make_motion(std::span<const double> time, std::span<const double> displacement, std::span<const double> velocity,
+                   std::span<const double> drive, double tolerance) {
   Motion motion;
   // Parts count time from the start of the recording.
   for (const double t : time) {
@@ -60,6 +59,11 @@ Motion make_motion(std::span<const double> time, std::span<const double> displac
   motion.v.assign(velocity.begin(), velocity.end());
   motion.drive.assign(drive.begin(), drive.end());
   motion.step_limit = 0.5 * std::min(2.0, std::pow(tolerance / 1e-4, 0.25));
+  if (tolerance >= 1e-2) {
+    motion.step_limit = 1.5;
+    motion.finer_at_reversals = 1.0;
+    motion.finer_when_long = 0.0;
+  }
   const std::vector<double> acceleration = slopes(time, velocity);
   motion.intervals.resize(time.empty() ? 0 : time.size() - 1);
   for (std::size_t n = 0; n < motion.intervals.size(); ++n) {
@@ -72,12 +76,19 @@ Motion make_motion(std::span<const double> time, std::span<const double> displac
     interval.end[0] = cubic(interval.x, 1.0);
     interval.end[1] = cubic(interval.v, 1.0);
     // A Hermite cubic stays within its end values plus 4/27 of h |slope| of either end.
-    interval.speed =
-        std::max(std::fabs(velocity[n]), std::fabs(velocity[n + 1])) +
-        4.0 / 27.0 * interval.length * (std::fabs(acceleration[n]) + std::fabs(acceleration[n + 1]));
+    interval.speed = std::max(std::fabs(velocity[n]), std::fabs(velocity[n + 1])) +
+                     4.0 / 27.0 * interval.length * (std::fabs(acceleration[n]) + std::fabs(acceleration[n + 1]));
     interval.reversal = velocity[n] * velocity[n + 1] < 0.0;
     interval.reversal_at = interval.reversal ? zero_crossing(interval.v) : 1.0;
   }
+  return motion;
+}
+
+Motion screening_motion(Motion motion) {
+  motion.step_limit = 2.5;  // the stability limit is 2.78
+  motion.finer_at_reversals = 1.0;
+  motion.finer_when_long = 0.0;
+  motion.most_substeps = 2.0;
   return motion;
 }
 
