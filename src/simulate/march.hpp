@@ -14,7 +14,6 @@
 
 namespace hysteron {
 
-inline constexpr double max_substeps = 65536.0;
 inline constexpr int max_states = 16;
 
 namespace detail {
@@ -136,12 +135,9 @@ class Parameters {
   typename Storage<Chain>::type copy_;
 };
 
-// Laws that slip against a series element have their kink somewhat before or after the reversal of the motion: where
-// a step straddles it the error is of second order only, so the steps there are shorter.
-inline constexpr double refinement = 4.0;
-// How much finer the sub-steps of a long interval (s) are: it hides kinks that no step lands on, such as the slip or the
-// hysteresis force passing zero, and a coarsely sampled recording has few samples to pay for. 1 at 0, 4 from 5 ms on.
-inline double coarseness(double length) { return 1.0 + 3.0 * std::min(1.0, length / 5e-3); }
+inline double coarseness(const Motion& motion, double length) {
+  return 1.0 + motion.finer_when_long * std::min(1.0, length / 5e-3);
+}
 [[gnu::always_inline]] inline bool near_reversal(const Motion& motion, std::size_t n) {
   return motion.intervals[n].reversal || (n > 0 && motion.intervals[n - 1].reversal) ||
          (n + 1 < motion.intervals.size() && motion.intervals[n + 1].reversal);
@@ -191,10 +187,10 @@ template <class T, class Chain>
   const T* p = copy.data();
   const double span = to - from;
   const double length = motion.intervals[n].length * span;
-  const double coarse = coarseness(motion.intervals[n].length);
-  const double limit = motion.step_limit / (near_reversal(motion, n) ? std::max(refinement, coarse) : coarse);
+  const double coarse = coarseness(motion, motion.intervals[n].length);
+  const double limit = motion.step_limit / (near_reversal(motion, n) ? std::max(motion.finer_at_reversals, coarse) : coarse);
   const Value bound = system.stiffness(p, motion.intervals[n].speed) * Value(length / limit);
-  const Value count = select(bound > Value(1.0), min(ceil_value(bound), Value(max_substeps)), Value(1.0));
+  const Value count = select(bound > Value(1.0), min(ceil_value(bound), Value(motion.most_substeps)), Value(1.0));
   const double most = largest(count);
   const Value inverse = Value(1.0) / count;
   const Value h = Value(length) * inverse;
@@ -258,7 +254,7 @@ template <class T, class Chain>
         speed = std::max(speed, motion.intervals[n].speed);
         length = std::max(length, motion.intervals[n].length);
       }
-      single = !any(system.stiffness(p, speed) * Value(length * coarseness(length) / motion.step_limit) > Value(1.0));
+      single = !any(system.stiffness(p, speed) * Value(length * coarseness(motion, length) / motion.step_limit) > Value(1.0));
     }
     for (std::size_t n = first; n < last; ++n) {
       const Input<T> start = input_of_sample<T>(motion, n);

@@ -81,4 +81,12 @@ Motion make_motion(std::span<const double> time, std::span<const double> displac
   return motion;
 }
 
+Motion screening_motion(Motion motion) {
+  motion.step_limit = 2.5;  // the stability limit is 2.78
+  motion.finer_at_reversals = 1.0;
+  motion.finer_when_long = 0.0;
+  motion.most_substeps = 4.0;
+  return motion;
+}
+
 }  // namespace hysteron

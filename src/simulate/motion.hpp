@@ -35,10 +35,22 @@ struct Motion {
   std::vector<MotionInterval> intervals;
   // Largest |lambda| h a sub-step may have: 0.5 at the default tolerance of 1e-4 of peak force.
   double step_limit = 0.5;
+  // How much finer the sub-steps are near a velocity reversal: laws that slip against a series element have their kink
+  // somewhat before or after it, and where a step straddles it the error is of second order only.
+  double finer_at_reversals = 4.0;
+  // How much finer the sub-steps of an interval of 5 ms or more are (1 more at 0): a long interval hides kinks that no
+  // step lands on, such as the slip or the hysteresis force passing zero, and a coarse recording has few samples.
+  double finer_when_long = 3.0;
+  double most_substeps = 65536.0;  // of an interval, between two samples
 };
 
 // Arrays of equal length; time strictly increasing (s), displacement (m), velocity (m/s), drive (A or V, may be empty).
 Motion make_motion(std::span<const double> time, std::span<const double> displacement,
                    std::span<const double> velocity, std::span<const double> drive, double tolerance = 1e-4);
+
+// For a first look at a candidate: steps as long as stability allows and few of them, so that the cost of a march is
+// bounded whatever the parameters. Errors are of the order of 1e-3 of peak force; a parameter set that is too stiff for
+// it runs away.
+Motion screening_motion(Motion motion);
 
 }  // namespace hysteron
