@@ -1,13 +1,13 @@
 // Levenberg-Marquardt from many starts at once: `width` descents side by side, random starts uniform in the unit box,
-// the first from the problem's start. A descent that ends is replaced by a new one. Stops when `agreement` descents have
-// ended at the same best cost after at least `starts` descents, or at the budget.
-// See support/descent.hpp for equations and sources; stopping by agreement follows Boender and Rinnooy Kan 1987,
-// doi 10.1007/BF02592071, in spirit: the more descents end in the best optimum, the less likely a better one is unseen.
+// the first from the problem's start. A descent that ends is replaced by a new one. Stops when `agreement` descents
+// have ended at the same best cost after at least `starts` descents, or at the budget. See support/descent.hpp for
+// equations and sources; stopping by agreement follows Boender and Rinnooy Kan 1987, doi 10.1007/BF02592071, in spirit:
+// the more descents end in the best optimum, the less likely a better one is unseen.
 //
 // Where the problem allows screening, descents are made on the coarse objective first, until the squared cost falls by
-// less than 1e-3 of itself in two steps. One that ends within 10 % of the best screened cost, and not within 0.1 % of
+// less than 1e-2 of itself in two steps. One that ends within 10 % of the best screened cost, and not within 0.5 % of
 // one already taken further, is finished on the full objective from where it ended; agreement is then counted among
-// screened costs, within 0.1 %, once every descent taken further has ended. Screening uses at most half of the budget.
+// screened costs, within 0.5 %, once every descent taken further has ended. Screening uses at most half of the budget.
 // Without screening agreement is counted among final costs, within 1e-4.
 #include <algorithm>
 #include <cmath>
@@ -23,7 +23,7 @@ extern const SolverEntry solver_multistart_lm;
 namespace {
 
 constexpr Setting settings[] = {
-    {"width", 8.0, 1.0, 1024.0, "descents under way at once"},
+    {"width", 4.0, 1.0, 1024.0, "descents under way at once"},
     {"starts", 16.0, 1.0, 1e6, "descents ended before agreement may stop the run"},
     {"agreement", 3.0, 0.0, 1e6, "descents that must end at the best cost; 0 uses the whole budget"},
 };
@@ -56,6 +56,11 @@ class MultistartLm final : public Solver {
 
   void tell(const Request& request, const Response& response) override {
     spent_ += response.cost.size();
+    if (request.screening) {
+      for (const double cost : response.cost) {
+        lowest_ = std::min(lowest_, cost);
+      }
+    }
     std::vector<Descent>& told = screening_ && !request.screening ? finishing_ : descents_;
     for (std::size_t k = 0; k < response.cost.size(); ++k) {
       const auto d = static_cast<Eigen::Index>(problem_.dimension);
@@ -91,6 +96,7 @@ class MultistartLm final : public Solver {
 
  private:
   static constexpr std::size_t screening_rounds = 8;  // fewer would not end a descent
+  static constexpr double screened_tolerance = 5e-3;
 
   [[nodiscard]] bool affords(std::size_t points) const { return points * (1 + problem_.dimension) <= problem_.budget; }
 
@@ -101,9 +107,9 @@ class MultistartLm final : public Solver {
       return;
     }
     const double cost = descent.cost();
-    const bool promising = cost <= 1.1 * *std::ranges::min_element(ended_);
-    const bool known =
-        std::ranges::any_of(taken_, [&](double other) { return std::fabs(cost - other) <= 1e-3 * other; });
+    const bool promising = cost <= 1.1 * lowest_;
+    const bool known = std::ranges::any_of(
+        taken_, [&](double other) { return std::fabs(cost - other) <= screened_tolerance * other; });
     if (promising && !known) {
       taken_.push_back(cost);
       finishing_.emplace_back(descent.best(), problem_.linear);
@@ -114,7 +120,7 @@ class MultistartLm final : public Solver {
     if (agreement_ == 0 || ended_.size() < starts_ || !finishing_.empty()) {
       return;
     }
-    const double tolerance = screening_ ? 1e-3 : 1e-4;
+    const double tolerance = screening_ ? screened_tolerance : 1e-4;
     const double best = *std::ranges::min_element(ended_);
     const auto agreeing = static_cast<std::size_t>(
         std::ranges::count_if(ended_, [&](double cost) { return cost <= best * (1.0 + tolerance); }));
@@ -132,14 +138,15 @@ class MultistartLm final : public Solver {
                                                 ? problem_.start[k]
                                                 : problem_.stream.uniform(index, static_cast<std::uint32_t>(k));
     }
-    return screening_ ? Descent(std::move(point), problem_.linear, 1e-3) : Descent(std::move(point), problem_.linear);
+    return screening_ ? Descent(std::move(point), problem_.linear, 1e-2) : Descent(std::move(point), problem_.linear);
   }
 
   Problem problem_;
   std::vector<Descent> descents_;
   std::vector<Descent> finishing_;  // on the full objective after screening
   std::vector<double> ended_;
-  std::vector<double> taken_;  // screened costs of those finished or being finished
+  std::vector<double> taken_;            // screened costs of those finished or being finished
+  double lowest_ = 3.0 * diverged_cost;  // of all screened costs
   std::string reason_;
   std::size_t begun_ = 0;
   std::size_t spent_ = 0;  // points told
@@ -154,7 +161,8 @@ const SolverEntry solver_multistart_lm = {
     "multistart-lm",
     "Multi-start Levenberg-Marquardt",
     "Marquardt 1963, doi 10.1137/0111030; Golub and Pereyra 1973, doi 10.1137/0710036",
-    "Bounded descents with exact derivatives from many random starts, eight a pack; affine parameters projected out.",
+    "Bounded descents with exact derivatives from many random starts, screened on a coarse objective first; affine "
+    "parameters projected out.",
     true,
     settings,
     [](const Problem& problem) -> std::unique_ptr<Solver> { return std::make_unique<MultistartLm>(problem); }};

@@ -106,7 +106,8 @@ class Descent {
   }
 
   // Minimiser over the box of the quadratic with matrix A and gradient g from `point`, in the given coordinates.
-  static Eigen::VectorXd bounded_step(const Eigen::MatrixXd& a, const Eigen::VectorXd& g, const Eigen::VectorXd& point) {
+  static Eigen::VectorXd bounded_step(const Eigen::MatrixXd& a, const Eigen::VectorXd& g,
+                                      const Eigen::VectorXd& point) {
     const Eigen::Index d = g.size();
     Eigen::VectorXd s = Eigen::VectorXd::Zero(d);
     std::vector<char> held(static_cast<std::size_t>(d), 0);
@@ -153,7 +154,8 @@ class Descent {
   }
 
   // Moves the affine coordinates to their optimum in the box, with cost and gradient to match.
-  void project(Eigen::VectorXd& point, double& squares, Eigen::VectorXd& gradient, const Eigen::MatrixXd& matrix) const {
+  void project(Eigen::VectorXd& point, double& squares, Eigen::VectorXd& gradient,
+               const Eigen::MatrixXd& matrix) const {
     const auto m = static_cast<Eigen::Index>(linear_.size());
     if (m == 0) {
       return;

@@ -169,14 +169,14 @@ Recording thinned(const Recording& recording, std::size_t stride) {
 }
 
 // Samples a first look keeps: enough for the parameters, and for the shape of every period.
-constexpr std::size_t screening_samples = 400;
+constexpr std::size_t screening_samples = 200;
 constexpr double screening_samples_of_a_period = 100.0;
 
 std::size_t screening_stride(const Recording& recording, double frequency) {
   const double step = (recording.time.back() - recording.time.front()) / static_cast<double>(recording.size() - 1);
   const double of_period = frequency > 0.0 ? 1.0 / (frequency * step * screening_samples_of_a_period) : 1.0;
-  return std::max<std::size_t>(1, std::min(recording.size() / screening_samples,
-                                           static_cast<std::size_t>(std::min(of_period, 1e6))));
+  return std::max<std::size_t>(
+      1, std::min(recording.size() / screening_samples, static_cast<std::size_t>(std::min(of_period, 1e6))));
 }
 
 }  // namespace
@@ -244,8 +244,8 @@ double normaliser(const Recording& recording, Normalisation normalisation) {
 
 Target make_target(const Recording& recording, const ObjectiveOptions& options) {
   Target target;
-  target.motion = make_motion(recording.time, recording.displacement, recording.velocity, recording.drive,
-                              options.tolerance);
+  target.motion =
+      make_motion(recording.time, recording.displacement, recording.velocity, recording.drive, options.tolerance);
   target.force = recording.force;
   target.frequency = dominant_frequency(recording);
   if (!recording.drive.empty()) {
@@ -456,9 +456,8 @@ std::vector<std::size_t> Objective::packing(const std::vector<double>& points) c
     const double bound = stiffness_bound(model, p.data(), speed);
     stiffness[row] = std::isfinite(bound) ? bound : 1e300;
   }
-  std::ranges::sort(order, [&](std::size_t a, std::size_t b) {
-    return std::tie(stiffness[a], a) < std::tie(stiffness[b], b);
-  });
+  std::ranges::sort(
+      order, [&](std::size_t a, std::size_t b) { return std::tie(stiffness[a], a) < std::tie(stiffness[b], b); });
   return order;
 }
 

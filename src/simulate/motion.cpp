@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-
 namespace hysteron {
 namespace {
 
@@ -49,8 +48,8 @@ double zero_crossing(const double* c) {
 
 }  // namespace
 
-Motion make_motion(std::span<const double> time, std::span<const double> displacement,
-                   std::span<const double> velocity, std::span<const double> drive, double tolerance) {
+Motion make_motion(std::span<const double> time, std::span<const double> displacement, std::span<const double> velocity,
+                   std::span<const double> drive, double tolerance) {
   Motion motion;
   // Parts count time from the start of the recording.
   for (const double t : time) {
@@ -72,9 +71,8 @@ Motion make_motion(std::span<const double> time, std::span<const double> displac
     interval.end[0] = cubic(interval.x, 1.0);
     interval.end[1] = cubic(interval.v, 1.0);
     // A Hermite cubic stays within its end values plus 4/27 of h |slope| of either end.
-    interval.speed =
-        std::max(std::fabs(velocity[n]), std::fabs(velocity[n + 1])) +
-        4.0 / 27.0 * interval.length * (std::fabs(acceleration[n]) + std::fabs(acceleration[n + 1]));
+    interval.speed = std::max(std::fabs(velocity[n]), std::fabs(velocity[n + 1])) +
+                     4.0 / 27.0 * interval.length * (std::fabs(acceleration[n]) + std::fabs(acceleration[n + 1]));
     interval.reversal = velocity[n] * velocity[n + 1] < 0.0;
     interval.reversal_at = interval.reversal ? zero_crossing(interval.v) : 1.0;
   }
@@ -85,7 +83,7 @@ Motion screening_motion(Motion motion) {
   motion.step_limit = 2.5;  // the stability limit is 2.78
   motion.finer_at_reversals = 1.0;
   motion.finer_when_long = 0.0;
-  motion.most_substeps = 4.0;
+  motion.most_substeps = 2.0;
   return motion;
 }
 
