@@ -1,8 +1,17 @@
-// Levenberg-Marquardt from many starts at once: eight descents a pack, random starts uniform in the unit box, the first
-// from the problem's start. A descent that ends is replaced by a new one. Stops when `agreement` descents have ended
-// within 1e-4 of the same best cost after at least `starts` descents, or at the budget.
-// See support/descent.hpp for equations and sources; stopping by agreement follows Boender and Rinnooy Kan 1987,
-// doi 10.1007/BF02592071, in spirit: the more descents end in the best optimum, the less likely a better one is unseen.
+// Levenberg-Marquardt from many starts at once: `width` descents side by side, random starts uniform in the unit box,
+// the first from the problem's start. A descent that ends is replaced by a new one. Stops when `agreement` descents
+// have ended at the same best cost after at least `starts` descents, or at the budget. See support/descent.hpp for
+// equations and sources; stopping by agreement follows Boender and Rinnooy Kan 1987, doi 10.1007/BF02592071, in spirit:
+// the more descents end in the best optimum, the less likely a better one is unseen.
+//
+// Where the problem allows screening, descents are made on the coarse objective first, until the squared cost falls by
+// less than 1e-2 of itself in two steps. One that ends within 10 % of the best screened cost, and not within 0.5 % of
+// one already taken further, is finished on the full objective from where it ended; agreement is then counted among
+// screened costs, within 0.5 %, once every descent taken further has ended. Screening uses at most half of the budget.
+// Without screening agreement is counted among final costs, within 1e-4.
+#include <algorithm>
+#include <cmath>
+
 #include "algorithms/support/descent.hpp"
 #include "algorithms/support/settings.hpp"
 #include "fit/solver.hpp"
@@ -14,7 +23,7 @@ extern const SolverEntry solver_multistart_lm;
 namespace {
 
 constexpr Setting settings[] = {
-    {"width", 8.0, 1.0, 1024.0, "descents under way at once"},
+    {"width", 4.0, 1.0, 1024.0, "descents under way at once"},
     {"starts", 16.0, 1.0, 1e6, "descents ended before agreement may stop the run"},
     {"agreement", 3.0, 0.0, 1e6, "descents that must end at the best cost; 0 uses the whole budget"},
 };
@@ -26,50 +35,102 @@ class MultistartLm final : public Solver {
     starts_ = static_cast<std::size_t>(setting(problem, solver_multistart_lm, "starts"));
     agreement_ = static_cast<std::size_t>(setting(problem, solver_multistart_lm, "agreement"));
     const auto width = static_cast<std::size_t>(setting(problem, solver_multistart_lm, "width"));
+    screening_ = problem.screening && affords(2 * screening_rounds * width);
     for (std::size_t k = 0; k < width; ++k) {
-      descents_.emplace_back(start(), problem.linear);
+      descents_.push_back(begin());
     }
   }
 
   Request ask() override {
     Request request;
     request.derivatives = true;
-    if (reason_.empty()) {
-      for (const Descent& descent : descents_) {
-        request.points.insert(request.points.end(), descent.next().begin(), descent.next().end());
-      }
+    if (!reason_.empty()) {
+      return request;
+    }
+    request.screening = screening_ && finishing_.empty();
+    for (const Descent& descent : request.screening || !screening_ ? descents_ : finishing_) {
+      request.points.insert(request.points.end(), descent.next().begin(), descent.next().end());
     }
     return request;
   }
 
-  void tell(const Request& /*request*/, const Response& response) override {
-    const auto d = static_cast<Eigen::Index>(problem_.dimension);
-    for (std::size_t k = 0; k < response.cost.size(); ++k) {
-      const auto offset = static_cast<Eigen::Index>(k) * d;
-      descents_[k].tell(response.cost[k], response.cost[k] >= diverged_cost,
-                        Eigen::Map<const Eigen::VectorXd>(response.gradient.data() + offset, d),
-                        Eigen::Map<const Eigen::MatrixXd>(response.gauss_newton.data() + offset * d, d, d));
-      if (descents_[k].finished()) {
-        ended_.push_back(descents_[k].cost());
-        descents_[k] = Descent(start(), problem_.linear);
+  void tell(const Request& request, const Response& response) override {
+    spent_ += response.cost.size();
+    if (request.screening) {
+      for (const double cost : response.cost) {
+        lowest_ = std::min(lowest_, cost);
       }
     }
-    if (agreement_ == 0 || ended_.size() < starts_) {
-      return;
+    std::vector<Descent>& told = screening_ && !request.screening ? finishing_ : descents_;
+    for (std::size_t k = 0; k < response.cost.size(); ++k) {
+      const auto d = static_cast<Eigen::Index>(problem_.dimension);
+      const auto offset = static_cast<Eigen::Index>(k) * d;
+      told[k].tell(response.cost[k], response.cost[k] >= diverged_cost,
+                   Eigen::Map<const Eigen::VectorXd>(response.gradient.data() + offset, d),
+                   Eigen::Map<const Eigen::MatrixXd>(response.gauss_newton.data() + offset * d, d, d));
     }
-    const double best = *std::ranges::min_element(ended_);
-    const auto agreeing = static_cast<std::size_t>(
-        std::ranges::count_if(ended_, [&](double cost) { return cost <= best * (1.0 + 1e-4); }));
-    if (agreeing >= agreement_) {
-      reason_ = std::to_string(agreeing) + " of " + std::to_string(ended_.size()) +
-                " descents ended within 1e-4 of the best cost";
+    if (&told == &finishing_) {
+      std::erase_if(finishing_, [](const Descent& descent) { return descent.finished(); });
+    } else {
+      for (Descent& descent : descents_) {
+        if (descent.finished()) {
+          end(descent);
+          descent = begin();
+        }
+      }
     }
+    if (screening_ && finishing_.empty()) {
+      screening_ = affords(2 * spent_);
+      if (!screening_) {
+        // The rest of the budget on the full objective.
+        ended_.clear();
+        for (Descent& descent : descents_) {
+          descent = begin();
+        }
+      }
+    }
+    stop_if_agreed();
   }
 
   [[nodiscard]] std::string stopped_because() const override { return reason_; }
 
  private:
-  Eigen::VectorXd start() {
+  static constexpr std::size_t screening_rounds = 8;  // fewer would not end a descent
+  static constexpr double screened_tolerance = 5e-3;
+
+  [[nodiscard]] bool affords(std::size_t points) const { return points * (1 + problem_.dimension) <= problem_.budget; }
+
+  // A descent has ended; a screened one may go on where it ended.
+  void end(const Descent& descent) {
+    ended_.push_back(descent.cost());
+    if (!screening_ || descent.best().size() == 0) {
+      return;
+    }
+    const double cost = descent.cost();
+    const bool promising = cost <= 1.1 * lowest_;
+    const bool known = std::ranges::any_of(
+        taken_, [&](double other) { return std::fabs(cost - other) <= screened_tolerance * other; });
+    if (promising && !known) {
+      taken_.push_back(cost);
+      finishing_.emplace_back(descent.best(), problem_.linear);
+    }
+  }
+
+  void stop_if_agreed() {
+    if (agreement_ == 0 || ended_.size() < starts_ || !finishing_.empty()) {
+      return;
+    }
+    const double tolerance = screening_ ? screened_tolerance : 1e-4;
+    const double best = *std::ranges::min_element(ended_);
+    const auto agreeing = static_cast<std::size_t>(
+        std::ranges::count_if(ended_, [&](double cost) { return cost <= best * (1.0 + tolerance); }));
+    if (agreeing >= agreement_) {
+      reason_ = std::to_string(agreeing) + " of " + std::to_string(ended_.size()) + " descents ended within " +
+                support::number_text(tolerance) + " of the best" + (screening_ ? " screened cost" : " cost");
+    }
+  }
+
+  Descent begin() {
     const std::size_t index = begun_++;
     Eigen::VectorXd point(static_cast<Eigen::Index>(problem_.dimension));
     for (std::size_t k = 0; k < problem_.dimension; ++k) {
@@ -77,16 +138,21 @@ class MultistartLm final : public Solver {
                                                 ? problem_.start[k]
                                                 : problem_.stream.uniform(index, static_cast<std::uint32_t>(k));
     }
-    return point;
+    return screening_ ? Descent(std::move(point), problem_.linear, 1e-2) : Descent(std::move(point), problem_.linear);
   }
 
   Problem problem_;
   std::vector<Descent> descents_;
+  std::vector<Descent> finishing_;  // on the full objective after screening
   std::vector<double> ended_;
+  std::vector<double> taken_;            // screened costs of those finished or being finished
+  double lowest_ = 3.0 * diverged_cost;  // of all screened costs
   std::string reason_;
   std::size_t begun_ = 0;
+  std::size_t spent_ = 0;  // points told
   std::size_t starts_ = 0;
   std::size_t agreement_ = 0;
+  bool screening_ = false;
 };
 
 }  // namespace
@@ -95,7 +161,8 @@ const SolverEntry solver_multistart_lm = {
     "multistart-lm",
     "Multi-start Levenberg-Marquardt",
     "Marquardt 1963, doi 10.1137/0111030; Golub and Pereyra 1973, doi 10.1137/0710036",
-    "Bounded descents with exact derivatives from many random starts, eight a pack; affine parameters projected out.",
+    "Bounded descents with exact derivatives from many random starts, screened on a coarse objective first; affine "
+    "parameters projected out.",
     true,
     settings,
     [](const Problem& problem) -> std::unique_ptr<Solver> { return std::make_unique<MultistartLm>(problem); }};

@@ -14,11 +14,15 @@
 #include <string>
 #include <vector>
 
+#include "algorithms/support/settings.hpp"
+
 namespace hysteron {
 
 class Descent {
  public:
-  Descent(Eigen::VectorXd start, const std::vector<bool>& linear) : next_(std::move(start)) {
+  // Ends when the squared cost has fallen by less than `tolerance` of itself in two steps running.
+  Descent(Eigen::VectorXd start, const std::vector<bool>& linear, double tolerance = 1e-7)
+      : next_(std::move(start)), tolerance_(tolerance) {
     for (std::size_t k = 0; k < linear.size(); ++k) {
       if (linear[k]) {
         linear_.push_back(static_cast<Eigen::Index>(k));
@@ -30,6 +34,8 @@ class Descent {
   [[nodiscard]] bool finished() const { return !reason_.empty(); }
   [[nodiscard]] const std::string& reason() const { return reason_; }
   [[nodiscard]] double cost() const { return cost_; }
+  // The best point told, with the affine coordinates at their optimum; empty before the first finite cost.
+  [[nodiscard]] const Eigen::VectorXd& best() const { return at_; }
 
   // `diverged` points count as rejected; a diverged start ends the descent.
   void tell(double cost, bool diverged, Eigen::VectorXd gradient, const Eigen::MatrixXd& matrix) {
@@ -73,9 +79,9 @@ class Descent {
       if (was_step) {
         radius_ = std::min(1e12, radius_ / std::max(1.0 / 3.0, 1.0 - std::pow(2.0 * std::min(rho, 2.0) - 1.0, 3.0)));
         shrink_ = 2.0;
-        quiet_ = gained < 1e-7 * before ? quiet_ + 1 : 0;
+        quiet_ = gained < tolerance_ * before ? quiet_ + 1 : 0;
         if (quiet_ >= 2) {
-          reason_ = "relative decrease of the squared cost < 1e-7 twice";
+          reason_ = "relative decrease of the squared cost < " + support::number_text(tolerance_) + " twice";
           return;
         }
       }
@@ -100,7 +106,8 @@ class Descent {
   }
 
   // Minimiser over the box of the quadratic with matrix A and gradient g from `point`, in the given coordinates.
-  static Eigen::VectorXd bounded_step(const Eigen::MatrixXd& a, const Eigen::VectorXd& g, const Eigen::VectorXd& point) {
+  static Eigen::VectorXd bounded_step(const Eigen::MatrixXd& a, const Eigen::VectorXd& g,
+                                      const Eigen::VectorXd& point) {
     const Eigen::Index d = g.size();
     Eigen::VectorXd s = Eigen::VectorXd::Zero(d);
     std::vector<char> held(static_cast<std::size_t>(d), 0);
@@ -147,7 +154,8 @@ class Descent {
   }
 
   // Moves the affine coordinates to their optimum in the box, with cost and gradient to match.
-  void project(Eigen::VectorXd& point, double& squares, Eigen::VectorXd& gradient, const Eigen::MatrixXd& matrix) const {
+  void project(Eigen::VectorXd& point, double& squares, Eigen::VectorXd& gradient,
+               const Eigen::MatrixXd& matrix) const {
     const auto m = static_cast<Eigen::Index>(linear_.size());
     if (m == 0) {
       return;
@@ -204,6 +212,7 @@ class Descent {
   Eigen::VectorXd gradient_;
   Eigen::MatrixXd matrix_;
   std::string reason_;
+  double tolerance_;
   double best_squares_ = 0.0;
   double cost_ = 1e300;
   double radius_ = 10.0;

@@ -208,6 +208,7 @@ Outcome run_own(const SolverEntry& entry, const Evaluate& evaluate, const Layout
     problem.budget = budget - outcome.evaluations;
     problem.stream = Stream(seed).child("peers").child(entry.id).child(attempt);
     problem.linear = layout.linear();
+    problem.screening = true;
     const RunResult run =
         run_solver(entry, problem, evaluate, [&](const RunResult& partial) { return partial.cost > target; });
     if (run.evaluations == 0) {
@@ -404,6 +405,7 @@ struct Options {
   std::string folder;
   std::string scipy;
   std::string out;
+  std::string only;  // methods whose name holds this word; empty: all
   std::size_t seeds = 11;
   std::size_t budget = 60000;
   bool prepare = false;
@@ -429,6 +431,8 @@ Options parse(int count, char** arguments) {
       options.out = value;
     } else if (word == "--seeds") {
       options.seeds = std::stoul(value);
+    } else if (word == "--only") {
+      options.only = value;
     } else if (word == "--budget") {
       options.budget = std::stoul(value);
     } else {
@@ -469,6 +473,9 @@ void run(int count, char** arguments) {
       throw std::runtime_error(std::string("no solver ") + id);
     }
     Row row{std::string("hysteron ") + id, {}};
+    if (row.method.find(options.only) == std::string::npos) {
+      continue;
+    }
     note(row.method);
     for (std::size_t seed = 1; seed <= options.seeds; ++seed) {
       row.outcomes[own_column].push_back(run_own(*entry, own, setup.layout, targets[own_column], options.budget, seed));
@@ -481,6 +488,9 @@ void run(int count, char** arguments) {
   }
   const auto add_peer = [&](const std::string& method, auto&& once) {
     Row row{method, {}};
+    if (method.find(options.only) == std::string::npos) {
+      return;
+    }
     note(method);
     for (const Column column : {plain_column, own_column}) {
       for (std::size_t seed = 1; seed <= options.seeds; ++seed) {

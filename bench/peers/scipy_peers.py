@@ -1,6 +1,6 @@
 """SciPy's part of the comparison: least_squares (trf, random restarts) and differential_evolution on plain_rk4.h.
 
-Usage: scipy_peers.py LIBRARY FOLDER. Reads FOLDER/problem.csv and FOLDER/data.csv written by `hysteron_peers --prepare`,
+Usage: scipy_peers.py LIBRARY FOLDER [WORD]: methods whose name holds WORD. Reads FOLDER/problem.csv and FOLDER/data.csv written by `hysteron_peers --prepare`,
 writes FOLDER/scipy.csv: method,seed,success,evaluations,seconds,best. See run.sh.
 """
 import ctypes
@@ -70,6 +70,7 @@ def evolution(objective, random):
 
 def main():
     library, folder = sys.argv[1], sys.argv[2]
+    only = sys.argv[3] if len(sys.argv) > 3 else ""
     box, facts = [], {}
     with open(folder + "/problem.csv", encoding="utf-8") as file:
         for row in csv.reader(file):
@@ -89,6 +90,8 @@ def main():
     with open(folder + "/scipy.csv", "w", encoding="utf-8") as out:
         for name, method in (("SciPy least_squares trf, random restarts", restarted_least_squares),
                              ("SciPy differential_evolution", evolution)):
+            if only not in name:
+                continue
             print(name, file=sys.stderr)
             for seed in range(1, int(facts["seeds"]) + 1):
                 objective.begin()

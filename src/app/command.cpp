@@ -10,6 +10,7 @@
 
 #include "core/error.hpp"
 #include "io/campaign.hpp"
+#include "io/campaign_file.hpp"
 
 namespace hysteron::app {
 namespace {
@@ -78,8 +79,9 @@ std::map<std::string, int> parse_orders(const std::string& option, const std::st
     const std::string word = text.substr(begin, end - begin);
     const std::size_t colon = word.find(':');
     const std::string order = colon == std::string::npos ? "" : word.substr(colon + 1);
-    if (colon == 0 || order.size() != 1 || order[0] < '0' || order[0] > '5') {
-      throw InputError(option + ": '" + word + "' is wrong, expected PARAMETER:ORDER with an order from 0 to 5, e.g. alpha:1,c0:1");
+    if (colon == 0 || order.size() != 1 || order[0] < '0' || order[0] > '0' + highest_order) {
+      throw InputError(option + ": '" + word + "' is wrong, expected PARAMETER:ORDER with an order from 0 to " +
+                       std::to_string(highest_order) + ", e.g. alpha:1,c0:1");
     }
     result[word.substr(0, colon)] = order[0] - '0';
     begin = end + 1;

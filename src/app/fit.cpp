@@ -112,6 +112,15 @@ json solver_json(const Identification& result, std::size_t k) {
           {"trace", trace_json(outcome.run)}};
 }
 
+json final_json(const Identification& result) {
+  if (!result.final_run) {
+    return nullptr;
+  }
+  const RunResult& run = *result.final_run;
+  return {{"stage", result.final_stage}, {"solver", run.solver},     {"cost", run.cost},
+          {"evaluations", run.evaluations}, {"budget", run.budget}, {"stopped", run.stopped}};
+}
+
 void run(const FitOptions& options) {
   const auto begun = std::chrono::steady_clock::now();
   const Campaign campaign = load(options.data);
@@ -124,9 +133,7 @@ void run(const FitOptions& options) {
   make_model(model, identify_with.effects);
   normaliser(campaign.recordings.front(), identify_with.objective.normalisation);
 
-  if (std::filesystem::exists(options.out) && !std::filesystem::is_directory(options.out)) {
-    throw InputError(options.out, 0, "exists and is not a folder, expected a folder for the results");
-  }
+  check_output_folder(options.out);
 
   ProgressLine progress(options.common.quiet);
   const Identification result =
@@ -195,6 +202,7 @@ void run(const FitOptions& options) {
                          {"held_out", heldout_files},
                          {"held_out_by", result.roles_given ? "campaign.toml" : "the program; final fit uses all recordings"},
                          {"solvers", solvers},
+                         {"final", final_json(result)},
                          {"parameters", estimates},
                          {"recordings", rows},
                          {"warnings", warnings},
@@ -225,7 +233,10 @@ void run(const FitOptions& options) {
   }
   page["summary"].push_back({{"label", "Evaluations"},
                              {"value", std::to_string(result.solvers[result.chosen].run.evaluations)},
-                             {"note", result.solvers[result.chosen].run.solver + ": " + result.solvers[result.chosen].run.stopped}});
+                             {"note", result.solvers[result.chosen].run.solver + ": " + result.solvers[result.chosen].run.stopped +
+                                          (result.final_run ? fmt::format("; and {} in the {} by {}", result.final_run->evaluations,
+                                                                          result.final_stage, result.final_run->solver)
+                                                            : "")}});
   page["recordings"] = json::array();
   for (std::size_t k = 0; k < predictions.size(); ++k) {
     page["recordings"].push_back(recording_json(campaign.recordings[k], predictions[k], role(k)));
@@ -274,6 +285,10 @@ void run(const FitOptions& options) {
   if (!result.heldout.empty() && !result.roles_given) {
     fmt::print("solvers compared on the {} other recordings; final fit on all {}\n",
                campaign.recordings.size() - result.heldout.size(), campaign.recordings.size());
+  }
+  if (result.final_run) {
+    fmt::print("{} by {}: {} further evaluations, {}\n", result.final_stage, result.final_run->solver,
+               result.final_run->evaluations, result.final_run->stopped);
   }
   fmt::print("overall NRMSE {} ({} weighting, normalised by {})", format_number(result.cost, 4),
              options.common.weighting, normalisation);

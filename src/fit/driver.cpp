@@ -32,40 +32,52 @@ RunResult run_solver(const SolverEntry& entry, const Problem& problem, const Eva
   result.budget = problem.budget;
   result.cost = 3.0 * diverged_cost;
   const std::size_t d = problem.dimension;
-  while (true) {
-    Request request = solver->ask();
-    if (request.points.empty()) {
-      result.stopped = solver->stopped_because();
-      return result;
-    }
-    const std::size_t price = request.derivatives ? 1 + d : 1;
-    const std::size_t affordable = (problem.budget - result.evaluations) / price;
-    if (affordable == 0) {
-      result.stopped = "budget";
-      return result;
-    }
-    const std::size_t count = std::min(request.points.size() / d, affordable);
-    request.points.resize(count * d);
-    const Response response = evaluate(request);
-    for (std::size_t k = 0; k < count; ++k) {
+  std::vector<double> screened;  // the best point of those only screened
+  double screened_cost = 3.0 * diverged_cost;
+  const auto record = [&](const Request& request, const Response& response, std::size_t price) {
+    for (std::size_t k = 0; k < response.cost.size(); ++k) {
       result.evaluations += price;
       if (response.cost[k] >= diverged_cost) {
         ++result.diverged;
       }
-      if (response.cost[k] < result.cost) {
-        result.cost = response.cost[k];
+      double& cost = request.screening ? screened_cost : result.cost;
+      if (response.cost[k] < cost) {
+        cost = response.cost[k];
         const auto row = request.points.begin() + static_cast<std::ptrdiff_t>(k * d);
-        result.best.assign(row, row + static_cast<std::ptrdiff_t>(d));
-        result.trace.push_back({result.evaluations, result.cost});
+        (request.screening ? screened : result.best).assign(row, row + static_cast<std::ptrdiff_t>(d));
+        if (!request.screening) {
+          result.trace.push_back({result.evaluations, result.cost});
+        }
       }
     }
+  };
+  // What is reported is never the result of a screening alone.
+  const auto end = [&](const std::string& why) {
+    if (result.best.empty() && !screened.empty() && result.evaluations < problem.budget) {
+      const Request request{screened, false};
+      record(request, evaluate(request), 1);
+    }
+    result.stopped = why;
+    return result;
+  };
+  while (true) {
+    Request request = solver->ask();
+    if (request.points.empty()) {
+      return end(solver->stopped_because());
+    }
+    const std::size_t price = request.derivatives ? 1 + d : 1;
+    const std::size_t affordable = (problem.budget - result.evaluations) / price;
+    if (affordable == 0) {
+      return end("budget");
+    }
+    request.points.resize(std::min(request.points.size() / d, affordable) * d);
+    const Response response = evaluate(request);
+    record(request, response, price);
     if (observer && !observer(result)) {
-      result.stopped = "interrupted";
-      return result;
+      return end("interrupted");
     }
     if (result.evaluations >= problem.budget) {
-      result.stopped = "budget";
-      return result;
+      return end("budget");
     }
     solver->tell(request, response);
   }

@@ -36,6 +36,7 @@ Problem make_problem(const Objective& objective, const SolverEntry& entry, const
   problem.stream = Stream(options.seed).child(stage).child(entry.id);
   problem.linear = objective.layout().linear();
   problem.start = std::move(start);
+  problem.screening = true;
   for (const auto& [name, value] : options.settings) {
     const bool known = std::ranges::any_of(entry.settings, [&](const Setting& row) { return row.name == name; });
     if (known || options.solvers.size() == 1) {
@@ -62,9 +63,28 @@ double residual_correlation(const Objective& objective, const std::vector<Term>&
   return square > 0.0 ? std::clamp(product / square, 0.0, 0.9999) : 0.0;
 }
 
+// Eigenvalues and vectors of the Gauss-Newton matrix of some coordinates, scaled to unit diagonal.
+struct CorrelationEigen {
+  Eigen::VectorXd norm;
+  Eigen::VectorXd values;
+  Eigen::MatrixXd vectors;
+
+  CorrelationEigen(const Eigen::Ref<const Eigen::MatrixXd>& full, const std::vector<Eigen::Index>& coordinates) {
+    const Eigen::MatrixXd some = full(coordinates, coordinates);
+    norm = some.diagonal().cwiseMax(1e-300).cwiseSqrt();
+    const Eigen::MatrixXd scaled = norm.cwiseInverse().asDiagonal() * some * norm.cwiseInverse().asDiagonal();
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scaled);
+    values = solver.eigenvalues();
+    vectors = solver.eigenvectors();
+  }
+  // The data say nothing of this direction.
+  [[nodiscard]] bool open(Eigen::Index direction) const { return values[direction] <= 1e-9; }
+};
+
 // Standard errors from the Gauss-Newton matrix at the optimum, free coordinates only, with the effective sample size
 // N (1 - r) / (1 + r) of residuals whose lag-1 correlation is r. Directions the data leave open make the parameters
-// in them unidentifiable.
+// in them unidentifiable; they are looked for among all coordinates, since a parameter whose partner in a redundant
+// pair sits on a bound is no better determined.
 void estimate_errors(Identification& result, const Objective& objective, const std::vector<double>& u,
                      DriveKind drive_kind) {
   const Layout& layout = result.layout;
@@ -82,42 +102,34 @@ void estimate_errors(Identification& result, const Objective& objective, const s
   const auto m = static_cast<Eigen::Index>(free.size());
   Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(d, d);
   std::vector<bool> open(static_cast<std::size_t>(d), false);
-  if (m > 0) {
-    Eigen::MatrixXd scaled(m, m);
-    Eigen::VectorXd norm(m);
-    for (Eigen::Index i = 0; i < m; ++i) {
-      norm[i] = std::sqrt(std::max(full(free[static_cast<std::size_t>(i)], free[static_cast<std::size_t>(i)]), 1e-300));
-    }
-    for (Eigen::Index i = 0; i < m; ++i) {
-      for (Eigen::Index j = 0; j < m; ++j) {
-        scaled(i, j) = full(free[static_cast<std::size_t>(i)], free[static_cast<std::size_t>(j)]) / (norm[i] * norm[j]);
+  std::vector<Eigen::Index> every(static_cast<std::size_t>(d));
+  std::iota(every.begin(), every.end(), Eigen::Index{0});
+  const CorrelationEigen all(full, every);
+  for (Eigen::Index e = 0; e < d; ++e) {
+    for (Eigen::Index i = 0; i < d && all.open(e); ++i) {
+      if (std::fabs(all.vectors(i, e)) > 0.1) {
+        open[static_cast<std::size_t>(i)] = true;
       }
     }
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scaled);
+  }
+  if (m > 0) {
+    const CorrelationEigen eigen(full, free);
     const double r = residual_correlation(objective, result.terms);
     const double samples = static_cast<double>(objective.samples()) * (1.0 - r) / (1.0 + r);
-    const double variance =
-        response.cost[0] * response.cost[0] / std::max(samples - static_cast<double>(m), 1.0);
+    const double variance = response.cost[0] * response.cost[0] / std::max(samples - static_cast<double>(m), 1.0);
     Eigen::MatrixXd inverse = Eigen::MatrixXd::Zero(m, m);
     for (Eigen::Index e = 0; e < m; ++e) {
-      const Eigen::VectorXd direction = eigen.eigenvectors().col(e);
-      if (eigen.eigenvalues()[e] > 1e-9) {
-        inverse += direction * direction.transpose() / eigen.eigenvalues()[e];
-        continue;
-      }
-      for (Eigen::Index i = 0; i < m; ++i) {
-        if (std::fabs(direction[i]) > 0.1) {
-          open[static_cast<std::size_t>(free[static_cast<std::size_t>(i)])] = true;
-        }
+      if (!eigen.open(e)) {
+        inverse += eigen.vectors.col(e) * eigen.vectors.col(e).transpose() / eigen.values[e];
       }
     }
     for (Eigen::Index i = 0; i < m; ++i) {
       const auto a = free[static_cast<std::size_t>(i)];
       for (Eigen::Index j = 0; j < m; ++j) {
-        covariance(a, free[static_cast<std::size_t>(j)]) = variance * inverse(i, j) / (norm[i] * norm[j]);
+        covariance(a, free[static_cast<std::size_t>(j)]) = variance * inverse(i, j) / (eigen.norm[i] * eigen.norm[j]);
       }
       // An interval as wide as the box says nothing.
-      if (norm[i] <= 1e-150 || 4.0 * std::sqrt(covariance(a, a)) > 1.0) {
+      if (eigen.norm[i] <= 1e-150 || 4.0 * std::sqrt(covariance(a, a)) > 1.0) {
         open[static_cast<std::size_t>(a)] = true;
       }
     }
@@ -172,6 +184,10 @@ void estimate_errors(Identification& result, const Objective& objective, const s
       result.estimates.push_back(std::move(estimate));
     }
   }
+}
+
+std::string final_stage(bool refit) {
+  return refit ? "final fit on all recordings" : "final descent on the same recordings";
 }
 
 }  // namespace
@@ -248,7 +264,9 @@ Identification identify(const Campaign& campaign, const std::string& model, cons
     RunResult run = run_solver(
         *entry, make_problem(objective, *entry, options, "fit", layout.initial()),
         [&](const Request& request) { return objective.evaluate(request); },
-        [&](const RunResult& partial) { return !progress || progress(std::string(entry->id) + ": " + stage, partial); });
+        [&](const RunResult& partial) {
+          return !progress || progress(std::string(entry->id) + ": " + stage, partial);
+        });
     if (run.best.empty() || run.cost >= diverged_cost) {
       throw WorkError("solver " + run.solver + " found no candidate whose simulation stays finite in " +
                       std::to_string(run.evaluations) + " evaluations");
@@ -270,21 +288,33 @@ Identification identify(const Campaign& campaign, const std::string& model, cons
   result.cost = result.solvers[result.chosen].run.cost;
 
   const bool refit = !roles && !heldout.empty();
+  const bool descends = entries[result.chosen]->uses_derivatives;
   const Objective final_objective(layout, pick(campaign.recordings, refit ? all : fitted), options.objective);
-  if (refit) {
-    // From what was found; other starts only where the chosen solver descends too.
-    const SolverEntry* entry = find_solver(entries[result.chosen]->uses_derivatives ? "multistart-lm" : "lm");
+  if (refit || (!descends && result.solvers[result.chosen].run.stopped != "interrupted")) {
+    // From what was found; other starts only where the chosen solver descends too. Without recordings to add, a solver
+    // that does not descend still leaves the bottom of the valley to a descent.
+    const SolverEntry* entry = find_solver(refit && descends ? "multistart-lm" : "lm");
     IdentifyOptions polish = options;
     polish.settings.clear();
-    const RunResult run = run_solver(
+    RunResult run = run_solver(
         *entry, make_problem(final_objective, *entry, polish, "refit", best),
         [&](const Request& request) { return final_objective.evaluate(request); },
         [&](const RunResult& partial) {
-          return !progress || progress(std::string(entry->id) + ": final fit on all recordings", partial);
+          return !progress || progress(std::string(entry->id) + ": " + final_stage(refit), partial);
         });
-    best = run.best;
-    result.cost = run.cost;
-    result.fitted = all;
+    if (refit || run.cost < result.cost) {
+      best = run.best;
+      result.cost = run.cost;
+      if (!refit && !heldout.empty()) {
+        result.nrmse_heldout =
+            heldout_nrmse(layout, layout.terms(best), pick(campaign.recordings, heldout), options.objective);
+      }
+    }
+    if (refit) {
+      result.fitted = all;
+    }
+    result.final_stage = final_stage(refit);
+    result.final_run = std::move(run);
   }
   result.terms = layout.terms(best);
   estimate_errors(result, final_objective, best, campaign.recordings.front().drive_kind);

@@ -50,7 +50,12 @@ struct Identification {
   std::vector<std::size_t> fitted;
   std::vector<std::size_t> heldout;
   bool roles_given = false;            // else held-out recordings were chosen here, and the final fit uses all
-  std::vector<std::string> warnings;
+  // What followed the solvers compared, from the best point of the chosen one: a fit on all recordings where some were
+  // held out by the program, else a descent where the chosen solver does not descend by itself. Its evaluations are
+  // its own, outside the budget of the solvers compared.
+  std::optional<RunResult> final_run = {};
+  std::string final_stage = {};
+  std::vector<std::string> warnings = {};
 };
 
 // Which recordings to hold out when no roles are given: about a fifth, spread over drive level and severity.

@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <numeric>
+#include <tuple>
 
 #include "core/error.hpp"
 #include "simulate/march.hpp"
@@ -32,13 +34,15 @@ double standard_deviation(const std::vector<double>& values) {
   return std::sqrt(sum / static_cast<double>(values.size()));
 }
 
-// Lanes of unit coordinate c of the points [first, first + count), the last repeated in unused lanes.
-Lanes lanes_of(const std::vector<double>& points, std::size_t dimension, std::size_t first, std::size_t count,
-               const Layout& layout, std::size_t c, bool slope) {
+// A pack of candidates: their rows in the request, at most one a lane.
+using Rows = std::span<const std::size_t>;
+
+// Lanes of coordinate c: physical values, or their slopes with the unit coordinate. Lane l holds candidate of(l).
+template <class Of>
+Lanes lanes_of(const std::vector<double>& points, Rows rows, const Layout& layout, std::size_t c, bool slope, Of&& of) {
   Lanes result;
   for (int lane = 0; lane < lane_count; ++lane) {
-    const std::size_t row = first + std::min(static_cast<std::size_t>(lane), count - 1);
-    const double u = points[row * dimension + c];
+    const double u = points[rows[of(static_cast<std::size_t>(lane))] * layout.dimension() + c];
     result.set_lane(lane, slope ? layout.slope(c, u) : layout.physical(c, u));
   }
   return result;
@@ -96,10 +100,11 @@ class Excitation {
   std::vector<Step> parts_;
 };
 
-// Marches a target block by block and hands (first sample, count, force) to the sink.
-template <class T, class Parameters, class Sink>
-void march_target(const CompositeModel& model, const Target& target, const Parameters& parameters_at_drive,
-                  Sink&& sink) {
+// Marches a target block by block and hands (first sample, count, force) to the sink, those of the period marched
+// beforehand to the other one.
+template <class T, class Parameters, class Sink, class Before>
+void march_target(const CompositeModel& model, const Target& target, const Parameters& parameters_at_drive, Sink&& sink,
+                  Before&& before) {
   const std::size_t samples = target.force.size();
   const std::size_t width = model.parameter_count();
   const std::size_t stride = target.drive_varies ? width : 0;
@@ -126,7 +131,9 @@ void march_target(const CompositeModel& model, const Target& target, const Param
     parameters_of(target.drive, -1.0, p.data());
   }
   for (std::size_t begin = 0; begin < target.preroll; begin += block_samples) {
-    block(begin, std::min(begin + block_samples, target.preroll));
+    const std::size_t end = std::min(begin + block_samples, target.preroll);
+    block(begin, end);
+    before(begin, end - begin, out.data());
   }
   for (std::size_t begin = 0; begin < samples; begin += block_samples) {
     const std::size_t end = std::min(begin + block_samples, samples);
@@ -173,6 +180,47 @@ std::size_t preroll_samples(const Recording& recording, double frequency) {
     }
   }
   return best;
+}
+
+// Sum over the parts of their bounds of |d rate / d state|, 1/s.
+double stiffness_bound(const CompositeModel& model, const double* p, double speed) {
+  double bound = model.law->states > 0 ? model.law->on_double.stiffness(p, speed) : 0.0;
+  std::size_t at = model.law->parameters.size();
+  for (const Part* effect : model.effects) {
+    if (effect->states > 0) {
+      bound += effect->on_double.stiffness(p + at, speed);
+    }
+    at += effect->parameters.size();
+  }
+  return bound;
+}
+
+// The recording with every stride-th sample.
+Recording thinned(const Recording& recording, std::size_t stride) {
+  Recording result = recording;
+  const auto thin = [&](std::vector<double>& channel) {
+    std::size_t kept = 0;
+    for (std::size_t n = 0; n < channel.size(); n += stride) {
+      channel[kept++] = channel[n];
+    }
+    channel.resize(kept);
+  };
+  for (std::vector<double>* channel :
+       {&result.time, &result.displacement, &result.velocity, &result.drive, &result.force}) {
+    thin(*channel);
+  }
+  return result;
+}
+
+// Samples a first look keeps: enough for the parameters, and for the shape of every period.
+constexpr std::size_t screening_samples = 200;
+constexpr double screening_samples_of_a_period = 100.0;
+
+std::size_t screening_stride(const Recording& recording, double frequency) {
+  const double step = (recording.time.back() - recording.time.front()) / static_cast<double>(recording.size() - 1);
+  const double of_period = frequency > 0.0 ? 1.0 / (frequency * step * screening_samples_of_a_period) : 1.0;
+  return std::max<std::size_t>(
+      1, std::min(recording.size() / screening_samples, static_cast<std::size_t>(std::min(of_period, 1e6))));
 }
 
 }  // namespace
@@ -240,8 +288,8 @@ double normaliser(const Recording& recording, Normalisation normalisation) {
 
 Target make_target(const Recording& recording, const ObjectiveOptions& options) {
   Target target;
-  target.motion = make_motion(recording.time, recording.displacement, recording.velocity, recording.drive,
-                              options.tolerance);
+  target.motion =
+      make_motion(recording.time, recording.displacement, recording.velocity, recording.drive, options.tolerance);
   target.force = recording.force;
   target.frequency = dominant_frequency(recording);
   if (!recording.drive.empty()) {
@@ -272,6 +320,17 @@ Objective::Objective(const Layout& layout, const std::vector<Recording>& recordi
                              target.normaliser * target.normaliser);
     }
   }
+  for (std::size_t k = 0; k < recordings.size(); ++k) {
+    const Target& full = targets_[k];
+    const Recording recording = thinned(recordings[k], screening_stride(recordings[k], full.frequency));
+    Target target = full;
+    target.motion = screening_motion(
+        make_motion(recording.time, recording.displacement, recording.velocity, recording.drive, options.tolerance));
+    target.force = recording.force;
+    target.weight *= static_cast<double>(full.force.size()) / static_cast<double>(target.force.size());
+    target.preroll = full.preroll > 0 ? preroll_samples(recording, full.frequency) : 0;
+    screening_targets_.push_back(std::move(target));
+  }
 }
 
 std::size_t Objective::samples() const {
@@ -293,13 +352,15 @@ std::size_t sums_size(std::size_t dimension, bool derivatives) {
 }  // namespace
 
 template <>
-void Objective::run_pack<Lanes>(const std::vector<double>& points, std::size_t first, std::size_t count,
-                                const Target& target, bool /*derivatives*/, double* sums) const {
+void Objective::run_pack<Lanes>(const std::vector<double>& points, Rows rows, const Target& target,
+                                double* sums) const {
   const std::size_t d = layout_.dimension();
+  const auto candidate = [&](std::size_t lane) { return std::min(lane, rows.size() - 1); };
   std::vector<Lanes> nodes(d);
   for (std::size_t c = 0; c < d; ++c) {
-    nodes[c] = lanes_of(points, d, first, count, layout_, c, false);
+    nodes[c] = lanes_of(points, rows, layout_, c, false, candidate);
   }
+  const Lanes limit(1e12 * target.normaliser);
   Lanes squares;
   Lanes alive;
   march_target<Lanes>(
@@ -309,7 +370,12 @@ void Objective::run_pack<Lanes>(const std::vector<double>& points, std::size_t f
         for (std::size_t k = 0; k < samples; ++k) {
           const Lanes residual = out[k] - Lanes(target.force[begin + k]);
           squares = fma(residual, residual, squares);
-          alive += select(abs(residual) < Lanes(1e12 * target.normaliser), Lanes(1.0), Lanes(0.0));
+          alive += select(abs(residual) < limit, Lanes(1.0), Lanes(0.0));
+        }
+      },
+      [&](std::size_t begin, std::size_t samples, const Lanes* out) {
+        for (std::size_t k = 0; k < samples; ++k) {
+          alive += select(abs(out[k] - Lanes(target.force[begin + k])) < limit, Lanes(1.0), Lanes(0.0));
         }
       });
   for (int lane = 0; lane < lane_count; ++lane) {
@@ -318,40 +384,65 @@ void Objective::run_pack<Lanes>(const std::vector<double>& points, std::size_t f
   }
 }
 
+// A sweep differentiates sweep_directions coordinates. The pairs of candidate and sweep are dealt to the lanes, so that
+// few candidates with many coordinates fill a pack too.
 template <>
-void Objective::run_pack<LaneDual>(const std::vector<double>& points, std::size_t first, std::size_t count,
-                                   const Target& target, bool /*derivatives*/, double* sums) const {
+void Objective::run_pack<LaneDual>(const std::vector<double>& points, Rows rows, const Target& target,
+                                   double* sums) const {
   const std::size_t d = layout_.dimension();
-  const std::size_t sweeps = (d + sweep_directions - 1) / sweep_directions;
+  const std::size_t count = rows.size();
+  const std::size_t pairs = count * ((d + sweep_directions - 1) / sweep_directions);
   const std::size_t samples = target.force.size();
+  const Lanes limit(1e12 * target.normaliser);
   std::vector<Lanes> jacobian(samples * d);
   std::vector<Lanes> residual(samples);
   std::vector<LaneDual> nodes(d);
   Lanes squares;
   Lanes alive;
-  for (std::size_t sweep = 0; sweep < sweeps; ++sweep) {
-    const std::size_t low = sweep * sweep_directions;
-    const std::size_t high = std::min(low + sweep_directions, d);
+  for (std::size_t first = 0; first < pairs; first += lane_count) {
+    const auto pair = [&](std::size_t lane) { return std::min(first + lane, pairs - 1); };
+    const auto low = [&](std::size_t lane) { return pair(lane) / count * sweep_directions; };
+    const auto candidate = [&](std::size_t lane) { return pair(lane) % count; };
     for (std::size_t c = 0; c < d; ++c) {
-      nodes[c] = LaneDual(lanes_of(points, d, first, count, layout_, c, false));
-      if (c >= low && c < high) {
-        nodes[c].d[c - low] = lanes_of(points, d, first, count, layout_, c, true);
+      nodes[c] = LaneDual(lanes_of(points, rows, layout_, c, false, candidate));
+      const Lanes slope = lanes_of(points, rows, layout_, c, true, candidate);
+      for (std::size_t lane = 0; lane < lane_count; ++lane) {
+        if (c >= low(lane) && c < low(lane) + sweep_directions) {
+          nodes[c].d[c - low(lane)].set_lane(static_cast<int>(lane), slope.lane(static_cast<int>(lane)));
+        }
       }
     }
+    const std::size_t used = std::min<std::size_t>(lane_count, pairs - first);
     march_target<LaneDual>(
         layout_.model(), target,
         [&](const auto& drive, LaneDual* p) { parameters_of_pack(layout_, nodes, drive, target.frequency, p); },
         [&](std::size_t begin, std::size_t block, const LaneDual* out) {
           for (std::size_t k = 0; k < block; ++k) {
-            for (std::size_t c = low; c < high; ++c) {
-              jacobian[(begin + k) * d + c] = out[k].d[c - low];
+            Lanes* row = jacobian.data() + (begin + k) * d;
+            if (count == lane_count) {
+              for (std::size_t c = low(0); c < std::min(low(0) + sweep_directions, d); ++c) {
+                row[c] = out[k].d[c - low(0)];
+              }
+            } else {
+              for (std::size_t lane = 0; lane < used; ++lane) {
+                for (std::size_t c = low(lane); c < std::min(low(lane) + sweep_directions, d); ++c) {
+                  row[c].set_lane(static_cast<int>(candidate(lane)),
+                                  out[k].d[c - low(lane)].lane(static_cast<int>(lane)));
+                }
+              }
             }
-            if (sweep == 0) {
+            if (first == 0) {
+              // The lanes of the first sweep are the candidates in order.
               const Lanes r = out[k].v - Lanes(target.force[begin + k]);
               residual[begin + k] = r;
               squares = fma(r, r, squares);
-              alive += select(abs(r) < Lanes(1e12 * target.normaliser), Lanes(1.0), Lanes(0.0));
+              alive += select(abs(r) < limit, Lanes(1.0), Lanes(0.0));
             }
+          }
+        },
+        [&](std::size_t begin, std::size_t block, const LaneDual* out) {
+          for (std::size_t k = 0; first == 0 && k < block; ++k) {
+            alive += select(abs(out[k].v - Lanes(target.force[begin + k])) < limit, Lanes(1.0), Lanes(0.0));
           }
         });
   }
@@ -383,40 +474,77 @@ void Objective::run_pack<LaneDual>(const std::vector<double>& points, std::size_
   }
 }
 
+// A pack takes as long as its stiffest lane, so candidates are packed in the order of their stiffness. No lane depends
+// on its company: the order changes no result.
+std::vector<std::size_t> Objective::packing(const std::vector<double>& points) const {
+  const std::size_t d = layout_.dimension();
+  std::vector<std::size_t> order(points.size() / d);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const CompositeModel& model = layout_.model();
+  if (order.size() <= lane_count || model.states() == 0) {
+    return order;
+  }
+  const Target& target = targets_.front();
+  double speed = 0.0;
+  for (const MotionInterval& interval : target.motion.intervals) {
+    speed = std::max(speed, interval.speed);
+  }
+  std::vector<double> stiffness(order.size());
+  std::vector<double> nodes(d);
+  std::vector<double> p(model.parameter_count());
+  for (std::size_t row = 0; row < order.size(); ++row) {
+    for (std::size_t c = 0; c < d; ++c) {
+      nodes[c] = layout_.physical(c, points[row * d + c]);
+    }
+    parameters_of_pack(layout_, nodes, target.drive, target.frequency, p.data());
+    const double bound = stiffness_bound(model, p.data(), speed);
+    stiffness[row] = std::isfinite(bound) ? bound : 1e300;
+  }
+  std::ranges::sort(
+      order, [&](std::size_t a, std::size_t b) { return std::tie(stiffness[a], a) < std::tie(stiffness[b], b); });
+  return order;
+}
+
 Response Objective::evaluate(const Request& request) const {
   const std::size_t d = layout_.dimension();
   const std::size_t points = request.points.size() / d;
   const std::size_t packs = (points + lane_count - 1) / lane_count;
   const std::size_t size = sums_size(d, request.derivatives) * lane_count;
-  const std::size_t tasks = packs * targets_.size();
+  const std::vector<Target>& targets = request.screening ? screening_targets_ : targets_;
+  const std::size_t tasks = packs * targets.size();
+  const std::vector<std::size_t> order = packing(request.points);
   std::vector<double> sums(tasks * size);
   const int threads = threads_ > 0 ? threads_ : omp_get_max_threads();
 #pragma omp parallel for schedule(dynamic) num_threads(threads)
   for (std::size_t task = 0; task < tasks; ++task) {
-    const std::size_t first = task / targets_.size() * lane_count;
-    const std::size_t count = std::min(static_cast<std::size_t>(lane_count), points - first);
-    const Target& target = targets_[task % targets_.size()];
+    const std::size_t first = task / targets.size() * lane_count;
+    const Rows rows = Rows(order).subspan(first, std::min<std::size_t>(lane_count, points - first));
+    const Target& target = targets[task % targets.size()];
     if (request.derivatives) {
-      run_pack<LaneDual>(request.points, first, count, target, true, sums.data() + task * size);
+      run_pack<LaneDual>(request.points, rows, target, sums.data() + task * size);
     } else {
-      run_pack<Lanes>(request.points, first, count, target, false, sums.data() + task * size);
+      run_pack<Lanes>(request.points, rows, target, sums.data() + task * size);
     }
   }
-  const auto total = static_cast<double>(samples());
+  double total = 0.0;
+  for (const Target& target : targets) {
+    total += static_cast<double>(target.force.size() + target.preroll);
+  }
   Response response;
   response.cost.resize(points);
   if (request.derivatives) {
     response.gradient.assign(points * d, 0.0);
     response.gauss_newton.assign(points * d * d, 0.0);
   }
-  for (std::size_t row = 0; row < points; ++row) {
-    const std::size_t lane = row % lane_count;
+  for (std::size_t at = 0; at < points; ++at) {
+    const std::size_t row = order[at];
+    const std::size_t lane = at % lane_count;
     double squares = 0.0;
     double alive = 0.0;
     const auto sum = [&](std::size_t target, std::size_t slot) {
-      return sums[(row / lane_count * targets_.size() + target) * size + slot * lane_count + lane];
+      return sums[(at / lane_count * targets.size() + target) * size + slot * lane_count + lane];
     };
-    for (std::size_t target = 0; target < targets_.size(); ++target) {
+    for (std::size_t target = 0; target < targets.size(); ++target) {
       squares += sum(target, 0);
       alive += sum(target, 1);
     }
@@ -426,7 +554,7 @@ Response Objective::evaluate(const Request& request) const {
     if (!request.derivatives || !finite) {
       continue;
     }
-    for (std::size_t target = 0; target < targets_.size(); ++target) {
+    for (std::size_t target = 0; target < targets.size(); ++target) {
       std::size_t slot = 2;
       for (std::size_t a = 0; a < d; ++a) {
         response.gradient[row * d + a] += sum(target, slot++);
@@ -459,7 +587,8 @@ std::vector<double> predict(const CompositeModel& model, const std::vector<doubl
       },
       [&](std::size_t begin, std::size_t count, const double* out) {
         std::memcpy(force.data() + begin, out, count * sizeof(double));
-      });
+      },
+      [](std::size_t, std::size_t, const double*) {});
   return force;
 }
 

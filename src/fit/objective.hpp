@@ -4,6 +4,7 @@
 // recordings, sums in time order per candidate, so that results do not depend on threads or company.
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -48,17 +49,21 @@ class Objective {
 
   [[nodiscard]] const Layout& layout() const { return layout_; }
   [[nodiscard]] const std::vector<Target>& targets() const { return targets_; }
+  // The same recordings thinned and marched coarsely, for requests that only screen.
+  [[nodiscard]] const std::vector<Target>& screening_targets() const { return screening_targets_; }
   [[nodiscard]] std::size_t samples() const;
   // Costs (and derivatives with respect to unit coordinates) of the request's points.
   [[nodiscard]] Response evaluate(const Request& request) const;
 
  private:
   template <class T>
-  void run_pack(const std::vector<double>& points, std::size_t first, std::size_t count, const Target& target,
-                bool derivatives, double* sums) const;
+  void run_pack(const std::vector<double>& points, std::span<const std::size_t> rows, const Target& target,
+                double* sums) const;
+  [[nodiscard]] std::vector<std::size_t> packing(const std::vector<double>& points) const;
 
   Layout layout_;
   std::vector<Target> targets_;
+  std::vector<Target> screening_targets_;
   int threads_;
 };
 

@@ -19,6 +19,9 @@ namespace hysteron {
 struct Request {
   std::vector<double> points;
   bool derivatives = false;  // ask for gradient and Gauss-Newton matrix too
+  // A first look by a coarse integration over thinned samples, where Problem::screening allows it. Counts as any
+  // evaluation, but its costs are only compared with each other and never reported.
+  bool screening = false;
 };
 
 // Answer to a request, in the order of its points. `cost` is finite or a large ordered value for diverged
@@ -39,6 +42,8 @@ struct Problem {
   Stream stream{0};
   // Coordinates in which the residual is affine (they may be projected out); one flag per coordinate.
   std::vector<bool> linear;
+  // Requests for screening are understood.
+  bool screening = false;
   // A starting point in the unit box, if the caller has one (warm start).
   std::vector<double> start;
   // Settings by name; a solver rejects unknown names when it is made.

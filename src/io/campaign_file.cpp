@@ -15,7 +15,6 @@ namespace hysteron {
 namespace {
 
 constexpr std::string_view schema = "hysteron.campaign/1";
-constexpr std::int64_t highest_order = 9;  // beyond it a polynomial in the drive means nothing
 
 class CampaignParser {
  public:

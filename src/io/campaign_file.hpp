@@ -10,6 +10,9 @@
 
 namespace hysteron {
 
+// Of a parameter law in drive or frequency; beyond it a polynomial through measured levels means nothing.
+inline constexpr int highest_order = 5;
+
 struct CampaignEntry {
   std::string file;  // relative to the folder, forward slashes
   Role role = Role::unassigned;

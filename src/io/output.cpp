@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <charconv>
 #include <cstring>
+#include <vector>
 
 #include "core/error.hpp"
 
@@ -97,6 +98,29 @@ void make_output_folder(const std::filesystem::path& path) {
         name, 0,
         std::string("the folder cannot be written to (") + std::strerror(errno) + "), expected a writable place");
   }
+}
+
+void check_output_folder(const std::filesystem::path& path) {
+  std::vector<std::filesystem::path> missing;
+  std::error_code code;
+  for (auto folder = std::filesystem::absolute(path, code);
+       !folder.empty() && folder != folder.root_path() && !std::filesystem::exists(folder, code);
+       folder = folder.parent_path()) {
+    missing.push_back(folder);
+  }
+  // Made and taken away again: permissions alone do not tell.
+  const auto take_away = [&] {
+    for (const auto& folder : missing) {
+      std::filesystem::remove(folder, code);
+    }
+  };
+  try {
+    make_output_folder(path);
+  } catch (...) {
+    take_away();
+    throw;
+  }
+  take_away();
 }
 
 std::string csv_of_prediction(std::span<const double> time, std::span<const double> force) {

@@ -15,6 +15,8 @@ void write_file_atomically(const std::filesystem::path& path, std::string_view b
 
 // Makes the folder and its parents; an existing writable folder is fine. Anything else is an InputError, so that a
 // wrong --out is told before the work starts.
+// Throws InputError, as make_output_folder would, and leaves nothing behind.
+void check_output_folder(const std::filesystem::path& path);
 void make_output_folder(const std::filesystem::path& path);
 
 // "time [s],force [N]" and one row per sample, in the shortest digits that read back to the same numbers.

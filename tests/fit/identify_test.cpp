@@ -202,8 +202,8 @@ TEST(Budget, IsSpentToTheLastEvaluationAndNotPassed) {
     options.solvers = {"pso"};
     options.budget = budget;
     std::size_t last = 0;
-    const Identification result = identify(campaign, "viscous", options, [&](const std::string&, const RunResult& run) {
-      last = run.evaluations;
+    const Identification result = identify(campaign, "viscous", options, [&](const std::string& stage, const RunResult& run) {
+      last = stage.starts_with("pso") ? run.evaluations : last;
       return true;
     });
     EXPECT_EQ(result.solvers.at(0).run.evaluations, budget);
@@ -354,6 +354,77 @@ TEST(Identifiable, AccumulatorDeflectionBesideAnOffsetForceIsFlagged) {
   }
   EXPECT_TRUE(estimate_of(result, "alpha").identifiable);
   EXPECT_TRUE(estimate_of(result, "k1").identifiable);
+}
+
+TEST(Identifiable, ARedundantPairWithOneMemberOnABoundIsFlagged) {
+  IdentifyOptions options;
+  options.budget = 1000;
+  options.effects = {"offset-force"};
+  // f0 is 40 N: the sum of both, of which the law's part is kept at or below 10 N.
+  options.layout.bounds = {{"f0", {-10.0, 10.0}}, {"offset-force.f0", {30.0, 60.0}}};
+  const Identification result = identify(viscous_campaign(5.0), "viscous", options, {});
+  EXPECT_FALSE(estimate_of(result, "f0").identifiable);
+  EXPECT_FALSE(result.estimates.back().identifiable) << result.estimates.back().name;
+  EXPECT_TRUE(estimate_of(result, "c0").identifiable);
+  EXPECT_TRUE(estimate_of(result, "k0").identifiable);
+}
+
+TEST(Final, ASolverWithoutDescentIsFollowedByOneWhichIsReported) {
+  IdentifyOptions options;
+  options.solvers = {"pso"};
+  options.budget = 120;
+  const Identification result = identify(viscous_campaign(10.0), "viscous", options, {});
+  ASSERT_TRUE(result.final_run.has_value());
+  EXPECT_EQ(result.final_run->solver, "lm");
+  EXPECT_EQ(result.final_stage, "final descent on the same recordings");
+  EXPECT_GT(result.final_run->evaluations, 0U);
+  EXPECT_LT(result.cost, result.solvers.at(0).run.cost);
+  EXPECT_EQ(result.cost, result.final_run->cost);
+  EXPECT_EQ(result.solvers.at(0).run.evaluations, 120U);
+  options.solvers = {"multistart-lm"};
+  EXPECT_FALSE(identify(viscous_campaign(10.0), "viscous", options, {}).final_run.has_value());
+}
+
+TEST(Screening, IsCountedAndNeverReported) {
+  std::vector<Recording> recordings{motion("m.csv", {{0.02, 1.1}}, 2.0, 1200, 0.3)};
+  const Layout layout(make_model("bouc-wen", {}), DataScale{}, {});
+  set_force(recordings[0], layout, layout.terms(std::vector<double>(layout.dimension(), 0.4)), {}, 0.01, Stream(seed));
+  const Objective objective(layout, recordings, {});
+  EXPECT_LT(objective.screening_targets()[0].force.size(), objective.targets()[0].force.size());
+  const SolverEntry* entry = find_solver("multistart-lm");
+  std::size_t screened = 0;
+  std::size_t counted = 0;
+  const auto run = [&](std::size_t budget, const Observer& observer) {
+    screened = counted = 0;
+    Problem problem;
+    problem.dimension = layout.dimension();
+    problem.budget = budget;
+    problem.stream = Stream(seed);
+    problem.linear = layout.linear();
+    problem.screening = true;
+    return run_solver(
+        *entry, problem,
+        [&](const Request& request) {
+          const std::size_t points = request.points.size() / layout.dimension();
+          screened += request.screening ? points : 0;
+          counted += points * (request.derivatives ? 1 + layout.dimension() : 1);
+          return objective.evaluate(request);
+        },
+        observer);
+  };
+  const RunResult whole = run(20000, {});
+  EXPECT_GT(screened, 0U);
+  EXPECT_EQ(whole.evaluations, counted);
+  EXPECT_EQ(whole.cost, objective.evaluate({whole.best, false}).cost[0]);
+  // One that is cut while it screens still reports a cost of the full objective.
+  const RunResult cut = run(20000, [](const RunResult&) { return false; });
+  EXPECT_GT(screened, 0U);
+  EXPECT_EQ(cut.evaluations, counted);
+  EXPECT_EQ(cut.cost, objective.evaluate({cut.best, false}).cost[0]);
+  // Too small a budget is not spent on screening.
+  const RunResult small = run(300, {});
+  EXPECT_EQ(screened, 0U);
+  EXPECT_EQ(small.cost, objective.evaluate({small.best, false}).cost[0]);
 }
 
 TEST(Identify, RefusesWhatItCannotDo) {

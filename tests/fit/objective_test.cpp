@@ -345,6 +345,50 @@ TEST_F(TwinObjective, TheLaterARunawayTheLowerItsCost) {
   EXPECT_GE(response.cost[8], diverged_cost);
 }
 
+TEST_F(TwinObjective, RunawaysInThePeriodMarchedBeforehandAreOrderedToo) {
+  LayoutOptions options;
+  options.bounds = {{"k0", {-5e5, -1e5}}};
+  options.fix = {{"c0", 500.0}, {"c1", 500.0}, {"alpha", 10.0}};
+  std::vector<Recording> moving{motion("moving.csv", {{0.02, 1.0}}, 3.0, 300, 0.0)};
+  moving[0].force.assign(300, 1000.0);
+  const Layout runaway = layout_of("modified-bouc-wen", moving, options);
+  const Objective of(runaway, moving, {});
+  ASSERT_GT(of.targets()[0].preroll, 0U);
+  std::size_t k0 = 0;
+  while (runaway.names()[runaway.coordinates()[k0].parameter] != "k0") ++k0;
+  std::vector<double> ladder;
+  for (int step = 0; step <= 4; ++step) {
+    std::vector<double> u(runaway.dimension(), 0.5);
+    u[k0] = 0.25 * step;
+    ladder.insert(ladder.end(), u.begin(), u.end());
+  }
+  const Response response = of.evaluate({ladder, false});
+  for (std::size_t step = 1; step <= 4; ++step) {
+    EXPECT_LE(response.cost[step], response.cost[step - 1]) << step;
+    EXPECT_GE(response.cost[step], diverged_cost);
+  }
+  EXPECT_LT(response.cost[4], response.cost[0]);
+  // All of them within the period marched beforehand: otherwise this would be the test above.
+  const double share = static_cast<double>(of.targets()[0].preroll) /
+                       static_cast<double>(of.targets()[0].preroll + of.targets()[0].force.size());
+  EXPECT_GT(response.cost[4], diverged_cost * (2.0 - share));
+}
+
+TEST_F(TwinObjective, FewCandidatesGetTheDerivativesTheyGetInAPack) {
+  const std::size_t d = layout().dimension();
+  const std::vector<double> points = random_points(Stream(seed).child("few"), 8, d, 0.1);
+  for (const bool screening : {false, true}) {
+    const Response pack = objective(1).evaluate({points, true, screening});
+    for (const std::size_t count : {1, 3, 5}) {
+      const std::vector<double> few(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(count * d));
+      const Response response = objective(1).evaluate({few, true, screening});
+      for (std::size_t k = 0; k < count; ++k) EXPECT_EQ(response.cost[k], pack.cost[k]);
+      for (std::size_t k = 0; k < count * d; ++k) EXPECT_EQ(response.gradient[k], pack.gradient[k]);
+      for (std::size_t k = 0; k < count * d * d; ++k) EXPECT_EQ(response.gauss_newton[k], pack.gauss_newton[k]);
+    }
+  }
+}
+
 TEST_F(TwinObjective, OneRunawayDoesNotSpoilItsNeighbours) {
   LayoutOptions options;
   options.bounds = {{"k0", {-1e7, 1e4}}, {"c1", {500.0, 1e5}}};

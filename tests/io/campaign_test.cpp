@@ -74,7 +74,7 @@ TEST(Campaign, WrongTomlIsOneClearLine) {
     std::string toml;
     std::string message;  // after the path of campaign.toml
   };
-  const std::string orders = " in [by_current] is not a whole number from 0 to 9, expected for example 1";
+  const std::string orders = " in [by_current] is not a whole number from 0 to 5, expected for example 1";
   const Case cases[] = {
       {"no schema", "model = \"x\"\n", ":1: no 'schema', expected schema = \"hysteron.campaign/1\""},
       {"newer schema", "schema = \"hysteron.campaign/2\"\n",
