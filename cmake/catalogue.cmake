@@ -1,7 +1,12 @@
 # The file is the registration: collects FOLDER/*.cpp and writes a source with the catalogue of the symbols
 # PREFIX_<stem> they define. A file whose symbol does not match its name fails to link, naming the symbol.
+# Further arguments are folders whose files belong to the catalogue too (optional components).
 function(hysteron_catalogue folder prefix type header accessor out_sources)
-  file(GLOB files CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/${folder}/*.cpp")
+  set(patterns "${PROJECT_SOURCE_DIR}/${folder}/*.cpp")
+  foreach(more IN LISTS ARGN)
+    list(APPEND patterns "${PROJECT_SOURCE_DIR}/${more}/*.cpp")
+  endforeach()
+  file(GLOB files CONFIGURE_DEPENDS ${patterns})
   list(SORT files)
   set(declarations "")
   set(rows "")
