@@ -17,18 +17,23 @@ function(hysteron_catalogue folder prefix type header accessor out_sources)
   endforeach()
   set(generated "${PROJECT_BINARY_DIR}/generated/${prefix}_catalogue.cpp")
   file(CONFIGURE OUTPUT "${generated}" CONTENT
-"#include <array>
+"#include <vector>
 
 #include \"@header@\"
 
 namespace hysteron {
 @declarations@
 namespace {
-constexpr std::array rows = {
+std::vector<const @type@*>& rows() {
+  static std::vector<const @type@*> all = {
 @rows@};
+  return all;
+}
 }  // namespace
 
-std::span<const @type@* const> @accessor@() { return rows; }
+std::span<const @type@* const> @accessor@() { return rows(); }
+void add_to_@accessor@(const @type@* row);
+void add_to_@accessor@(const @type@* row) { rows().push_back(row); }
 }  // namespace hysteron
 " @ONLY)
   set(${out_sources} ${files} "${generated}" PARENT_SCOPE)
