@@ -4,6 +4,7 @@
 //
 // The square is what the library is told because it is smooth at a perfect fit, where the cost itself has a kink.
 // Source: S. G. Johnson, The NLopt nonlinear-optimization package; the papers behind each algorithm are in its manual.
+// Algorithms the installed library was built without (StoGO, AGS in the distributions' packages) are not listed.
 // What is done here and not by the library:
 // - One external counter: the library asks point by point and is cut off at the budget, wherever it is.
 // - Starts from the problem's start, else the centre of the box, step lengths and population by the library's own

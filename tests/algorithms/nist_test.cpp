@@ -240,6 +240,8 @@ TEST(NistStrd, LevenbergMarquardtFromBothStartsAndFromRandomOnes) {
     EXPECT_GT(first.parameters, least_digits) << regression.name;
     EXPECT_GT(second.parameters, least_digits) << regression.name;
     EXPECT_GT(many.parameters, least_digits) << regression.name;
+    EXPECT_GT(first.squares, 7.0) << regression.name;
+    EXPECT_GT(second.squares, 7.0) << regression.name;
     EXPECT_GT(many.squares, 7.0) << regression.name;
   }
 }
