@@ -1,7 +1,12 @@
 # The file is the registration: collects FOLDER/*.cpp and writes a source with the catalogue of the symbols
 # PREFIX_<stem> they define. A file whose symbol does not match its name fails to link, naming the symbol.
+# Further arguments are folders whose files belong to the catalogue too (optional components).
 function(hysteron_catalogue folder prefix type header accessor out_sources)
-  file(GLOB files CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/${folder}/*.cpp")
+  set(patterns "${PROJECT_SOURCE_DIR}/${folder}/*.cpp")
+  foreach(more IN LISTS ARGN)
+    list(APPEND patterns "${PROJECT_SOURCE_DIR}/${more}/*.cpp")
+  endforeach()
+  file(GLOB files CONFIGURE_DEPENDS ${patterns})
   list(SORT files)
   set(declarations "")
   set(rows "")
@@ -12,18 +17,23 @@ function(hysteron_catalogue folder prefix type header accessor out_sources)
   endforeach()
   set(generated "${PROJECT_BINARY_DIR}/generated/${prefix}_catalogue.cpp")
   file(CONFIGURE OUTPUT "${generated}" CONTENT
-"#include <array>
+"#include <vector>
 
 #include \"@header@\"
 
 namespace hysteron {
 @declarations@
 namespace {
-constexpr std::array rows = {
+std::vector<const @type@*>& rows() {
+  static std::vector<const @type@*> all = {
 @rows@};
+  return all;
+}
 }  // namespace
 
-std::span<const @type@* const> @accessor@() { return rows; }
+std::span<const @type@* const> @accessor@() { return rows(); }
+void add_to_@accessor@(const @type@* row);
+void add_to_@accessor@(const @type@* row) { rows().push_back(row); }
 }  // namespace hysteron
 " @ONLY)
   set(${out_sources} ${files} "${generated}" PARENT_SCOPE)

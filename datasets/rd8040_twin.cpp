@@ -10,6 +10,7 @@
 #include <string>
 
 #include "datasets/dataset.hpp"
+#include "presets/support/rd8040_polynomials.hpp"
 #include "simulate/composite.hpp"
 
 namespace hysteron {
@@ -24,31 +25,6 @@ constexpr int periods = 3;
 constexpr int settling_periods = 2;
 constexpr int samples_per_period = 100;
 
-struct Published {
-  double beta, gamma, A, k1, k0, c0, c1, f0;
-};
-
-Published published(double i, double f) {
-  const double i2 = i * i;
-  const double i3 = i2 * i;
-  const double f2 = f * f;
-  const double f3 = f2 * f;
-  return {4849 - 7181 * i - 6711 * f + 12710 * i2 - 3351 * i * f + 6999 * f2 - 6816 * i3 + 1304 * i2 * f +
-              567 * i * f2 - 1987 * f3,
-          1935 - 5041 * i - 1416 * f + 5105 * i2 + 3102 * i * f + 691.4 * f2 - 2027 * i3 - 833.1 * i2 * f -
-              941.6 * i * f2,
-          4571 + 12170 * i - 13450 * f - 9567 * i2 + 1860 * i * f + 13230 * f2 + 3103 * i3 - 1018 * i2 * f +
-              1010 * i * f2 - 3651 * f3,
-          -763.1 + 7391 * i - 2259 * f - 9788 * i2 - 1964 * i * f + 3227 * f2 + 2903 * i3 + 4754 * i2 * f -
-              280.1 * i * f2 - 999.6 * f3,
-          2382 - 11770 * i - 1424 * f + 15660 * i2 - 1224 * i * f + 276.4 * f2 - 5140 * i3 - 7164 * i2 * f +
-              2444 * i * f2,
-          175 + 279.8 * i + 65.43 * f + 2142 * i2 - 152.4 * i * f - 844 * i3 - 390.1 * i2 * f,
-          24850 + 33860 * i - 65570 * f + 21510 * i2 - 41610 * i * f + 55930 * f2 - 21170 * i3 + 7301 * i2 * f +
-              13040 * i * f2 - 14610 * f3,
-          4.989 - 124.6 * i - 2.643 * f + 325.2 * i2 + 33.53 * i * f - 179.4 * i3 - 16.38 * i2 * f};
-}
-
 Campaign generate(const Stream& stream) {
   Campaign campaign;
   campaign.model = "modified-bouc-wen";
@@ -57,12 +33,20 @@ Campaign generate(const Stream& stream) {
     for (int ci = 0; ci <= 10; ++ci) {
       const double f = 0.4 * fi;
       const double current = 0.1 * ci;
-      const Published p = published(current, f);
-      const double sum = p.beta + p.gamma;
+      const double gamma = rd8040::gamma(current, f);
+      const double sum = rd8040::beta(current, f) + gamma;
       // Normal form, see models/modified_bouc_wen.cpp; n = 1.
-      const double z_scale = p.A / sum;
-      const std::vector<double> parameters{80.0 * z_scale, p.c0,        p.c1, p.k0, p.k1,
-                                           1.0 / sum,      p.gamma / sum, 1.0,  0.0,  p.f0};
+      const double z_scale = rd8040::A(current, f) / sum;
+      const std::vector<double> parameters{80.0 * z_scale,
+                                           rd8040::c0(current, f),
+                                           rd8040::c1(current, f),
+                                           rd8040::k0(current, f),
+                                           rd8040::k1(current, f),
+                                           1.0 / sum,
+                                           gamma / sum,
+                                           1.0,
+                                           0.0,
+                                           rd8040::f0(current, f)};
       Recording recording;
       recording.file = std::to_string(fi * 4 / 10) + "." + std::to_string(fi * 4 % 10) + "Hz_" +
                        std::to_string(ci / 10) + "." + std::to_string(ci % 10) + "A.csv";
@@ -103,10 +87,10 @@ Campaign generate(const Stream& stream) {
 }  // namespace
 
 const DatasetEntry dataset_rd8040_twin = {
-    "rd8040-twin",
-    "Simulated twin of the MR damper RD-8040-1 over 55 conditions",
+    "rd8040-twin", "Simulated twin of the MR damper RD-8040-1 over 55 conditions",
     "identified parameters (16)-(23) of the PSO-against-GA study of the RD-8040-1, 2021",
-    "0.4 to 2 Hz, 0 to 1 A, 25 mm sines, three settled periods of 100 samples; truth: modified-bouc-wen + offset-force\n"
+    "0.4 to 2 Hz, 0 to 1 A, 25 mm sines, three settled periods of 100 samples; truth: modified-bouc-wen + "
+    "offset-force\n"
     "with the published polynomials; white force noise of 1 % of each recording's peak force from the seed.",
     &generate};
 

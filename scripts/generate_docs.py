@@ -12,6 +12,7 @@ KINDS = {
     "effects": ("Effects", "Physical effects that go behind a law with `--effects`, nearest to the law first."),
     "solvers": ("Solvers", "Identification algorithms. How to choose: [solvers.md](../solvers.md)."),
 }
+OPTIONAL = ("pagmo:*",)
 SCALED = ("Bounds and defaults are those of the reference device (1 kN peak force, 25 mm half stroke, 0.3 m/s); an "
           "identification scales them to the recordings, see [models.md](../models.md#the-box).")
 
@@ -57,7 +58,23 @@ def part_page(entry):
         if any(p["fixed"] for p in entry["parameters"]):
             text += "A held parameter keeps its default unless it is freed with `--bounds`.\n"
         text += "\n"
+    for preset in entry["presets"]:
+        text += preset_section(preset)
     return text + f"## Source\n\n{with_links(entry['reference'])}\n"
+
+
+def preset_section(preset):
+    text = f"## Published set `{preset['id']}`\n\n{code(preset['title'])}. {with_links(preset['reference'])}.\n\n"
+    if preset["effects"]:
+        text += "With " + ", ".join(f"`{effect}`" for effect in preset["effects"]) + ". "
+    if preset["drive"] != "none":
+        low, high = preset["drive_range"]
+        text += f"Drive: {preset['drive']}, {cell(low)} to {cell(high)}. "
+    text += code(preset["note"]) + "\n\n"
+    rows = [(f"`{q['name']}`", q["unit"], "not printed, `--set`" if q["printed"] is None else f"`{q['printed']}`")
+            for q in preset["quantities"]]
+    text += table(("quantity", "unit", "printed"), rows)
+    return text + f"\nUsed by `hysteron simulate --preset {preset['id']} RECORDING --out FILE`.\n\n"
 
 
 def solver_page(entry):
@@ -75,16 +92,39 @@ def solver_page(entry):
     return text + f"## Source\n\n{with_links(entry['reference'])}\n"
 
 
+def family_page(entry, members):
+    text = f"# {entry['title']}\n\n`{entry['id']}` (family of solvers)\n\n{code(entry['description'].strip())}\n\n"
+    rows = [(f"`{m['id']}`", re.sub("^[A-Za-z0-9]+: ", "", m["title"]), "1 + d" if m["uses_derivatives"] else "1")
+            for m in members]
+    text += table(("solver", "what it is", "evaluations a point"), rows) + "\n"
+    rows = [(f"`{s['name']}`", s["default"], s["lower"], s["upper"], s["meaning"]) for s in entry["settings"]]
+    text += "## Settings\n\n" + table(("name", "default", "lower", "upper", "meaning"), rows)
+    text += "\nSet with `--set NAME=NUMBER`.\n\n"
+    return text + f"## Source\n\n{with_links(entry['reference'])}\n"
+
+
 def pages(binary):
     """Relative path -> text of every page."""
     result = {}
     for kind, (title, intro) in KINDS.items():
         rows = []
+        families = {}
         for row in ask(binary, "list", kind):
             entry = ask(binary, "describe", row["id"])
+            if entry.get("family"):
+                families.setdefault(entry["family"], []).append(entry)
+                continue
             page = solver_page(entry) if kind == "solvers" else part_page(entry)
             result[f"{kind}/{row['id']}.md"] = MARK + page
             rows.append((f"[`{row['id']}`]({row['id']}.md)", row["title"]))
+        for family, members in families.items():
+            # What is installed where the pages are made must not change them: optional families have a page by hand.
+            if family in OPTIONAL:
+                continue
+            name = family.split(":")[0]
+            entry = ask(binary, "describe", family)
+            result[f"{kind}/{name}.md"] = MARK + family_page(entry, members)
+            rows.append((f"[`{family}`]({name}.md)", entry["title"]))
         result[f"{kind}/README.md"] = MARK + f"# {title}\n\n{intro}\n\n" + table(("id", "what it is"), rows)
     return result
 

@@ -7,6 +7,7 @@
 #include "core/error.hpp"
 #include "core/suggest.hpp"
 #include "datasets/dataset.hpp"
+#include "presets/preset.hpp"
 #include "report/terminal.hpp"
 
 namespace hysteron::app {
@@ -47,11 +48,72 @@ json card_json(const Parameter& card) {
           {"scale", card.scale == Scale::linear ? "linear" : "log"}, {"fixed", card.fixed}};
 }
 
+std::string_view word_of(PresetDrive drive) {
+  return drive == PresetDrive::current ? "current" : drive == PresetDrive::voltage ? "voltage" : "none";
+}
+
+json preset_json(const Preset& preset) {
+  json quantities = json::array();
+  for (const PresetQuantity& quantity : preset.quantities) {
+    quantities.push_back({{"name", quantity.name},
+                          {"unit", quantity.unit},
+                          {"printed", quantity.at != nullptr ? json(quantity.printed) : json(nullptr)}});
+  }
+  json result = {{"kind", "preset"},
+                 {"id", preset.id},
+                 {"title", preset.title},
+                 {"reference", preset.reference},
+                 {"model", preset.model},
+                 {"effects", std::vector<std::string>(preset.effects.begin(), preset.effects.end())},
+                 {"drive", word_of(preset.drive)},
+                 {"by_frequency", preset.by_frequency},
+                 {"lag_s", preset.lag},
+                 {"note", preset.note},
+                 {"quantities", quantities}};
+  if (preset.drive != PresetDrive::none) {
+    result["drive_range"] = {preset.drive_low, preset.drive_high};
+  }
+  return result;
+}
+
+std::vector<const Preset*> presets_of(std::string_view model) {
+  std::vector<const Preset*> result;
+  for (const Preset* preset : preset_catalogue()) {
+    if (preset->model == model) {
+      result.push_back(preset);
+    }
+  }
+  return result;
+}
+
+void describe_preset(const Preset& preset, bool as_json) {
+  if (as_json) {
+    fmt::print("{}", json_text(preset_json(preset)));
+    return;
+  }
+  fmt::print("{} (parameter set of {}): {}\n\nSource: {}\n", preset.id, preset.model, preset.title, preset.reference);
+  if (preset.drive != PresetDrive::none) {
+    fmt::print("Drive: {}, {:g} to {:g}\n", word_of(preset.drive), preset.drive_low, preset.drive_high);
+  }
+  fmt::print("Note: {}\n\n", preset.note);
+  std::vector<std::vector<std::string>> rows;
+  for (const PresetQuantity& quantity : preset.quantities) {
+    rows.push_back({std::string(quantity.name), std::string(quantity.unit),
+                    quantity.at != nullptr ? std::string(quantity.printed) : "not printed: --set " + std::string(quantity.name) + "=..."});
+  }
+  fmt::print("{}\nUse it: hysteron simulate --preset {} RECORDING --out FILE\n", table({"quantity", "unit", "value"}, rows),
+             preset.id);
+}
+
 void describe_part(const Part& part, const std::string& kind, bool as_json) {
   if (as_json) {
     json cards = json::array();
     for (const Parameter& card : part.parameters) {
       cards.push_back(card_json(card));
+    }
+    json presets = json::array();
+    for (const Preset* preset : presets_of(part.id)) {
+      presets.push_back(preset_json(*preset));
     }
     fmt::print("{}", json_text({{"kind", kind},
                                 {"id", part.id},
@@ -59,6 +121,7 @@ void describe_part(const Part& part, const std::string& kind, bool as_json) {
                                 {"reference", part.reference},
                                 {"equations", std::vector<std::string>(part.equations.begin(), part.equations.end())},
                                 {"states", part.states},
+                                {"presets", presets},
                                 {"parameters", cards}}));
     return;
   }
@@ -77,6 +140,20 @@ void describe_part(const Part& part, const std::string& kind, bool as_json) {
   fmt::print("{}", table({"parameter", "unit", "lower", "upper", "default", "meaning"}, rows));
   fmt::print(
       "\nBounds are for a device of 1 kN, 25 mm half stroke and 0.3 m/s; an identification scales them to the recordings.\n");
+  rows.clear();
+  for (const Preset* preset : presets_of(part.id)) {
+    rows.push_back({std::string(preset->id), std::string(preset->title)});
+  }
+  if (!rows.empty()) {
+    fmt::print("\n{}\nWhat they hold: hysteron describe PRESET\n", table({"published set", "what it is"}, rows));
+  }
+}
+
+// "nlopt:*" for a member of the family, else null.
+json family_of(const SolverEntry& entry) {
+  const auto colon = entry.id.find(':');
+  const SolverEntry* family = colon == std::string_view::npos ? nullptr : find_solver_family(entry.id.substr(0, colon));
+  return family == nullptr ? json(nullptr) : json(family->id);
 }
 
 void describe_solver(const SolverEntry& entry, bool as_json) {
@@ -88,10 +165,12 @@ void describe_solver(const SolverEntry& entry, bool as_json) {
     }
     fmt::print("{}", json_text({{"kind", "solver"}, {"id", entry.id}, {"title", entry.title},
                                 {"reference", entry.reference}, {"description", entry.description},
-                                {"uses_derivatives", entry.uses_derivatives}, {"settings", settings}}));
+                                {"uses_derivatives", entry.uses_derivatives},
+                                {"family", family_of(entry)},
+                                {"settings", settings}}));
     return;
   }
-  fmt::print("{} (solver): {}\n\n{}\n\nSource: {}\n\n", entry.id, entry.title, entry.description, entry.reference);
+  fmt::print("{} ({}): {}\n\n{}\n\nSource: {}\n\n", entry.id, entry.members != nullptr ? "family of solvers" : "solver", entry.title, entry.description, entry.reference);
   std::vector<std::vector<std::string>> rows;
   for (const Setting& row : entry.settings) {
     rows.push_back({std::string(row.name), fmt::format("{:g}", row.value), fmt::format("{:g}", row.lower),
@@ -138,7 +217,7 @@ void add_catalogue(CLI::App& program) {
   });
 
   auto describe_options = std::make_shared<Options>();
-  CLI::App* describe = program.add_subcommand("describe", "one model, effect, solver or dataset: equations, parameters, source");
+  CLI::App* describe = program.add_subcommand("describe", "one model, effect, solver, dataset or parameter set: equations, parameters, source");
   describe->add_option("NAME", describe_options->word, "an id of `hysteron list`")->required();
   describe->add_flag("--json", describe_options->json, "JSON on standard output");
   describe->footer("Example:\n  hysteron describe bouc-wen");
@@ -150,6 +229,10 @@ void add_catalogue(CLI::App& program) {
       describe_part(*effect, "effect", describe_options->json);
     } else if (const SolverEntry* solver = find_solver(id)) {
       describe_solver(*solver, describe_options->json);
+    } else if (const SolverEntry* family = find_solver_family(id)) {
+      describe_solver(*family, describe_options->json);
+    } else if (const Preset* preset = find_preset(id)) {
+      describe_preset(*preset, describe_options->json);
     } else if (const DatasetEntry* dataset = find_dataset(id)) {
       if (describe_options->json) {
         fmt::print("{}", json_text({{"kind", "dataset"}, {"id", dataset->id}, {"title", dataset->title},
@@ -164,6 +247,9 @@ void add_catalogue(CLI::App& program) {
         for (const Row& row : rows_of(kind)) {
           known.push_back(row.id);
         }
+      }
+      for (const Preset* known_preset : preset_catalogue()) {
+        known.emplace_back(known_preset->id);
       }
       throw InputError("nothing is called '" + id + "'" + suggestion(id, known) + ", see `hysteron list models`");
     }

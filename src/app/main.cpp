@@ -3,6 +3,25 @@
 
 #include "app/command.hpp"
 #include "core/error.hpp"
+#include "plugin/plugin.hpp"
+
+namespace {
+
+// Before anything reads the catalogue: the --plugin options in front of the subcommand.
+void load_plugins(int count, char** arguments) {
+  for (int k = 1; k < count; ++k) {
+    const std::string word = arguments[k];
+    if (word == "--plugin" && k + 1 < count) {
+      hysteron::load_plugin(arguments[++k]);
+    } else if (word.starts_with("--plugin=")) {
+      hysteron::load_plugin(word.substr(9));
+    } else {
+      return;
+    }
+  }
+}
+
+}  // namespace
 
 int main(int count, char** arguments) {
   using namespace hysteron;
@@ -12,6 +31,9 @@ int main(int count, char** arguments) {
       "Hysteron identifies damper models from recordings, compares identification algorithms, and finds missing physics."};
   program.set_version_flag("--version", "hysteron " HYSTERON_VERSION);
   program.require_subcommand(1);
+  std::vector<std::string> plugins;
+  program.add_option("--plugin", plugins, "library with models, effects or solvers of your own, see docs/plugins.md; repeatable")
+      ->allow_extra_args(false);
   program.footer(
       "Examples:\n"
       "  hysteron generate rd8040-twin --out twin\n"
@@ -26,6 +48,7 @@ int main(int count, char** arguments) {
   app::add_diagnose(program);
   app::add_challenge(program);
   try {
+    load_plugins(count, arguments);
     program.parse(count, arguments);
   } catch (const CLI::Success& success) {
     return program.exit(success);

@@ -18,10 +18,50 @@ double setting(const Problem& problem, const SolverEntry& entry, std::string_vie
   throw InputError("solver '" + std::string(entry.id) + "' has no setting '" + std::string(name) + "'");
 }
 
+namespace {
+
+std::vector<const SolverEntry*>& catalogue() {
+  static std::vector<const SolverEntry*> rows = [] {
+    std::vector<const SolverEntry*> result;
+    for (const SolverEntry* entry : solver_files()) {
+      if (entry->members == nullptr) {
+        result.push_back(entry);
+      }
+    }
+    for (const SolverEntry* entry : solver_files()) {
+      if (entry->members != nullptr) {
+        const auto members = entry->members();
+        result.insert(result.end(), members.begin(), members.end());
+      }
+    }
+    return result;
+  }();
+  return rows;
+}
+
+}  // namespace
+
+std::span<const SolverEntry* const> solver_catalogue() { return catalogue(); }
+
 const SolverEntry* find_solver(std::string_view id) {
-  const auto catalogue = solver_catalogue();
-  const auto found = std::ranges::find_if(catalogue, [&](const SolverEntry* entry) { return entry->id == id; });
-  return found == catalogue.end() ? nullptr : *found;
+  const auto found = std::ranges::find_if(catalogue(), [&](const SolverEntry* entry) { return entry->id == id; });
+  return found == catalogue().end() ? nullptr : *found;
+}
+
+const SolverEntry* find_solver_family(std::string_view id) {
+  for (const SolverEntry* entry : solver_files()) {
+    if (entry->members != nullptr && (entry->id == id || entry->id.substr(0, entry->id.find(':')) == id)) {
+      return entry;
+    }
+  }
+  return nullptr;
+}
+
+void add_solver(const SolverEntry* entry) {
+  if (find_solver(entry->id) != nullptr) {
+    throw InputError("solver '" + std::string(entry->id) + "' exists already, expected an id of its own");
+  }
+  catalogue().push_back(entry);
 }
 
 RunResult run_solver(const SolverEntry& entry, const Problem& problem, const Evaluate& evaluate,

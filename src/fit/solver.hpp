@@ -84,12 +84,23 @@ struct SolverEntry {
   bool uses_derivatives = false;
   std::span<const Setting> settings;
   std::unique_ptr<Solver> (*make)(const Problem&) = nullptr;
+  // A family (id "nlopt:*") has its members instead of a maker: one entry each, found by their own ids.
+  std::span<const SolverEntry* const> (*members)() = nullptr;
 };
 
 // Value of a setting: the problem's if given, else the entry's default.
 double setting(const Problem& problem, const SolverEntry& entry, std::string_view name);
 
+// What the files of algorithms/ define, families unopened.
+std::span<const SolverEntry* const> solver_files();
+// Every solver that can be made: files that are no family, then the members of families, then added ones.
 std::span<const SolverEntry* const> solver_catalogue();
+// nullptr when there is none. A family is no solver.
 const SolverEntry* find_solver(std::string_view id);
+// nullptr when there is none: "nlopt" or "nlopt:*".
+const SolverEntry* find_solver_family(std::string_view id);
+// Adds a solver from outside the tree; `entry` must outlive the program. Not while the catalogue is being read.
+// Throws InputError when its id is taken.
+void add_solver(const SolverEntry* entry);
 
 }  // namespace hysteron

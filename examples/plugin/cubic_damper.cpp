@@ -1,0 +1,73 @@
+// A model and a solver of one's own, in one file outside the tree.
+//   F = c0 v + c3 v^3 + f0
+// and random search: uniform points, the best counts.
+#include "core/error.hpp"
+#include "plugin/plugin.hpp"
+#include "simulate/compile.hpp"
+
+namespace {
+
+using namespace hysteron;
+
+struct CubicDamper {
+  static constexpr std::string_view id = "cubic-damper";
+  static constexpr std::string_view title = "Dashpot with a cubic term";
+  static constexpr std::string_view reference = "example of a plugin";
+  static constexpr std::string_view equations[] = {"F = c0 v + c3 v^3 + f0"};
+  static constexpr int states = 0;
+  static constexpr Parameter parameters[] = {
+      {"c0", "c0", "N s/m", "damping", 0.0, 2.0e4, 5.0e2, Scale::linear, {1, 0, -1}, true},
+      {"c3", "c3", "N s^3/m^3", "cubic damping", -1.0e5, 1.0e5, 0.0, Scale::linear, {1, 0, -3}, true},
+      {"f0", "f0", "N", "offset force", -1.5e3, 1.5e3, 0.0, Scale::linear, {1, 0, 0}, true},
+  };
+  template <class T>
+  static T force(const std::array<T, 3>& p, const std::array<T, 0>& /*s*/, const Input<T>& in, const T& /*below*/) {
+    return (p[0] + p[1] * in.v * in.v) * in.v + p[2];
+  }
+};
+
+constexpr Part cubic_damper = compile<CubicDamper>();
+
+class RandomSearch final : public Solver {
+ public:
+  explicit RandomSearch(const Problem& problem) : problem_(problem) {}
+
+  // Every draw is a pure function of round and coordinate: asked again it gives the same points.
+  Request ask() override {
+    constexpr std::uint32_t points = 64;
+    Request request;
+    for (std::uint32_t k = 0; k < points; ++k) {
+      for (std::uint32_t d = 0; d < problem_.dimension; ++d) {
+        request.points.push_back(problem_.stream.uniform(round_, k, d));
+      }
+    }
+    return request;
+  }
+  void tell(const Request& /*request*/, const Response& /*response*/) override { ++round_; }
+
+ private:
+  Problem problem_;
+  std::uint64_t round_ = 0;
+};
+
+const SolverEntry random_search = {
+    "random-search",
+    "Uniform random search",
+    "example of a plugin",
+    "Uniform points of the box; what a solver has to beat.",
+    false,
+    {},
+    [](const Problem& problem) -> std::unique_ptr<Solver> {
+      if (!problem.settings.empty()) throw InputError("solver random-search: it has no settings");
+      return std::make_unique<RandomSearch>(problem);
+    },
+};
+
+}  // namespace
+
+extern "C" const Plugin* hysteron_plugin() {
+  static const Part* const models[] = {&cubic_damper};
+  static const SolverEntry* const solvers[] = {&random_search};
+  static const Plugin plugin{plugin_layout(), models, {}, solvers};
+  return &plugin;
+}
