@@ -24,6 +24,7 @@ Needs merged(const Needs& a, const Needs& b) {
   all.one_level = a.one_level || b.one_level;
   all.one_frequency = a.one_frequency || b.one_frequency;
   all.steady = a.steady || b.steady;
+  all.slow = a.slow || b.slow;
   all.small_amplitudes = a.small_amplitudes || b.small_amplitudes;
   all.speed_decade = a.speed_decade || b.speed_decade;
   return all;
@@ -38,8 +39,8 @@ Design draw_design(Draws& draws, const Task& task, const Needs& needs) {
 }
 
 Law draw_true_law(Draws& draws, const Task& task) {
-  std::vector<Law> laws = {Law::bouc_wen,        Law::bouc_wen, Law::modified_bouc_wen,
-                           Law::tanh_hysteresis, Law::bingham,  Law::lugre};
+  std::vector<Law> laws = {Law::bouc_wen,        Law::bouc_wen, Law::bouc_wen, Law::modified_bouc_wen,
+                           Law::tanh_hysteresis, Law::bingham,  Law::lugre,    Law::lugre};
   if (task.level == Level::wrong_base) {
     laws = {Law::bouc_wen, Law::modified_bouc_wen, Law::tanh_hysteresis, Law::lugre};
   }
@@ -222,6 +223,12 @@ Concealed make_concealed(const Task& task, std::uint64_t seed) {
   c.velocity_given = c.velocity_given || draws.chance(0.4);
   c.roles_given = draws.chance(0.7);
   c.drive_is_voltage = draws.chance(0.2);
+  if (law == Law::bingham) {
+    // Its step at rest is lost in a derived velocity.
+    needs.slow = true;
+    c.velocity_given = true;
+    c.chain.velocity_noise = 2e-4;
+  }
 
   Device device;
   device.force = draws.log_uniform(200.0, 20000.0);

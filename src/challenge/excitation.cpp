@@ -59,7 +59,7 @@ Test triangle_test(Draws& draws, double amplitude, double speed) {
   test.kind = "triangle";
   test.motion.triangle_amplitude = amplitude;
   test.motion.triangle_omega = std::numbers::pi / 2.0 * speed / amplitude;
-  test.motion.triangle_sharpness = draws.uniform(0.98, 0.998);
+  test.motion.triangle_sharpness = draws.uniform(0.9, 0.97);
   test.lead = 0.5;
   return test;
 }
@@ -105,7 +105,7 @@ void add_sines(Draws& draws, const Needs& needs, double amplitude, const std::ve
   for (int k = 0; k < frequency_count; ++k) {
     const std::size_t at =
         frequency_count == 1 ? 3 : static_cast<std::size_t>(first + k * (6 - first) / frequency_count);
-    frequencies.push_back(std::round(100.0 * grid[at] * draws.uniform(0.9, 1.1)) / 100.0);
+    frequencies.push_back(std::round((needs.slow ? 40.0 : 100.0) * grid[at] * draws.uniform(0.9, 1.1)) / 100.0);
   }
   const int amplitude_count = draws.integer(2, 3);
   std::vector<double> amplitudes;
@@ -158,7 +158,7 @@ void add_broadband(Draws& draws, const Needs& needs, double amplitude, const std
   const bool steps = needs.drive_steps || (!needs.one_level && draws.chance(0.7));
   for (int k = 0; k < multisines; ++k) {
     const double share = k == 0 ? 1.0 : draws.uniform(needs.small_amplitudes ? 0.15 : 0.4, 0.9);
-    Test test = multisine_test(draws, amplitude * share, draws.uniform(4.0, 8.0));
+    Test test = multisine_test(draws, amplitude * share, draws.uniform(4.0, 8.0) * (needs.slow ? 0.3 : 1.0));
     test.duration = draws.uniform(3.0, 6.0);
     test.drive = steps ? random_steps(draws, test.duration, levels)
                        : Drive{{0.0}, {levels[static_cast<std::size_t>(k) % levels.size()]}, 0.002};
@@ -234,7 +234,7 @@ Excitation draw_excitation(const Stream& stream, Design design, const Needs& nee
       break;
   }
   // A ramp holds more than one frequency.
-  const bool from_rest = !needs.steady && (needs.from_rest || draws.chance(0.6));
+  const bool from_rest = !needs.steady && (needs.from_rest || draws.chance(0.8));
   const double middle = draws.chance(0.3) ? amplitude * draws.uniform(-0.3, 0.3) : 0.0;
   double total = 0.0;
   for (std::size_t k = 0; k < result.tests.size(); ++k) {
@@ -255,7 +255,7 @@ Excitation draw_excitation(const Stream& stream, Design design, const Needs& nee
     result.longest = std::max(result.longest, test.duration);
   }
   constexpr std::array<double, 9> rates = {1000.0, 800.0, 625.0, 500.0, 400.0, 320.0, 250.0, 200.0, 160.0};
-  const double wanted = std::min(draws.log_uniform(250.0, 1200.0), most_samples / total);
+  const double wanted = std::min(draws.log_uniform(needs.slow ? 500.0 : 250.0, 1200.0), most_samples / total);
   result.sampling_rate = rates.back();
   for (const double rate : rates) {
     if (rate <= wanted) {
