@@ -109,9 +109,9 @@ Chain draw_chain(Draws& draws, Level level, std::string& disturbance) {
   return chain;
 }
 
-Forces clean_forces(const Physics& physics, const std::vector<Test>& tests, double rate, int decimation) {
+Forces clean_forces(const Physics& physics, const std::vector<Run>& tests, double rate, int decimation) {
   Forces forces;
-  for (const Test& test : tests) {
+  for (const Run& test : tests) {
     forces.push_back(clean_force(physics, simulate(physics, test, rate), decimation));
   }
   return forces;
@@ -242,7 +242,7 @@ Concealed make_concealed(const Task& task, std::uint64_t seed) {
   device.acceleration = c.excitation.acceleration;
   device.longest = c.excitation.longest;
   device.middle = c.excitation.tests.front().motion.offset;
-  for (const Test& test : c.excitation.tests) {
+  for (const Run& test : c.excitation.tests) {
     device.energy = std::max(device.energy, 0.3 * device.force * test.peak_speed * test.duration);
   }
   const double sampling = c.excitation.sampling_rate;
@@ -257,7 +257,7 @@ Concealed make_concealed(const Task& task, std::uint64_t seed) {
     c.acceptable = wrong.acceptable;
   }
   bool driven = false;
-  for (const Test& test : c.excitation.tests) {
+  for (const Run& test : c.excitation.tests) {
     driven = driven || std::ranges::any_of(test.drive.levels, [&](double level) {
                return level != c.excitation.tests.front().drive.levels.front();
              });

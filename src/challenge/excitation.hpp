@@ -42,7 +42,7 @@ struct Drive {
   [[nodiscard]] double at(double t) const;
 };
 
-struct Test {
+struct Run {
   Motion motion;
   Drive drive;
   double duration = 3.0;      // s
@@ -72,7 +72,7 @@ struct Needs {
 };
 
 struct Excitation {
-  std::vector<Test> tests;
+  std::vector<Run> tests;
   double sampling_rate = 500.0;  // Hz
   double amplitude = 0.0;        // m, largest of all tests
   double smallest_amplitude = 0.0;

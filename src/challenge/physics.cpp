@@ -34,7 +34,7 @@ double sign_of(double v, double width) { return v / std::sqrt(v * v + width * wi
 
 class Plant {
  public:
-  Plant(const Physics& physics, const Test& test, double end)
+  Plant(const Physics& physics, const Run& test, double end)
       : p_(physics), test_(test), field_(physics, test.drive, -test.lead, end) {}
 
   [[nodiscard]] State start() const {
@@ -304,7 +304,7 @@ class Plant {
   }
 
   const Physics& p_;
-  const Test& test_;
+  const Run& test_;
   Field field_;
 };
 
@@ -326,13 +326,13 @@ std::string_view model_of(Law law) {
   return "";
 }
 
-Track simulate(const Physics& physics, const Test& test, double rate) {
+Track simulate(const Physics& physics, const Run& test, double rate) {
   Track track;
   track.rate = rate;
   track.lead = static_cast<std::size_t>(std::ceil(test.lead * rate));
   const auto points = track.lead + static_cast<std::size_t>(std::lround(test.duration * rate)) + 1;
   const auto time = [&](std::size_t k) { return (static_cast<double>(k) - static_cast<double>(track.lead)) / rate; };
-  Test from = test;
+  Run from = test;
   from.lead = static_cast<double>(track.lead) / rate;
   const Plant plant(physics, from, time(points));
   State state = plant.start();

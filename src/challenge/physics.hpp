@@ -97,6 +97,6 @@ struct Track {
 };
 
 // Simulates one test; `rate` is the grid's, in Hz.
-[[nodiscard]] Track simulate(const Physics& physics, const Test& test, double rate);
+[[nodiscard]] Track simulate(const Physics& physics, const Run& test, double rate);
 
 }  // namespace hysteron::challenge
