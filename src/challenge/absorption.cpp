@@ -88,7 +88,7 @@ std::vector<double> stacked(const Forces& forces, const std::vector<double>& pea
 
 }  // namespace
 
-std::vector<Forces> law_derivatives(const Physics& physics, const std::vector<Test>& tests, double rate, int decimation,
+std::vector<Forces> law_derivatives(const Physics& physics, const std::vector<Run>& tests, double rate, int decimation,
                                     const Forces& at_truth) {
   std::vector<Forces> result;
   for (const Nudge& nudge : nudges(physics)) {

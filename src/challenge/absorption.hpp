@@ -11,7 +11,7 @@ using Forces = std::vector<std::vector<double>>;  // recording by recording
 
 // Derivatives of the force by the law's parameters (yield force and damping with their slopes over the drive, spring,
 // offset, shape), by differences: one Forces a parameter.
-[[nodiscard]] std::vector<Forces> law_derivatives(const Physics& physics, const std::vector<Test>& tests, double rate,
+[[nodiscard]] std::vector<Forces> law_derivatives(const Physics& physics, const std::vector<Run>& tests, double rate,
                                                   int decimation, const Forces& at_truth);
 
 // What is left of `change` after the best combination of the derivatives; each recording is weighed by 1 / peak. With

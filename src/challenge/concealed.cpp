@@ -24,6 +24,7 @@ Needs merged(const Needs& a, const Needs& b) {
   all.one_level = a.one_level || b.one_level;
   all.one_frequency = a.one_frequency || b.one_frequency;
   all.steady = a.steady || b.steady;
+  all.slow = a.slow || b.slow;
   all.small_amplitudes = a.small_amplitudes || b.small_amplitudes;
   all.speed_decade = a.speed_decade || b.speed_decade;
   return all;
@@ -38,8 +39,8 @@ Design draw_design(Draws& draws, const Task& task, const Needs& needs) {
 }
 
 Law draw_true_law(Draws& draws, const Task& task) {
-  std::vector<Law> laws = {Law::bouc_wen,        Law::bouc_wen, Law::modified_bouc_wen,
-                           Law::tanh_hysteresis, Law::bingham,  Law::lugre};
+  std::vector<Law> laws = {Law::bouc_wen,        Law::bouc_wen, Law::bouc_wen, Law::modified_bouc_wen,
+                           Law::tanh_hysteresis, Law::bingham,  Law::lugre,    Law::lugre};
   if (task.level == Level::wrong_base) {
     laws = {Law::bouc_wen, Law::modified_bouc_wen, Law::tanh_hysteresis, Law::lugre};
   }
@@ -108,9 +109,9 @@ Chain draw_chain(Draws& draws, Level level, std::string& disturbance) {
   return chain;
 }
 
-Forces clean_forces(const Physics& physics, const std::vector<Test>& tests, double rate, int decimation) {
+Forces clean_forces(const Physics& physics, const std::vector<Run>& tests, double rate, int decimation) {
   Forces forces;
-  for (const Test& test : tests) {
+  for (const Run& test : tests) {
     forces.push_back(clean_force(physics, simulate(physics, test, rate), decimation));
   }
   return forces;
@@ -222,6 +223,12 @@ Concealed make_concealed(const Task& task, std::uint64_t seed) {
   c.velocity_given = c.velocity_given || draws.chance(0.4);
   c.roles_given = draws.chance(0.7);
   c.drive_is_voltage = draws.chance(0.2);
+  if (law == Law::bingham) {
+    // Its step at rest is lost in a derived velocity.
+    needs.slow = true;
+    c.velocity_given = true;
+    c.chain.velocity_noise = 2e-4;
+  }
 
   Device device;
   device.force = draws.log_uniform(200.0, 20000.0);
@@ -235,7 +242,7 @@ Concealed make_concealed(const Task& task, std::uint64_t seed) {
   device.acceleration = c.excitation.acceleration;
   device.longest = c.excitation.longest;
   device.middle = c.excitation.tests.front().motion.offset;
-  for (const Test& test : c.excitation.tests) {
+  for (const Run& test : c.excitation.tests) {
     device.energy = std::max(device.energy, 0.3 * device.force * test.peak_speed * test.duration);
   }
   const double sampling = c.excitation.sampling_rate;
@@ -250,7 +257,7 @@ Concealed make_concealed(const Task& task, std::uint64_t seed) {
     c.acceptable = wrong.acceptable;
   }
   bool driven = false;
-  for (const Test& test : c.excitation.tests) {
+  for (const Run& test : c.excitation.tests) {
     driven = driven || std::ranges::any_of(test.drive.levels, [&](double level) {
                return level != c.excitation.tests.front().drive.levels.front();
              });

@@ -137,7 +137,7 @@ nlohmann::json answer_of(const Concealed& concealed) {
     double peak = 0.0;
     for (const double value : recording.force) peak = std::max(peak, std::abs(value));
     const double floor = square_mean(recording.force, recording.clean) / (peak * peak);
-    const Test& test = concealed.excitation.tests[r];
+    const Run& test = concealed.excitation.tests[r];
     answer["recordings"].push_back({{"file", file_name(r)},
                                     {"kind", test.kind},
                                     {"samples", recording.time.size()},

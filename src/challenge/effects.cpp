@@ -48,7 +48,7 @@ std::vector<HiddenEffect> make() {
        1.0,
        [](P& p, const D& d, double s, Draws) { p.offset = s * d.force; },
        [](const P& p) -> Truths {
-         return {{"f", p.offset, "N"}};
+         return {{"f0", p.offset, "N"}};
        }});
   add({"linear-stiffness",
        Group::stiffness,
@@ -308,22 +308,24 @@ std::vector<HiddenEffect> make() {
          return {{"a", p.rest_excess, "1"}, {"L", p.rest_length, "m"}};
        }});
   add({"pinching",
-       Group::dead_zone,
+       Group::stop,
        false,
        false,
-       small,
+       anything,
        {},
        false,
        false,
-       bouc_wen_laws,
+       all_laws,
        0.02,
-       0.97,
-       [](P& p, const D&, double s, Draws shape) {
+       0.95,
+       [](P& p, const D& d, double s, Draws shape) {
          p.pinch = s;
-         p.pinch_centre = shape.uniform(0.0, 0.25);
-         p.pinch_width = shape.uniform(0.15, 0.4);
+         p.pinch_centre = d.middle + d.amplitude * shape.uniform(-0.3, 0.3);
+         p.pinch_width = d.amplitude * shape.uniform(0.15, 0.4);
        },
-       none});
+       [](const P& p) -> Truths {
+         return {{"p", p.pinch, "1"}, {"x_p", p.pinch_centre, "m"}};
+       }});
   add({"cavitation",
        Group::even,
        false,
@@ -366,12 +368,12 @@ std::vector<HiddenEffect> make() {
        {},
        false,
        false,
-       series_laws,
+       {Law::bouc_wen, Law::lugre},
        1e-3,
        0.5,
        [](P& p, const D& d, double s, Draws) { p.series_stiffness = d.force / (s * d.amplitude); },
        [](const P& p) -> Truths {
-         return {{"k", p.series_stiffness, "N/m"}};
+         return {{"C", 1.0 / p.series_stiffness, "m/N"}};
        }});
   add({"entrapped-gas",
        Group::dead_zone,
@@ -403,7 +405,7 @@ std::vector<HiddenEffect> make() {
        3.0,
        [](P& p, const D& d, double s, Draws) { p.series_dashpot = d.force / (s * d.speed); },
        [](const P& p) -> Truths {
-         return {{"c1", p.series_dashpot, "N s/m"}};
+         return {{"e", 1.0 / p.series_dashpot, "m/(N s)"}};
        }});
 
   // From command to field.
@@ -560,21 +562,21 @@ std::vector<HiddenEffect> make() {
          p.supply_phase = shape.uniform(0.0, 6.0);
        },
        none});
-  add({"foreign:groove",
-       Group::stop,
+  add({"foreign:slip-lock",
+       Group::dead_zone,
        true,
        false,
-       anything,
+       small,
        {},
        false,
        false,
-       all_laws,
+       bouc_wen_laws,
        0.02,
        0.97,
-       [](P& p, const D& d, double s, Draws shape) {
-         p.groove = s;
-         p.groove_centre = d.middle + d.amplitude * shape.uniform(-0.4, 0.4);
-         p.groove_width = d.amplitude * shape.uniform(0.15, 0.4);
+       [](P& p, const D&, double s, Draws shape) {
+         p.slip_lock = s;
+         p.slip_centre = shape.uniform(0.0, 0.25);
+         p.slip_width = shape.uniform(0.15, 0.4);
        },
        none});
   add({"foreign:blow-off-valve",

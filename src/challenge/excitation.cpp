@@ -19,7 +19,7 @@ Kinematics rise(double s) {
           60.0 * s * (1.0 - s) * (1.0 - 2.0 * s)};
 }
 
-void measure(Test& test) {
+void measure(Run& test) {
   constexpr int points = 4000;
   for (int k = 0; k < points; ++k) {
     const Kinematics m = test.motion.at(test.duration * k / points);
@@ -29,8 +29,8 @@ void measure(Test& test) {
   }
 }
 
-Test sine_test(double amplitude, double frequency, double level) {
-  Test test;
+Run sine_test(double amplitude, double frequency, double level) {
+  Run test;
   test.kind = "sine";
   test.motion.sines = {{amplitude, two_pi * frequency, 0.0}};
   test.drive = {{0.0}, {level}, 0.002};
@@ -39,8 +39,8 @@ Test sine_test(double amplitude, double frequency, double level) {
 }
 
 // Odd multiples of f0 up to the highest frequency, amplitudes falling with frequency, random phases.
-Test multisine_test(Draws& draws, double amplitude, double highest_frequency) {
-  Test test;
+Run multisine_test(Draws& draws, double amplitude, double highest_frequency) {
+  Run test;
   test.kind = "multisine";
   const double f0 = draws.uniform(0.15, 0.3);
   for (double f = f0; f <= highest_frequency; f += 2.0 * f0) {
@@ -54,12 +54,12 @@ Test multisine_test(Draws& draws, double amplitude, double highest_frequency) {
   return test;
 }
 
-Test triangle_test(Draws& draws, double amplitude, double speed) {
-  Test test;
+Run triangle_test(Draws& draws, double amplitude, double speed) {
+  Run test;
   test.kind = "triangle";
   test.motion.triangle_amplitude = amplitude;
   test.motion.triangle_omega = std::numbers::pi / 2.0 * speed / amplitude;
-  test.motion.triangle_sharpness = draws.uniform(0.98, 0.998);
+  test.motion.triangle_sharpness = draws.uniform(0.9, 0.97);
   test.lead = 0.5;
   return test;
 }
@@ -97,7 +97,7 @@ std::vector<double> draw_levels(Draws& draws, const Needs& needs, double highest
 }
 
 void add_sines(Draws& draws, const Needs& needs, double amplitude, const std::vector<double>& levels, int limit,
-               std::vector<Test>& tests) {
+               std::vector<Run>& tests) {
   constexpr std::array<double, 7> grid = {0.5, 1.0, 1.5, 2.0, 3.0, 4.0, 6.0};
   const int frequency_count = needs.one_frequency ? 1 : std::max(needs.frequencies, draws.integer(2, 4));
   std::vector<double> frequencies;
@@ -105,7 +105,7 @@ void add_sines(Draws& draws, const Needs& needs, double amplitude, const std::ve
   for (int k = 0; k < frequency_count; ++k) {
     const std::size_t at =
         frequency_count == 1 ? 3 : static_cast<std::size_t>(first + k * (6 - first) / frequency_count);
-    frequencies.push_back(std::round(100.0 * grid[at] * draws.uniform(0.9, 1.1)) / 100.0);
+    frequencies.push_back(std::round((needs.slow ? 40.0 : 100.0) * grid[at] * draws.uniform(0.9, 1.1)) / 100.0);
   }
   const int amplitude_count = draws.integer(2, 3);
   std::vector<double> amplitudes;
@@ -113,7 +113,7 @@ void add_sines(Draws& draws, const Needs& needs, double amplitude, const std::ve
   for (int k = 0; k < amplitude_count; ++k) {
     amplitudes.push_back(amplitude * std::pow(smallest, 1.0 - k / (amplitude_count - 1.0)));
   }
-  std::vector<Test> all;
+  std::vector<Run> all;
   for (const double f : frequencies) {
     for (const double a : amplitudes) {
       for (const double level : levels) all.push_back(sine_test(a, f, level));
@@ -124,7 +124,7 @@ void add_sines(Draws& draws, const Needs& needs, double amplitude, const std::ve
     std::swap(all[k - 1], all[static_cast<std::size_t>(draws.integer(0, static_cast<int>(k) - 1))]);
   }
   // The largest amplitude, the highest frequency and every level stay in.
-  std::vector<Test> kept;
+  std::vector<Run> kept;
   const auto keep_first = [&](auto wanted) {
     const auto found = std::ranges::find_if(all, wanted);
     if (found != all.end()) {
@@ -134,10 +134,10 @@ void add_sines(Draws& draws, const Needs& needs, double amplitude, const std::ve
   };
   for (const double level : levels) {
     keep_first(
-        [&](const Test& t) { return t.drive.levels[0] == level && t.motion.sines[0].amplitude == amplitudes.back(); });
+        [&](const Run& t) { return t.drive.levels[0] == level && t.motion.sines[0].amplitude == amplitudes.back(); });
   }
   for (const double f : frequencies) {
-    keep_first([&](const Test& t) { return t.motion.sines[0].omega == two_pi * f; });
+    keep_first([&](const Run& t) { return t.motion.sines[0].omega == two_pi * f; });
   }
   while (static_cast<int>(kept.size()) < limit && !all.empty()) {
     kept.push_back(all.back());
@@ -146,7 +146,7 @@ void add_sines(Draws& draws, const Needs& needs, double amplitude, const std::ve
   for (std::size_t k = kept.size(); k > 1; --k) {
     std::swap(kept[k - 1], kept[static_cast<std::size_t>(draws.integer(0, static_cast<int>(k) - 1))]);
   }
-  for (Test& test : kept) {
+  for (Run& test : kept) {
     const double period = two_pi / test.motion.sines[0].omega;
     test.duration = std::clamp(draws.uniform(3.0, 5.0) * period, 2.0, 5.0);
     tests.push_back(test);
@@ -154,11 +154,11 @@ void add_sines(Draws& draws, const Needs& needs, double amplitude, const std::ve
 }
 
 void add_broadband(Draws& draws, const Needs& needs, double amplitude, const std::vector<double>& levels,
-                   int multisines, int triangles, std::vector<Test>& tests) {
+                   int multisines, int triangles, std::vector<Run>& tests) {
   const bool steps = needs.drive_steps || (!needs.one_level && draws.chance(0.7));
   for (int k = 0; k < multisines; ++k) {
     const double share = k == 0 ? 1.0 : draws.uniform(needs.small_amplitudes ? 0.15 : 0.4, 0.9);
-    Test test = multisine_test(draws, amplitude * share, draws.uniform(4.0, 8.0));
+    Run test = multisine_test(draws, amplitude * share, draws.uniform(4.0, 8.0) * (needs.slow ? 0.3 : 1.0));
     test.duration = draws.uniform(3.0, 6.0);
     test.drive = steps ? random_steps(draws, test.duration, levels)
                        : Drive{{0.0}, {levels[static_cast<std::size_t>(k) % levels.size()]}, 0.002};
@@ -166,7 +166,7 @@ void add_broadband(Draws& draws, const Needs& needs, double amplitude, const std
   }
   for (int k = 0; k < triangles; ++k) {
     const double share = k == 0 ? 1.0 : draws.uniform(0.3, 0.8);
-    Test test = triangle_test(draws, amplitude * share, amplitude * draws.log_uniform(0.4, 3.0));
+    Run test = triangle_test(draws, amplitude * share, amplitude * draws.log_uniform(0.4, 3.0));
     test.duration = std::clamp(2.5 * two_pi / test.motion.triangle_omega, 3.0, 8.0);
     test.drive = needs.drive_steps && k % 2 == 1
                      ? staircase(test.duration, levels)
@@ -234,11 +234,11 @@ Excitation draw_excitation(const Stream& stream, Design design, const Needs& nee
       break;
   }
   // A ramp holds more than one frequency.
-  const bool from_rest = !needs.steady && (needs.from_rest || draws.chance(0.6));
+  const bool from_rest = !needs.steady && (needs.from_rest || draws.chance(0.8));
   const double middle = draws.chance(0.3) ? amplitude * draws.uniform(-0.3, 0.3) : 0.0;
   double total = 0.0;
   for (std::size_t k = 0; k < result.tests.size(); ++k) {
-    Test& test = result.tests[k];
+    Run& test = result.tests[k];
     test.motion.offset = middle;
     if (needs.long_runs && k % 4 == 0) test.duration = draws.uniform(12.0, 20.0);
     if (from_rest) {
@@ -255,7 +255,7 @@ Excitation draw_excitation(const Stream& stream, Design design, const Needs& nee
     result.longest = std::max(result.longest, test.duration);
   }
   constexpr std::array<double, 9> rates = {1000.0, 800.0, 625.0, 500.0, 400.0, 320.0, 250.0, 200.0, 160.0};
-  const double wanted = std::min(draws.log_uniform(250.0, 1200.0), most_samples / total);
+  const double wanted = std::min(draws.log_uniform(needs.slow ? 500.0 : 250.0, 1200.0), most_samples / total);
   result.sampling_rate = rates.back();
   for (const double rate : rates) {
     if (rate <= wanted) {

@@ -26,7 +26,7 @@ struct Motion {
   std::vector<Sine> sines;
   double triangle_amplitude = 0.0;  // m
   double triangle_omega = 0.0;      // rad/s
-  double triangle_sharpness = 0.995;
+  double triangle_sharpness = 0.95;
   double offset = 0.0;  // m
   double ramp = 0.0;    // s; 0: no ramp
 
@@ -42,7 +42,7 @@ struct Drive {
   [[nodiscard]] double at(double t) const;
 };
 
-struct Test {
+struct Run {
   Motion motion;
   Drive drive;
   double duration = 3.0;      // s
@@ -66,12 +66,13 @@ struct Needs {
   bool one_level = false;      // unexcited: the drive never changes
   bool one_frequency = false;  // unexcited: a single frequency
   bool steady = false;         // motions that have always been: one frequency at a time
+  bool slow = false;           // for a law with a sharp step at rest: reversals over many samples
   bool small_amplitudes = false;
   bool speed_decade = false;
 };
 
 struct Excitation {
-  std::vector<Test> tests;
+  std::vector<Run> tests;
   double sampling_rate = 500.0;  // Hz
   double amplitude = 0.0;        // m, largest of all tests
   double smallest_amplitude = 0.0;

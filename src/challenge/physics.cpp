@@ -34,7 +34,7 @@ double sign_of(double v, double width) { return v / std::sqrt(v * v + width * wi
 
 class Plant {
  public:
-  Plant(const Physics& physics, const Test& test, double end)
+  Plant(const Physics& physics, const Run& test, double end)
       : p_(physics), test_(test), field_(physics, test.drive, -test.lead, end) {}
 
   [[nodiscard]] State start() const {
@@ -122,10 +122,6 @@ class Plant {
       c *= 1.0 - p_.thinning + p_.thinning / (1.0 + std::pow(std::abs(v) / p_.thin_speed, p_.thin_power));
     }
     if (p_.swing_damping != 0.0) c *= 1.0 + p_.swing_damping * s[swing] / p_.swing_length;
-    if (p_.groove != 0.0) {
-      const double place = (b.rod.x - p_.groove_centre) / p_.groove_width;
-      c *= 1.0 - p_.groove / (1.0 + place * place * place * place);
-    }
     if (p_.valve != 0.0) c *= 1.0 - p_.valve * s[valve_open];
     return c;
   }
@@ -146,9 +142,9 @@ class Plant {
     const double grip = std::pow(std::abs(z), p_.n - 1.0);
     double d = p_.A * u - p_.beta * std::abs(u) * z * grip - p_.gamma * u * std::abs(z) * grip;
     if (p_.knee_growth != 0.0) d /= 1.0 + p_.knee_growth * b.drive;
-    if (p_.pinch != 0.0) {
-      const double place = (z * (u < 0.0 ? -1.0 : 1.0) / full_z() - p_.pinch_centre) / p_.pinch_width;
-      d *= 1.0 - p_.pinch / (1.0 + place * place);
+    if (p_.slip_lock != 0.0) {
+      const double place = (z * (u < 0.0 ? -1.0 : 1.0) / full_z() - p_.slip_centre) / p_.slip_width;
+      d *= 1.0 - p_.slip_lock / (1.0 + place * place);
     }
     return d;
   }
@@ -182,6 +178,10 @@ class Plant {
     }
     f += p_.quadratic * v * std::abs(v);
     if (p_.rest_excess != 0.0) f *= 1.0 + p_.rest_excess * std::exp(-s[travel] / p_.rest_length);
+    if (p_.pinch != 0.0) {
+      const double place = (b.rod.x - p_.pinch_centre) / p_.pinch_width;
+      f *= 1.0 - p_.pinch / (1.0 + place * place * place * place);
+    }
     if (p_.wear != 0.0) f /= 1.0 + p_.wear * s[work];
     f += held;
     if (p_.asymmetry != 0.0) f *= 1.0 + p_.asymmetry * sign_of(v, 1e-3);
@@ -304,7 +304,7 @@ class Plant {
   }
 
   const Physics& p_;
-  const Test& test_;
+  const Run& test_;
   Field field_;
 };
 
@@ -326,13 +326,13 @@ std::string_view model_of(Law law) {
   return "";
 }
 
-Track simulate(const Physics& physics, const Test& test, double rate) {
+Track simulate(const Physics& physics, const Run& test, double rate) {
   Track track;
   track.rate = rate;
   track.lead = static_cast<std::size_t>(std::ceil(test.lead * rate));
   const auto points = track.lead + static_cast<std::size_t>(std::lround(test.duration * rate)) + 1;
   const auto time = [&](std::size_t k) { return (static_cast<double>(k) - static_cast<double>(track.lead)) / rate; };
-  Test from = test;
+  Run from = test;
   from.lead = static_cast<double>(track.lead) / rate;
   const Plant plant(physics, from, time(points));
   State state = plant.start();

@@ -52,10 +52,10 @@ struct Physics {
   double thinning = 0.0, thin_speed = 0.1, thin_power = 1.0;  // Cross law: c (1 - th + th / (1 + |v/v_c|^m))
   double asymmetry = 0.0;
   double heat_rate = 0.0, heat_capacity = 1.0, cooling_time = 60.0, heat_yield_share = 1.0;
-  double wear = 0.0;                            // loss per joule
-  double rest_excess = 0.0, rest_length = 0.0;  // first travel
-  double pinch = 0.0, pinch_centre = 0.0, pinch_width = 0.3;
-  double cavitation = never, refill_time = 0.03;  // force at which the fluid column parts, for v < 0
+  double wear = 0.0;                                           // loss per joule
+  double rest_excess = 0.0, rest_length = 0.0;                 // first travel
+  double pinch = 0.0, pinch_centre = 0.0, pinch_width = 1e-2;  // loss of force around a place of the stroke
+  double cavitation = never, refill_time = 0.1;                // force at which the fluid column parts, for v < 0
 
   // In series with the damper; at most one.
   double gap = 0.0, contact_stiffness = 0.0, contact_damping = 0.0;
@@ -79,7 +79,7 @@ struct Physics {
   double mount_force = 0.0, mount_length = 1e-2, mount_fast = 0.02, mount_slow = 0.2;
   double swing_damping = 0.0, swing_length = 1e-2;
   double supply = 0.0, supply_period = 3.0, supply_phase = 0.0;
-  double groove = 0.0, groove_centre = 0.0, groove_width = 1e-2;
+  double slip_lock = 0.0, slip_centre = 0.0, slip_width = 0.3;  // of the hysteresis, where it passes zero
   double valve = 0.0, valve_speed = 0.1;
 
   double force_scale = 1e3, length_scale = 1e-2;  // of the device, for error control
@@ -97,6 +97,6 @@ struct Track {
 };
 
 // Simulates one test; `rate` is the grid's, in Hz.
-[[nodiscard]] Track simulate(const Physics& physics, const Test& test, double rate);
+[[nodiscard]] Track simulate(const Physics& physics, const Run& test, double rate);
 
 }  // namespace hysteron::challenge

@@ -1,0 +1,35 @@
+// Holds diagnoses against the opened answers.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+
+namespace hysteron::challenge {
+
+enum class Outcome {
+  right,      // every detectable cause named; or rightly complete; or a foreign cause refused (unattributed)
+  part,       // of two causes one is named, no name is wrong
+  in_set,     // the cause is in a declared set of candidates
+  abstained,  // unattributed, or a set of candidates without the cause, where a name was possible or nothing is missing
+  missed,     // complete although the cause could be seen
+  wrong,      // a definite name, or a set under the verdict missing-physics, that holds no cause
+  failed      // no diagnosis
+};
+[[nodiscard]] std::string_view name_of(Outcome outcome);
+
+// An effect whose energy beyond the reach of the law's parameters exceeds this many noise variances, per independent
+// sample, could have been seen.
+inline constexpr double detectable_from = 100.0;
+
+// One campaign: an answer as answer_of() writes it and a diagnosis as the contract has it (null: none).
+// {"campaign","level","truth":[ids],"detectable","outcome","detected","verdict","named":[{"id","confidence","right"}],
+//  "wrong_names":[ids],"parameters":[{"effect","name","true","found","relative_error","inside_ci95"}],
+//  "nrmse_heldout_before","nrmse_heldout_after","floor","share_of_peak","left_over_noise"}
+[[nodiscard]] nlohmann::json score_campaign(const nlohmann::json& answer, const nlohmann::json& diagnosis);
+
+// Rates with Clopper-Pearson bounds over all, per level, effect and size; confusion matrix; reliability of the stated
+// confidence; parameter errors; held-out errors. `campaigns`: what score_campaign gave.
+[[nodiscard]] nlohmann::json summarise(const nlohmann::json& campaigns);
+
+}  // namespace hysteron::challenge

@@ -1,0 +1,191 @@
+// Making campaigns: repeatable, sized as drawn, silent about the answer, sealed.
+#include "challenge/concealed.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <set>
+
+#include "challenge/run.hpp"
+#include "challenge/seal.hpp"
+#include "core/error.hpp"
+#include "io/campaign.hpp"
+#include "io/file.hpp"
+#include "io/output.hpp"
+#include "io/temporary_folder.hpp"
+
+namespace hysteron::challenge {
+namespace {
+
+using testing::TemporaryFolder;
+
+std::vector<std::filesystem::path> files_below(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+    if (entry.is_regular_file()) files.push_back(std::filesystem::relative(entry.path(), folder));
+  }
+  std::ranges::sort(files);
+  return files;
+}
+
+TEST(Concealed, SameBytesForAnyNumberOfJobs) {
+  const TemporaryFolder one;
+  const TemporaryFolder three;
+  const auto tasks = plan(6, {}, {}, 11);
+  Steps steps;
+  const std::string hash = make_all(one.path(), tasks, 11, steps);
+  steps.jobs = 3;
+  EXPECT_EQ(make_all(three.path(), tasks, 11, steps), hash);
+  const auto files = files_below(one.path());
+  ASSERT_EQ(files, files_below(three.path()));
+  EXPECT_GT(files.size(), 24u);
+  for (const auto& file : files) EXPECT_EQ(read_file(one.path() / file), read_file(three.path() / file)) << file;
+}
+
+TEST(Concealed, ChangesTheForceByTheDrawnShare) {
+  for (const char* id : {"inertia", "gas-spring", "clearance", "coil-lag", "shear-thinning", "sensor-delay"}) {
+    const Concealed c = make_concealed({1, Level::plain, {id}}, 3);
+    ASSERT_EQ(c.truths.size(), 1u);
+    EXPECT_GT(c.truths[0].share, 0.02 * 0.9) << id;
+    EXPECT_LT(c.truths[0].share, 0.2 * 1.1) << id;
+    EXPECT_GT(c.truths[0].change_nrmse, 0.0) << id;
+    EXPECT_LE(c.truths[0].left_nrmse, c.truths[0].change_nrmse) << id;
+    EXPECT_LE(c.truths[0].left_nrmse_single, c.truths[0].left_nrmse * (1.0 + 1e-9)) << id;
+  }
+}
+
+TEST(Concealed, InertiaAtOneFrequencyIsTakenUpByTheLaw) {
+  const Concealed c = make_concealed({2, Level::unexcited, {"inertia"}}, 3);
+  EXPECT_GT(c.truths.at(0).change_nrmse, 1e-3);
+  EXPECT_LT(c.truths.at(0).detectability, 1.0);
+}
+
+TEST(Concealed, FilesAreACampaignThatDoesNotTellTheAnswer) {
+  const TemporaryFolder folder;
+  const Concealed c = make_concealed({3, Level::plain, {"end-stop"}}, 4);
+  write_recordings(c, folder.path().string(), 4);
+  const Campaign campaign = load_campaign({folder.path().string()});
+  ASSERT_EQ(campaign.recordings.size(), c.recordings.size());
+  EXPECT_EQ(campaign.model, c.told_model);
+  std::size_t samples = 0;
+  for (std::size_t r = 0; r < c.recordings.size(); ++r) {
+    samples += campaign.recordings[r].size();
+    ASSERT_EQ(campaign.recordings[r].size(), c.recordings[r].force.size());
+    for (std::size_t k = 0; k < campaign.recordings[r].size(); k += 211) {
+      EXPECT_NEAR(campaign.recordings[r].force[k], c.recordings[r].force[k], 1e-5 * c.range.force);
+      EXPECT_NEAR(campaign.recordings[r].displacement[k], c.recordings[r].x[k], 1e-5 * c.range.amplitude);
+    }
+  }
+  EXPECT_LE(samples, 31000u);
+  for (const auto& file : files_below(folder.path())) {
+    const std::string text = read_file(folder.path() / file);
+    EXPECT_EQ(text.find("stop"), std::string::npos) << file;
+    EXPECT_EQ(text.find("plain"), std::string::npos) << file;
+  }
+}
+
+TEST(Concealed, FloorOfTheAnswerIsTheNoiseOfTheFile) {
+  const Concealed c = make_concealed({4, Level::none, {}}, 5);
+  const nlohmann::json answer = answer_of(c);
+  double squares = 0.0;
+  double peak = 0.0;
+  for (std::size_t k = 0; k < c.recordings[0].force.size(); ++k) {
+    const double e = c.recordings[0].force[k] - c.recordings[0].clean[k];
+    squares += e * e;
+    peak = std::max(peak, std::abs(c.recordings[0].force[k]));
+  }
+  EXPECT_NEAR(answer.at("recordings")[0].at("floor_nrmse").get<double>(),
+              std::sqrt(squares / static_cast<double>(c.recordings[0].force.size())) / peak, 1e-12);
+  EXPECT_TRUE(answer.at("effects").empty());
+}
+
+TEST(Plan, EveryEffectOfTheCatalogueAndEveryLevelOccurs) {
+  std::set<std::string> seen;
+  std::set<Level> levels;
+  int controls = 0;
+  for (const Task& task : plan(300, {}, {}, 1)) {
+    levels.insert(task.level);
+    controls += task.level == Level::none ? 1 : 0;
+    if (task.level == Level::plain) seen.insert(task.effects.begin(), task.effects.end());
+    EXPECT_EQ(task.effects.size() == 2, task.level == Level::pairs);
+  }
+  for (const char* id : {"offset-force",
+                         "gas-spring",
+                         "seal-friction",
+                         "inertia",
+                         "quadratic-damping",
+                         "shear-thinning",
+                         "asymmetry",
+                         "clearance",
+                         "compliance",
+                         "end-stop",
+                         "entrapped-gas",
+                         "self-heating",
+                         "coil-lag",
+                         "magnetic-saturation",
+                         "magnetic-remanence",
+                         "sensor-delay",
+                         "force-drift",
+                         "stiction",
+                         "cubic-stiffness",
+                         "degradation",
+                         "pinching",
+                         "cavitation",
+                         "series-dashpot",
+                         "velocity-lag",
+                         "pre-yield-hysteresis",
+                         "linear-stiffness",
+                         "viscous-damping",
+                         "coulomb-friction"}) {
+    EXPECT_TRUE(seen.contains(id)) << id;
+  }
+  EXPECT_EQ(levels.size(), static_cast<std::size_t>(level_count));
+  EXPECT_GE(controls, 60);
+}
+
+TEST(Plan, RefusesUnknownNamesAndEmptySelections) {
+  EXPECT_THROW(static_cast<void>(level_of("hard")), InputError);
+  EXPECT_THROW(static_cast<void>(hidden_effect("ghost")), InputError);
+  EXPECT_THROW(static_cast<void>(plan(3, {Level::unexcited}, {"asymmetry"}, 1)), InputError);
+}
+
+TEST(Seal, OpensOnlyWhatWasSealed) {
+  const TemporaryFolder folder;
+  const nlohmann::json answers = {{"campaigns", {1, 2}}};
+  const std::string hash = seal(answers, folder.path());
+  EXPECT_EQ(open_seal(folder.path()), answers);
+  EXPECT_EQ(open_seal(folder.path(), hash), answers);
+  write_file_atomically(folder.path() / "answers.sealed", "{\"campaigns\":[1,3]}\n");
+  EXPECT_THROW(static_cast<void>(open_seal(folder.path())), InputError);
+  // A new seal over new answers does not pass for the published one.
+  seal({{"campaigns", {1, 3}}}, folder.path());
+  EXPECT_NO_THROW(static_cast<void>(open_seal(folder.path())));
+  EXPECT_THROW(static_cast<void>(open_seal(folder.path(), hash)), InputError);
+}
+
+TEST(Run, GoesOnWhereItStoppedAndRefusesOtherSettings) {
+  const TemporaryFolder folder;
+  const auto tasks = plan(2, {Level::none}, {}, 1);
+  const std::string hash = make_all(folder.path(), tasks, 1, {});
+  EXPECT_EQ(make_all(folder.path(), tasks, 1, {}), hash);
+  EXPECT_THROW(static_cast<void>(make_all(folder.path(), tasks, 2, {})), InputError);
+  int calls = 0;
+  const Diagnose first_fails = [&](const std::filesystem::path& data, const std::filesystem::path& out) {
+    ++calls;
+    if (data.filename() == "campaign-0001") throw WorkError("no");
+    write_file_atomically(out / "diagnosis.json",
+                          R"({"verdict":"complete","effects":[],"baseline":{},"augmented":{}})");
+  };
+  EXPECT_EQ(diagnose_all(folder.path(), first_fails, {}), 1);
+  EXPECT_EQ(calls, 2);
+  EXPECT_EQ(diagnose_all(folder.path(), first_fails, {}), 1);
+  EXPECT_EQ(calls, 3);
+  const nlohmann::json result = score_all(folder.path(), hash);
+  EXPECT_EQ(result.at("campaigns")[0].at("outcome"), "failed");
+  EXPECT_EQ(result.at("campaigns")[1].at("outcome"), "right");
+}
+
+}  // namespace
+}  // namespace hysteron::challenge

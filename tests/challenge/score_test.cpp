@@ -1,0 +1,143 @@
+// The scorer on diagnoses written by hand.
+#include "challenge/score.hpp"
+
+#include <gtest/gtest.h>
+
+#include "report/challenge.hpp"
+
+namespace hysteron::challenge {
+namespace {
+
+using nlohmann::json;
+
+json answer(const std::string& level, const std::vector<std::string>& effects, double detectability = 1e4) {
+  json result = {{"campaign", "campaign-0001"},
+                 {"level", level},
+                 {"design", "mixed"},
+                 {"disturbance", ""},
+                 {"acceptable", json::array()},
+                 {"effects", json::array()},
+                 {"noise", {{"share_of_peak", 0.01}}},
+                 {"floor_nrmse_heldout", 0.01}};
+  for (const std::string& id : effects) {
+    result["effects"].push_back({{"id", id},
+                                 {"foreign", id.starts_with("foreign:")},
+                                 {"excited", true},
+                                 {"share_of_peak", 0.1},
+                                 {"left_nrmse", 0.02},
+                                 {"detectability", detectability},
+                                 {"parameters", {{{"name", "m"}, {"value", 2.0}, {"unit", "kg"}}}}});
+  }
+  return result;
+}
+
+json diagnosis(const std::string& verdict, const json& effects = json::array()) {
+  return {{"verdict", verdict},
+          {"effects", effects},
+          {"baseline", {{"nrmse_heldout", 0.03}}},
+          {"augmented", {{"nrmse_heldout", 0.0105}}}};
+}
+
+json named(const std::string& id, const std::vector<std::string>& rivals = {}) {
+  return {{"id", id}, {"confidence", 0.96}, {"indistinguishable_from", rivals}};
+}
+
+std::string outcome(const json& truth, const json& said) {
+  return score_campaign(truth, said).at("outcome").get<std::string>();
+}
+
+TEST(Score, OneCause) {
+  const json truth = answer("plain", {"inertia"});
+  EXPECT_EQ(outcome(truth, diagnosis("missing-physics", {named("inertia")})), "right");
+  EXPECT_EQ(outcome(truth, diagnosis("missing-physics", {named("sensor-delay")})), "wrong");
+  EXPECT_EQ(outcome(truth, diagnosis("missing-physics", {named("inertia"), named("asymmetry")})), "wrong");
+  EXPECT_EQ(outcome(truth, diagnosis("missing-physics", {named("sensor-delay", {"inertia"})})), "in a set");
+  EXPECT_EQ(outcome(truth, diagnosis("missing-physics", {named("sensor-delay", {"asymmetry"})})), "wrong");
+  EXPECT_EQ(outcome(truth, diagnosis("ambiguous", {named("inertia", {"sensor-delay"})})), "in a set");
+  EXPECT_EQ(outcome(truth, diagnosis("ambiguous", {named("asymmetry", {"sensor-delay"})})), "abstained");
+  EXPECT_EQ(outcome(truth, diagnosis("unattributed")), "abstained");
+  EXPECT_EQ(outcome(truth, diagnosis("complete")), "missed");
+  EXPECT_EQ(outcome(truth, nullptr), "failed");
+}
+
+TEST(Score, CauseThatCannotBeSeen) {
+  const json truth = answer("unexcited", {"inertia"}, 0.5);
+  EXPECT_EQ(outcome(truth, diagnosis("complete")), "right");
+  EXPECT_EQ(outcome(truth, diagnosis("missing-physics", {named("inertia")})), "right");
+  EXPECT_EQ(outcome(truth, diagnosis("missing-physics", {named("asymmetry")})), "wrong");
+  EXPECT_EQ(outcome(truth, diagnosis("unattributed")), "abstained");
+}
+
+TEST(Score, TwoCauses) {
+  const json truth = answer("pairs", {"inertia", "end-stop"});
+  EXPECT_EQ(outcome(truth, diagnosis("missing-physics", {named("end-stop"), named("inertia")})), "right");
+  EXPECT_EQ(outcome(truth, diagnosis("missing-physics", {named("end-stop")})), "part");
+  EXPECT_EQ(outcome(truth, diagnosis("missing-physics", {named("end-stop"), named("asymmetry")})), "wrong");
+  EXPECT_EQ(outcome(truth, diagnosis("missing-physics", {named("end-stop"), named("sensor-delay", {"inertia"})})),
+            "in a set");
+}
+
+TEST(Score, ForeignCausesAreToBeRefused) {
+  const json truth = answer("foreign", {"foreign:slip-lock"});
+  EXPECT_EQ(outcome(truth, diagnosis("unattributed")), "right");
+  EXPECT_EQ(outcome(truth, diagnosis("missing-physics", {named("clearance")})), "wrong");
+  EXPECT_EQ(outcome(truth, diagnosis("ambiguous", {named("clearance", {"entrapped-gas"})})), "abstained");
+  EXPECT_EQ(outcome(truth, diagnosis("complete")), "missed");
+}
+
+TEST(Score, NegativeControlsAndWrongBases) {
+  EXPECT_EQ(outcome(answer("none", {}), diagnosis("complete")), "right");
+  EXPECT_EQ(outcome(answer("none", {}), diagnosis("unattributed")), "abstained");
+  EXPECT_EQ(outcome(answer("none", {}), diagnosis("missing-physics", {named("inertia")})), "wrong");
+  json other = answer("wrong-base", {});
+  other["acceptable"] = {"series-dashpot"};
+  EXPECT_EQ(outcome(other, diagnosis("unattributed")), "right");
+  EXPECT_EQ(outcome(other, diagnosis("missing-physics", {named("series-dashpot")})), "right");
+  EXPECT_EQ(outcome(other, diagnosis("missing-physics", {named("inertia")})), "wrong");
+}
+
+TEST(Score, ParametersAreComparedByName) {
+  json effect = named("inertia");
+  effect["parameters"] = {{{"name", "m"}, {"value", 2.2}, {"unit", "kg"}, {"ci95", {1.9, 2.5}}},
+                          {{"name", "tau"}, {"value", 1.0}, {"unit", "s"}, {"ci95", nullptr}}};
+  const json scored = score_campaign(answer("plain", {"inertia"}), diagnosis("missing-physics", {effect}));
+  ASSERT_EQ(scored.at("parameters").size(), 1u);
+  EXPECT_NEAR(scored.at("parameters")[0].at("relative_error").get<double>(), 0.1, 1e-12);
+  EXPECT_EQ(scored.at("parameters")[0].at("inside_ci95"), true);
+}
+
+TEST(Summary, CountsWhatWasScored) {
+  json campaigns = json::array();
+  const auto add = [&](const json& truth, const json& said) { campaigns.push_back(score_campaign(truth, said)); };
+  add(answer("plain", {"inertia"}), diagnosis("missing-physics", {named("inertia")}));
+  add(answer("plain", {"inertia"}), diagnosis("missing-physics", {named("asymmetry")}));
+  add(answer("plain", {"inertia"}), diagnosis("ambiguous", {named("inertia", {"sensor-delay"})}));
+  add(answer("plain", {"inertia"}), nullptr);
+  add(answer("none", {}), diagnosis("complete"));
+  add(answer("none", {}), diagnosis("ambiguous", {named("inertia", {"sensor-delay"})}));
+  const json summary = summarise(campaigns);
+  EXPECT_EQ(summary.at("all").at("campaigns"), 6);
+  EXPECT_EQ(summary.at("all").at("right"), 2);
+  EXPECT_EQ(summary.at("detectable_plain").at("rate_right").at("hits"), 1);
+  EXPECT_EQ(summary.at("detectable_plain").at("rate_right_or_in_set").at("hits"), 2);
+  EXPECT_EQ(summary.at("detectable_plain").at("wrong"), 1);
+  EXPECT_EQ(summary.at("negative_controls").at("definite_name").at("hits"), 0);
+  EXPECT_EQ(summary.at("negative_controls").at("any_name").at("hits"), 1);
+  EXPECT_EQ(summary.at("heldout").at("named_cases"), 1);
+  EXPECT_EQ(summary.at("heldout").at("within_10_percent_of_floor").at("hits"), 1);
+  // Two names with confidence 0.96, one of them right.
+  for (const json& row : summary.at("reliability")) {
+    const bool here = row.at("from") == 0.95;
+    EXPECT_EQ(row.at("right").at("trials"), here ? 2 : 0);
+    if (here) EXPECT_EQ(row.at("right").at("hits"), 1);
+  }
+  const json result = {{"seed", 1}, {"seal", "00"}, {"summary", summary}, {"campaigns", campaigns}};
+  const std::string text = challenge_markdown(result);
+  EXPECT_NE(text.find("asymmetry 1"), std::string::npos);
+  const std::string page = challenge_html(result);
+  EXPECT_NE(page.find("campaign-0001"), std::string::npos);
+  EXPECT_EQ(page.find("http"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace hysteron::challenge
