@@ -13,10 +13,12 @@
 namespace hysteron::challenge {
 namespace {
 
+using Motioned = challenge::Run;  // the name Run belongs to the fixtures
+
 constexpr double rate = 4000.0;
 
-Run sine(double amplitude, double frequency, double duration, double level = 1.0) {
-  Run test;
+Motioned sine(double amplitude, double frequency, double duration, double level = 1.0) {
+  Motioned test;
   test.motion.sines = {{amplitude, 2.0 * std::numbers::pi * frequency, 0.0}};
   test.drive = {{0.0}, {level}, 0.002};
   test.duration = duration;
@@ -80,7 +82,7 @@ TEST(Motion, DerivativesAreThoseOfTheDisplacement) {
 }
 
 TEST(Truth, BoucWenSaturatesAtTheYieldForce) {
-  const Run test = sine(1e-2, 1.0, 2.0);
+  const Motioned test = sine(1e-2, 1.0, 2.0);
   const Track track = simulate(bouc_wen(), test, rate);
   // At the fastest point the knee lies ten yield displacements behind.
   const std::size_t fastest = track.lead + static_cast<std::size_t>(rate);
@@ -91,7 +93,7 @@ TEST(Truth, ModifiedBoucWenTurnsIntoBoucWenForAStiffDashpot) {
   Physics modified = bouc_wen();
   modified.law = Law::modified_bouc_wen;
   modified.c1 = 1e9;
-  const Run test = sine(5e-3, 2.0, 1.0);
+  const Motioned test = sine(5e-3, 2.0, 1.0);
   EXPECT_LT(largest_difference(simulate(modified, test, rate).force, simulate(bouc_wen(), test, rate).force), 0.5);
 }
 
@@ -100,7 +102,7 @@ TEST(Truth, ResultDoesNotHangOnTheGrid) {
   p.gap = 4e-4;
   p.contact_stiffness = 1e7;
   p.contact_damping = 2e3;
-  const Run test = sine(5e-3, 2.0, 1.0);
+  const Motioned test = sine(5e-3, 2.0, 1.0);
   const Track coarse = simulate(p, test, 2000.0);
   const Track fine = simulate(p, test, 8000.0);
   double largest = 0.0;
@@ -131,11 +133,12 @@ TEST(Truth, GapGivesAPlateauOfItsOwnWidthAtZeroForce) {
 }
 
 TEST(Truth, SeriesSpringTakesItsShareOfTheStroke) {
-  // Bingham at rest holds, so below the yield force the rod moves the spring alone: F = k x.
+  // Bingham at rest holds, so below the yield force the rod moves the spring alone, F = k x, but for the creep of its
+  // rounded step: at 100 N 0.125 mm/s, 2 um in a quarter of the period.
   Physics p = bingham();
   p.series_stiffness = 1e6;
-  const Track track = simulate(p, sine(5e-4, 1.0, 0.5), rate);
-  EXPECT_NEAR(*std::ranges::max_element(track.force), 500.0, 15.0);
+  const Track track = simulate(p, sine(1e-4, 20.0, 0.5), rate);
+  EXPECT_NEAR(*std::ranges::max_element(track.force), 100.0, 2.0);
 }
 
 TEST(Truth, SeriesDashpotHalvesTheViscousForceOfItsEqual) {
@@ -153,15 +156,19 @@ TEST(Truth, AirPocketIsSoftAndHardens) {
   const Track track = simulate(p, sine(5e-3, 1.0, 2.0), rate);
   Physics without = bingham();
   const Track plain = simulate(without, sine(5e-3, 1.0, 2.0), rate);
-  // 2 ms after the upper reversal the pocket still passes little; at full speed it passes all.
-  const std::size_t reversal = track.lead + static_cast<std::size_t>(1.25 * rate);
-  EXPECT_LT(std::abs(track.force[reversal + 60]), 0.5 * std::abs(plain.force[reversal + 60]));
+  // After the upper reversal the damper holds while the pocket gives way: the force passes zero after a travel of
+  // L (1 - (1 + F / P)^(-1 / kappa)), 0.83 to 0.91 L for F of 400 to 800 N. At full speed it is that of the damper.
+  std::size_t k = track.lead + static_cast<std::size_t>(1.25 * rate);
+  const double top = track.x[k];
+  while (track.force[k] > 0.0) ++k;
+  EXPECT_GT(top - track.x[k], 0.83e-3);
+  EXPECT_LT(top - track.x[k], 1.0e-3);
   const std::size_t fastest = track.lead + static_cast<std::size_t>(1.5 * rate);
   EXPECT_NEAR(track.force[fastest], plain.force[fastest], 0.02 * std::abs(plain.force[fastest]));
 }
 
 TEST(Truth, ParallelForcesAddUp) {
-  const Run test = sine(1e-2, 2.0, 1.0);
+  const Motioned test = sine(1e-2, 2.0, 1.0);
   const Track plain = simulate(bouc_wen(), test, rate);
   Physics p = bouc_wen();
   p.mass = 3.0;
@@ -183,7 +190,7 @@ TEST(Truth, ParallelForcesAddUp) {
 }
 
 TEST(Truth, StopsOutOfReachAndLagOfAConstantCurrentChangeNothing) {
-  const Run test = sine(1e-2, 2.0, 1.0);
+  const Motioned test = sine(1e-2, 2.0, 1.0);
   Physics p = bouc_wen();
   p.alpha_b = 300.0;
   const Track plain = simulate(p, test, rate);
@@ -201,7 +208,7 @@ TEST(Truth, CoilLagFollowsAStepExponentially) {
   p.alpha_b = 1000.0;
   p.coil_rise = 0.05;
   p.coil_fall = 0.1;
-  Run test = sine(2e-2, 0.5, 0.9);  // the speed keeps its sign until 0.5 s
+  Motioned test = sine(2e-2, 0.5, 0.9);  // the speed keeps its sign until 0.5 s
   test.motion.sines[0].phase = -1.4;
   test.lead = 0.01;
   test.drive = {{0.0, 0.2, 0.5}, {0.0, 1.0, 0.0}, 1e-5};
@@ -218,7 +225,7 @@ TEST(Truth, RemanenceKeepsTheFieldAboveAfterAStepDown) {
   p.alpha_a = 0.0;
   p.alpha_b = 1000.0;
   p.remanence = 0.1;
-  Run test = sine(2e-2, 0.5, 0.9);
+  Motioned test = sine(2e-2, 0.5, 0.9);
   test.motion.sines[0].phase = -1.4;
   test.drive = {{0.0, 0.2, 0.5}, {0.2, 1.0, 0.2}, 1e-4};
   const Track track = simulate(p, test, rate);
@@ -233,8 +240,8 @@ TEST(Truth, CavitationLimitsOneSideAndDwells) {
   const Track track = simulate(p, sine(1e-2, 2.0, 1.0), rate);
   EXPECT_NEAR(*std::ranges::min_element(track.force), -850.0, 1e-6);
   EXPECT_GT(*std::ranges::max_element(track.force), 1000.0);
-  // Just after the lower reversal the void is not yet filled.
-  EXPECT_EQ(track.force[track.lead + static_cast<std::size_t>(0.752 * rate + 0.25 * 0.02 * rate)], 0.0);
+  // 5 ms after the lower reversal the void is not yet filled.
+  EXPECT_EQ(track.force[track.lead + static_cast<std::size_t>(0.38 * rate)], 0.0);
 }
 
 TEST(Truth, HeatAndWearLowerTheForceMonotonically) {
@@ -261,7 +268,7 @@ TEST(Truth, HeatAndWearLowerTheForceMonotonically) {
 
 TEST(Chain, DelayShiftsTheForceAndTheFilterNothingElse) {
   Physics p = bouc_wen();
-  const Run test = sine(1e-2, 1.0, 1.0);
+  const Motioned test = sine(1e-2, 1.0, 1.0);
   const Track track = simulate(p, test, rate);
   const std::vector<double> now = clean_force(p, track, 8);
   p.force_delay = 0.01;

@@ -19,6 +19,7 @@ json answer(const std::string& level, const std::vector<std::string>& effects, d
                  {"effects", json::array()},
                  {"noise", {{"share_of_peak", 0.01}}},
                  {"floor_nrmse_heldout", 0.01}};
+  const json parameter = {{"name", "m"}, {"value", 2.0}, {"unit", "kg"}};
   for (const std::string& id : effects) {
     result["effects"].push_back({{"id", id},
                                  {"foreign", id.starts_with("foreign:")},
@@ -26,7 +27,7 @@ json answer(const std::string& level, const std::vector<std::string>& effects, d
                                  {"share_of_peak", 0.1},
                                  {"left_nrmse", 0.02},
                                  {"detectability", detectability},
-                                 {"parameters", {{{"name", "m"}, {"value", 2.0}, {"unit", "kg"}}}}});
+                                 {"parameters", json::array({parameter})}});
   }
   return result;
 }
@@ -48,13 +49,14 @@ std::string outcome(const json& truth, const json& said) {
 
 TEST(Score, OneCause) {
   const json truth = answer("plain", {"inertia"});
-  EXPECT_EQ(outcome(truth, diagnosis("missing-physics", {named("inertia")})), "right");
-  EXPECT_EQ(outcome(truth, diagnosis("missing-physics", {named("sensor-delay")})), "wrong");
-  EXPECT_EQ(outcome(truth, diagnosis("missing-physics", {named("inertia"), named("asymmetry")})), "wrong");
-  EXPECT_EQ(outcome(truth, diagnosis("missing-physics", {named("sensor-delay", {"inertia"})})), "in a set");
-  EXPECT_EQ(outcome(truth, diagnosis("missing-physics", {named("sensor-delay", {"asymmetry"})})), "wrong");
-  EXPECT_EQ(outcome(truth, diagnosis("ambiguous", {named("inertia", {"sensor-delay"})})), "in a set");
-  EXPECT_EQ(outcome(truth, diagnosis("ambiguous", {named("asymmetry", {"sensor-delay"})})), "abstained");
+  EXPECT_EQ(outcome(truth, diagnosis("missing-physics", json::array({named("inertia")}))), "right");
+  EXPECT_EQ(outcome(truth, diagnosis("missing-physics", json::array({named("sensor-delay")}))), "wrong");
+  EXPECT_EQ(outcome(truth, diagnosis("missing-physics", json::array({named("inertia"), named("asymmetry")}))), "wrong");
+  EXPECT_EQ(outcome(truth, diagnosis("missing-physics", json::array({named("sensor-delay", {"inertia"})}))),
+            "in a set");
+  EXPECT_EQ(outcome(truth, diagnosis("missing-physics", json::array({named("sensor-delay", {"asymmetry"})}))), "wrong");
+  EXPECT_EQ(outcome(truth, diagnosis("ambiguous", json::array({named("inertia", {"sensor-delay"})}))), "in a set");
+  EXPECT_EQ(outcome(truth, diagnosis("ambiguous", json::array({named("asymmetry", {"sensor-delay"})}))), "abstained");
   EXPECT_EQ(outcome(truth, diagnosis("unattributed")), "abstained");
   EXPECT_EQ(outcome(truth, diagnosis("complete")), "missed");
   EXPECT_EQ(outcome(truth, nullptr), "failed");
@@ -63,44 +65,46 @@ TEST(Score, OneCause) {
 TEST(Score, CauseThatCannotBeSeen) {
   const json truth = answer("unexcited", {"inertia"}, 0.5);
   EXPECT_EQ(outcome(truth, diagnosis("complete")), "right");
-  EXPECT_EQ(outcome(truth, diagnosis("missing-physics", {named("inertia")})), "right");
-  EXPECT_EQ(outcome(truth, diagnosis("missing-physics", {named("asymmetry")})), "wrong");
+  EXPECT_EQ(outcome(truth, diagnosis("missing-physics", json::array({named("inertia")}))), "right");
+  EXPECT_EQ(outcome(truth, diagnosis("missing-physics", json::array({named("asymmetry")}))), "wrong");
   EXPECT_EQ(outcome(truth, diagnosis("unattributed")), "abstained");
 }
 
 TEST(Score, TwoCauses) {
   const json truth = answer("pairs", {"inertia", "end-stop"});
-  EXPECT_EQ(outcome(truth, diagnosis("missing-physics", {named("end-stop"), named("inertia")})), "right");
-  EXPECT_EQ(outcome(truth, diagnosis("missing-physics", {named("end-stop")})), "part");
-  EXPECT_EQ(outcome(truth, diagnosis("missing-physics", {named("end-stop"), named("asymmetry")})), "wrong");
-  EXPECT_EQ(outcome(truth, diagnosis("missing-physics", {named("end-stop"), named("sensor-delay", {"inertia"})})),
+  EXPECT_EQ(outcome(truth, diagnosis("missing-physics", json::array({named("end-stop"), named("inertia")}))), "right");
+  EXPECT_EQ(outcome(truth, diagnosis("missing-physics", json::array({named("end-stop")}))), "part");
+  EXPECT_EQ(outcome(truth, diagnosis("missing-physics", json::array({named("end-stop"), named("asymmetry")}))),
+            "wrong");
+  EXPECT_EQ(outcome(truth,
+                    diagnosis("missing-physics", json::array({named("end-stop"), named("sensor-delay", {"inertia"})}))),
             "in a set");
 }
 
 TEST(Score, ForeignCausesAreToBeRefused) {
   const json truth = answer("foreign", {"foreign:slip-lock"});
   EXPECT_EQ(outcome(truth, diagnosis("unattributed")), "right");
-  EXPECT_EQ(outcome(truth, diagnosis("missing-physics", {named("clearance")})), "wrong");
-  EXPECT_EQ(outcome(truth, diagnosis("ambiguous", {named("clearance", {"entrapped-gas"})})), "abstained");
+  EXPECT_EQ(outcome(truth, diagnosis("missing-physics", json::array({named("clearance")}))), "wrong");
+  EXPECT_EQ(outcome(truth, diagnosis("ambiguous", json::array({named("clearance", {"entrapped-gas"})}))), "abstained");
   EXPECT_EQ(outcome(truth, diagnosis("complete")), "missed");
 }
 
 TEST(Score, NegativeControlsAndWrongBases) {
   EXPECT_EQ(outcome(answer("none", {}), diagnosis("complete")), "right");
   EXPECT_EQ(outcome(answer("none", {}), diagnosis("unattributed")), "abstained");
-  EXPECT_EQ(outcome(answer("none", {}), diagnosis("missing-physics", {named("inertia")})), "wrong");
+  EXPECT_EQ(outcome(answer("none", {}), diagnosis("missing-physics", json::array({named("inertia")}))), "wrong");
   json other = answer("wrong-base", {});
-  other["acceptable"] = {"series-dashpot"};
+  other["acceptable"] = json::array({"series-dashpot"});
   EXPECT_EQ(outcome(other, diagnosis("unattributed")), "right");
-  EXPECT_EQ(outcome(other, diagnosis("missing-physics", {named("series-dashpot")})), "right");
-  EXPECT_EQ(outcome(other, diagnosis("missing-physics", {named("inertia")})), "wrong");
+  EXPECT_EQ(outcome(other, diagnosis("missing-physics", json::array({named("series-dashpot")}))), "right");
+  EXPECT_EQ(outcome(other, diagnosis("missing-physics", json::array({named("inertia")}))), "wrong");
 }
 
 TEST(Score, ParametersAreComparedByName) {
   json effect = named("inertia");
-  effect["parameters"] = {{{"name", "m"}, {"value", 2.2}, {"unit", "kg"}, {"ci95", {1.9, 2.5}}},
-                          {{"name", "tau"}, {"value", 1.0}, {"unit", "s"}, {"ci95", nullptr}}};
-  const json scored = score_campaign(answer("plain", {"inertia"}), diagnosis("missing-physics", {effect}));
+  effect["parameters"] = json::array({{{"name", "m"}, {"value", 2.2}, {"unit", "kg"}, {"ci95", {1.9, 2.5}}},
+                                      {{"name", "tau"}, {"value", 1.0}, {"unit", "s"}, {"ci95", nullptr}}});
+  const json scored = score_campaign(answer("plain", {"inertia"}), diagnosis("missing-physics", json::array({effect})));
   ASSERT_EQ(scored.at("parameters").size(), 1u);
   EXPECT_NEAR(scored.at("parameters")[0].at("relative_error").get<double>(), 0.1, 1e-12);
   EXPECT_EQ(scored.at("parameters")[0].at("inside_ci95"), true);
@@ -109,12 +113,12 @@ TEST(Score, ParametersAreComparedByName) {
 TEST(Summary, CountsWhatWasScored) {
   json campaigns = json::array();
   const auto add = [&](const json& truth, const json& said) { campaigns.push_back(score_campaign(truth, said)); };
-  add(answer("plain", {"inertia"}), diagnosis("missing-physics", {named("inertia")}));
-  add(answer("plain", {"inertia"}), diagnosis("missing-physics", {named("asymmetry")}));
-  add(answer("plain", {"inertia"}), diagnosis("ambiguous", {named("inertia", {"sensor-delay"})}));
+  add(answer("plain", {"inertia"}), diagnosis("missing-physics", json::array({named("inertia")})));
+  add(answer("plain", {"inertia"}), diagnosis("missing-physics", json::array({named("asymmetry")})));
+  add(answer("plain", {"inertia"}), diagnosis("ambiguous", json::array({named("inertia", {"sensor-delay"})})));
   add(answer("plain", {"inertia"}), nullptr);
   add(answer("none", {}), diagnosis("complete"));
-  add(answer("none", {}), diagnosis("ambiguous", {named("inertia", {"sensor-delay"})}));
+  add(answer("none", {}), diagnosis("ambiguous", json::array({named("inertia", {"sensor-delay"})})));
   const json summary = summarise(campaigns);
   EXPECT_EQ(summary.at("all").at("campaigns"), 6);
   EXPECT_EQ(summary.at("all").at("right"), 2);
@@ -129,7 +133,9 @@ TEST(Summary, CountsWhatWasScored) {
   for (const json& row : summary.at("reliability")) {
     const bool here = row.at("from") == 0.95;
     EXPECT_EQ(row.at("right").at("trials"), here ? 2 : 0);
-    if (here) EXPECT_EQ(row.at("right").at("hits"), 1);
+    if (here) {
+      EXPECT_EQ(row.at("right").at("hits"), 1);
+    }
   }
   const json result = {{"seed", 1}, {"seal", "00"}, {"summary", summary}, {"campaigns", campaigns}};
   const std::string text = challenge_markdown(result);
