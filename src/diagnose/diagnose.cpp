@@ -128,7 +128,9 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const DiagnoseOpti
     }
   }
   const DataScale scale = scale_of(campaign.recordings);
-  Workbench bench(scale, split_of(campaign), layout, options.objective, options.seed);
+  ObjectiveOptions objective = options.objective;
+  objective.skip_run_in = true;
+  Workbench bench(scale, split_of(campaign), layout, objective, options.seed);
   notes.push_back(bench.split().how);
 
   SearchOptions searching;
@@ -150,7 +152,7 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const DiagnoseOpti
   Diagnosis& diagnosis = *result;
   Split fewer = diagnosis.bench.split();
   fewer.fit = thinned(fewer.fit, quick_samples);
-  ObjectiveOptions coarse = options.objective;
+  ObjectiveOptions coarse = objective;
   coarse.tolerance = std::max(coarse.tolerance, 1e-2);
   const Workbench quick(scale, std::move(fewer), layout, coarse, options.seed);
   diagnosis.search = search(quick, diagnosis.bench, base, searching, progress);

@@ -162,6 +162,7 @@ Fit Workbench::from_anywhere(const Hypothesis& what, std::size_t budget) const {
   problem.stream = Stream(seed_).child("base").child(what.model);
   problem.linear = layout.linear();
   problem.start = layout.initial();
+  problem.screening = true;
   const RunResult run = run_solver(*find_solver("multistart-lm"), problem,
                                    [&](const Request& request) { return objective.evaluate(request); });
   return finished(what, layout, run.best, run.cost);
@@ -241,7 +242,7 @@ std::vector<double> Workbench::residual(const Fit& fit, const Recording& recordi
   const Target target = make_target(recording, options_);
   std::vector<double> r = predict(fit.layout->model(), fit.layout->held(), fit.terms, target);
   for (std::size_t n = 0; n < r.size(); ++n) {
-    r[n] -= recording.force[n];
+    r[n] = n < target.run_in ? 0.0 : r[n] - recording.force[n];
   }
   return r;
 }

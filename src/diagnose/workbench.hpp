@@ -54,7 +54,7 @@ class Workbench {
   [[nodiscard]] std::vector<Fit> from_fit(const std::vector<Hypothesis>& what, const Fit& warm, int rounds) const;
   [[nodiscard]] std::vector<Fit> polished(const std::vector<Fit>& fits, int rounds) const;
 
-  // Residuals (simulated - measured, N) of a fit on a recording.
+  // Residuals (simulated - measured, N) of a fit on a recording; zero where they do not count (run-in).
   [[nodiscard]] std::vector<double> residual(const Fit& fit, const Recording& recording) const;
   [[nodiscard]] Layout layout(const Hypothesis& what) const;
 

@@ -223,6 +223,26 @@ std::size_t screening_stride(const Recording& recording, double frequency) {
       1, std::min(recording.size() / screening_samples, static_cast<std::size_t>(std::min(of_period, 1e6))));
 }
 
+// Samples until a motion that is under way at the first one has travelled a quarter of its range, by when hysteresis
+// has forgotten where it started; 0 for a start from rest, and never more than a third of the recording.
+std::size_t run_in_samples(const Recording& recording) {
+  double peak = 0.0;
+  for (const double velocity : recording.velocity) {
+    peak = std::max(peak, std::fabs(velocity));
+  }
+  if (std::fabs(recording.velocity[0]) < 0.02 * peak) {
+    return 0;
+  }
+  const auto [low, high] = std::ranges::minmax(recording.displacement);
+  double travelled = 0.0;
+  std::size_t n = 0;
+  while (n + 1 < recording.size() / 3 && travelled < 0.25 * (high - low)) {
+    ++n;
+    travelled += std::fabs(recording.displacement[n] - recording.displacement[n - 1]);
+  }
+  return n;
+}
+
 }  // namespace
 
 Normalisation normalisation_of(const std::string& word) {
@@ -298,6 +318,9 @@ Target make_target(const Recording& recording, const ObjectiveOptions& options) 
     target.drive_varies = high - low > 0.02 * std::max(std::fabs(low), std::fabs(high));
   }
   target.preroll = preroll_samples(recording, target.frequency);
+  if (options.skip_run_in && target.preroll == 0) {
+    target.run_in = run_in_samples(recording);
+  }
   return target;
 }
 
@@ -309,14 +332,14 @@ Objective::Objective(const Layout& layout, const std::vector<Recording>& recordi
     Target target = make_target(recording, options);
     target.normaliser = normaliser(recording, options.normalisation);
     pooled_normaliser = std::max(pooled_normaliser, target.normaliser);
-    total += static_cast<double>(recording.size());
+    total += static_cast<double>(recording.size() - target.run_in);
     targets_.push_back(std::move(target));
   }
   for (Target& target : targets_) {
     if (options.weighting == Weighting::pooled) {
       target.weight = 1.0 / (total * pooled_normaliser * pooled_normaliser);
     } else {
-      target.weight = 1.0 / (static_cast<double>(target.force.size()) * static_cast<double>(targets_.size()) *
+      target.weight = 1.0 / (static_cast<double>(target.force.size() - target.run_in) * static_cast<double>(targets_.size()) *
                              target.normaliser * target.normaliser);
     }
   }
@@ -327,7 +350,9 @@ Objective::Objective(const Layout& layout, const std::vector<Recording>& recordi
     target.motion = screening_motion(
         make_motion(recording.time, recording.displacement, recording.velocity, recording.drive, options.tolerance));
     target.force = recording.force;
-    target.weight *= static_cast<double>(full.force.size()) / static_cast<double>(target.force.size());
+    target.run_in = full.run_in * target.force.size() / full.force.size();
+    target.weight *= static_cast<double>(full.force.size() - full.run_in) /
+                     static_cast<double>(target.force.size() - target.run_in);
     target.preroll = full.preroll > 0 ? preroll_samples(recording, full.frequency) : 0;
     screening_targets_.push_back(std::move(target));
   }
@@ -369,7 +394,9 @@ void Objective::run_pack<Lanes>(const std::vector<double>& points, Rows rows, co
       [&](std::size_t begin, std::size_t samples, const Lanes* out) {
         for (std::size_t k = 0; k < samples; ++k) {
           const Lanes residual = out[k] - Lanes(target.force[begin + k]);
-          squares = fma(residual, residual, squares);
+          if (begin + k >= target.run_in) {
+            squares = fma(residual, residual, squares);
+          }
           alive += select(abs(residual) < limit, Lanes(1.0), Lanes(0.0));
         }
       },
@@ -435,7 +462,9 @@ void Objective::run_pack<LaneDual>(const std::vector<double>& points, Rows rows,
               // The lanes of the first sweep are the candidates in order.
               const Lanes r = out[k].v - Lanes(target.force[begin + k]);
               residual[begin + k] = r;
-              squares = fma(r, r, squares);
+              if (begin + k >= target.run_in) {
+                squares = fma(r, r, squares);
+              }
               alive += select(abs(r) < limit, Lanes(1.0), Lanes(0.0));
             }
           }
@@ -448,7 +477,7 @@ void Objective::run_pack<LaneDual>(const std::vector<double>& points, Rows rows,
   }
   std::vector<Lanes> gradient(d);
   std::vector<Lanes> matrix(d * (d + 1) / 2);
-  for (std::size_t n = 0; n < samples; ++n) {
+  for (std::size_t n = target.run_in; n < samples; ++n) {
     const Lanes* row = jacobian.data() + n * d;
     std::size_t at = 0;
     for (std::size_t a = 0; a < d; ++a) {

@@ -36,7 +36,7 @@ class Assembly {
   using Value = value_t<T>;
   static constexpr bool differentiates = !std::is_same_v<T, Value>;
 
-  explicit Assembly(const CompositeModel& model) {
+  Assembly(const CompositeModel& model, const Motion& motion) : motion_(motion) {
     const auto add = [&](const Part& part) {
       links_.push_back({&part.on<T>(), &part.on<Value>(), parameters_, states_, part.states});
       parameters_ += part.parameters.size();
@@ -214,7 +214,7 @@ class Assembly {
     Value tolerance;
     const auto residual = [&](const Value& u) {
       const Value force = evaluate<Value>(top, p, s, moved(in, yield.slope * u), relief, nullptr);
-      tolerance = Value(1e-11) * (abs(u) + yield.gain * (abs(force) + abs(held)));
+      tolerance = Value(motion_.balance_tolerance) * (abs(u) + yield.gain * (abs(force) + abs(held)));
       return u - yield.gain * (force - held);
     };
     Value before(0.0);
@@ -252,7 +252,7 @@ class Assembly {
   }
 
   // Bounds of the stiffness of all rates at a state with known rates; sets the relief that keeps every element within
-  // rate_limit. A link is taken to move at least as fast as the recording does.
+  // motion.element_rate_limit. A link is taken to move at least as fast as the recording does.
   void survey(const Value* s, Input<Value> in, const Value* rates, double speed, double acceleration,
               Start& result) const {
     result.elements = Value(0.0);
@@ -271,7 +271,7 @@ class Assembly {
         const Value resistance = relief.resistance[i];
         const Value gain = yield.gain / fma(yield.gain * yield.slope, resistance, Value(1.0));
         const Value lambda = gain * (yield.hold + yield.slope * stiffness);
-        relief.factor[i] = select(lambda > Value(rate_limit), Value(rate_limit) / lambda, Value(1.0));
+        relief.factor[i] = select(lambda > Value(motion_.element_rate_limit), Value(motion_.element_rate_limit) / lambda, Value(1.0));
         // The step must not pass over the knee of the deflection, be it on the way now or about to be pushed there by
         // the motion: u' = push.
         const auto bent = yield.width > Value(0.0);
@@ -279,7 +279,8 @@ class Assembly {
         const Value push = gain * (resistance * Value(acceleration) + stiffness * (abs(in.v) + Value(speed)));
         const Value passing = select(bent, abs(u) / span + sqrt(push / span), Value(0.0));
         const Value bending = gain * abs(yield.bend * u) * resistance;
-        result.elements = result.elements + min(lambda, Value(rate_limit)) + passing + bending;
+        result.elements = result.elements + min(min(lambda, Value(motion_.element_rate_limit)) + passing + bending,
+                                                Value(motion_.followed_rate_limit));
         continue;
       }
       if (link.states > 0 && link.values->stiffness != nullptr) {
@@ -321,6 +322,7 @@ class Assembly {
     return stiffness;
   }
 
+  const Motion& motion_;
   std::vector<Link> links_;  // law first
   std::size_t parameters_ = 0;
   int states_ = 0;
@@ -415,7 +417,7 @@ bool needs_assembly(const CompositeModel& model) {
 template <class T>
 void march_assembly(const CompositeModel& model, const Motion& motion, const T* p, std::size_t stride,
                     std::size_t begin, std::size_t end, T* state, T* out) {
-  Assembly<T> system(model);
+  Assembly<T> system(model, motion);
   States<T> current;
   std::copy_n(state, system.states(), current.begin());
   Room<T> room;

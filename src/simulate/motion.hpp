@@ -42,6 +42,11 @@ struct Motion {
   // step lands on, such as the slip or the hysteresis force passing zero, and a coarse recording has few samples.
   double finer_when_long = 3.0;
   double most_substeps = 65536.0;  // of an interval, between two samples
+  // Series elements (simulate/assembly.hpp): relative error of the force balance, fastest relaxation in 1/s, and the
+  // largest rate in 1/s that their steps follow.
+  double balance_tolerance = 1e-11;
+  double element_rate_limit = 5e4;
+  double followed_rate_limit = 1e300;
 };
 
 // From a tolerance of 1e-2 on, kinks between samples are not resolved: for comparing hypotheses, not for forces.
