@@ -74,5 +74,9 @@ void add_simulate(CLI::App& program);
 void add_score(CLI::App& program);
 void add_catalogue(CLI::App& program);
 void add_generate(CLI::App& program);
+void add_bench(CLI::App& program);
+void add_report(CLI::App& program);
+void add_merge(CLI::App& program);
+void add_reproduce(CLI::App& program);
 
 }  // namespace hysteron::app

@@ -23,6 +23,10 @@ int main(int count, char** arguments) {
   app::add_score(program);
   app::add_catalogue(program);
   app::add_generate(program);
+  app::add_bench(program);
+  app::add_report(program);
+  app::add_merge(program);
+  app::add_reproduce(program);
   try {
     program.parse(count, arguments);
   } catch (const CLI::Success& success) {
