@@ -86,10 +86,10 @@ function plot(host, options) {
     if (s.band) {
       const at = series.length;
       for (const edge of s.band) {
-        series.push({ label: `${s.name} quartile`, stroke: "transparent", width: 0, points: { show: false } });
+        series.push({ label: `${s.name} quartile`, stroke: "transparent", width: 1, points: { show: false } });
         data.push(edge);
       }
-      bands.push({ series: [at + 1, at], fill: faded(stroke, 0.14) });
+      bands.push({ series: [at, at + 1], fill: faded(stroke, 0.14) });
     }
   }
   let u = null;
@@ -99,7 +99,7 @@ function plot(host, options) {
     const width = Math.max(280, host.clientWidth);
     u = new uPlot({
       width, height: Math.round(Math.min(options.height || 340, Math.max(240, width * 0.6))),
-      scales: { x: { time: false, distr: options.x.log ? 3 : 1, range: options.x.range }, y: { distr: options.y.log ? 3 : 1, range: options.y.range } },
+      scales: { x: { time: false, distr: options.x.log ? 3 : 1, range: options.x.range || [options.grid[0], options.grid[options.grid.length - 1]] }, y: { distr: options.y.log ? 3 : 1, range: options.y.range } },
       axes: [axis(options.x.label, 2, options.x.log), axis(options.y.label, 3, options.y.log)],
       series, bands, cursor: { points: { size: 6 } }, legend: { live: true },
       hooks: {

@@ -33,6 +33,13 @@ std::string hash_of(const Recording& recording) {
 }
 
 Campaign load(const DataSpec& spec) {
+  if (!spec.made.empty()) {
+    Campaign campaign;
+    campaign.recordings = spec.made;
+    campaign.roles.assign(spec.made.size(), Role::fit);
+    for (Recording& recording : campaign.recordings) recording.sha256 = hash_of(recording);
+    return campaign;
+  }
   if (spec.dataset.empty()) return load_campaign(spec.paths);
   const auto catalogue = dataset_catalogue();
   const auto found = std::ranges::find_if(catalogue, [&](const DatasetEntry* entry) { return entry->id == spec.dataset; });

@@ -24,7 +24,8 @@ struct ModelSpec {
 struct DataSpec {
   std::string label;
   std::string dataset;             // id of a shipped dataset, or
-  std::vector<std::string> paths;  // recordings and folders
+  std::vector<std::string> paths;  // recordings and folders, or
+  std::vector<Recording> made;     // recordings made by the program
   std::uint64_t seed = 1;          // of a shipped dataset's noise
   std::vector<std::string> only;   // recordings whose name contains one of these; empty: all
   bool each = false;               // every recording is a problem of its own
