@@ -45,7 +45,8 @@ void add_bench(CLI::App& program) {
     bool dry = false;
   };
   auto options = std::make_shared<Options>();
-  CLI::App* command = program.add_subcommand("bench", "runs a study: models x data x solvers x seeds; resumes an interrupted one");
+  CLI::App* command =
+      program.add_subcommand("bench", "runs a study: models x data x solvers x seeds; resumes an interrupted one");
   command->add_option("STUDY", options->study, "study file (TOML), see docs/studies.md")->required();
   command->add_option("--out", options->out, "folder of the records; an earlier call's is continued")->required();
   command->add_option("--threads", options->threads, "runs beside each other; 0 takes OMP_NUM_THREADS or all cores")
@@ -76,15 +77,17 @@ void add_bench(CLI::App& program) {
         ++own;
         evaluations += static_cast<double>(one.budget);
       }
-      fmt::print("{} runs of {}, at most {:.0f} evaluations; {} problems, {} solvers, {} budgets, {} seeds\n", own, plan.runs.size(),
-                 evaluations, plan.problems.size(), plan.study.solvers.size(), plan.study.budgets.size(), plan.study.seeds.size());
+      fmt::print("{} runs of {}, at most {:.0f} evaluations; {} problems, {} solvers, {} budgets, {} seeds\n", own,
+                 plan.runs.size(), evaluations, plan.problems.size(), plan.study.solvers.size(),
+                 plan.study.budgets.size(), plan.study.seeds.size());
       return;
     }
     Store store = Store::open(options->out, Store::Mode::write);
     const RunProgress progress = run_with_progress(plan, store, run, options->quiet);
     const std::size_t there = progress.found + progress.done;
     if (there < progress.planned) {
-      fmt::print(stderr, "interrupted: {} of {} runs are kept in {}; the same command continues\n", there, progress.planned, options->out);
+      fmt::print(stderr, "interrupted: {} of {} runs are kept in {}; the same command continues\n", there,
+                 progress.planned, options->out);
       return;
     }
     fmt::print("{} runs done, {} found in {}\n\n", progress.done, progress.found, options->out);

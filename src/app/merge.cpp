@@ -42,8 +42,9 @@ void add_merge(CLI::App& program) {
           const std::string key = record.key;
           records.emplace(key, std::pair{std::move(record), folder});
         } else if (record_text(found->second.first) != record_text(record)) {
-          throw InputError(folder, 0, "run " + record.key.substr(0, 12) + " has another result than in " + found->second.second +
-                                          ": the same configuration must give the same bytes; were they run by different builds?");
+          throw InputError(folder, 0,
+                           "run " + record.key.substr(0, 12) + " has another result than in " + found->second.second +
+                               ": the same configuration must give the same bytes; were they run by different builds?");
         }
       }
       for (RunTiming& timing : store.timings()) timings.emplace(timing.key, timing);
@@ -56,7 +57,8 @@ void add_merge(CLI::App& program) {
     for (const auto& [hash, config] : problems) whole.add_problem(hash, config);
     for (const auto& [key, record] : records) whole.add(record.first, timings[key]);
     const StudyView view = view_of(whole, options->out);
-    fmt::print("{} of {} runs in {}\n", view.analysis.at("done").get<std::size_t>(), view.analysis.at("planned").get<std::size_t>(), options->out);
+    fmt::print("{} of {} runs in {}\n", view.analysis.at("done").get<std::size_t>(),
+               view.analysis.at("planned").get<std::size_t>(), options->out);
   });
 }
 

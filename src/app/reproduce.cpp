@@ -1,4 +1,6 @@
 // hysteron reproduce: published tables made again, beside the published numbers.
+#include "study/reproduce.hpp"
+
 #include <fmt/format.h>
 
 #include <memory>
@@ -10,7 +12,6 @@
 #include "io/output.hpp"
 #include "report/markdown.hpp"
 #include "report/terminal.hpp"
-#include "study/reproduce.hpp"
 
 namespace hysteron::app {
 namespace {
@@ -37,20 +38,30 @@ std::string list(const std::string& title, const std::vector<std::string>& lines
 json reproduction_json(const PublishedTable& entry, const Reproduction& result, const ReproduceOptions& used) {
   json tables = json::array();
   for (const StudyTable& one : result.tables) {
-    tables.push_back({{"id", one.id}, {"title", one.title}, {"note", one.note}, {"header", one.header}, {"rows", one.rows}});
+    tables.push_back(
+        {{"id", one.id}, {"title", one.title}, {"note", one.note}, {"header", one.header}, {"rows", one.rows}});
   }
-  return {{"schema", "hysteron.reproduction/1"}, {"table", entry.id}, {"title", entry.title}, {"source", entry.source},
-          {"seeds", used.seeds}, {"budget", used.budget}, {"tables", tables}, {"findings", result.findings},
-          {"remade", result.remade}, {"not_remade", result.not_remade},
+  return {{"schema", "hysteron.reproduction/1"},
+          {"table", entry.id},
+          {"title", entry.title},
+          {"source", entry.source},
+          {"seeds", used.seeds},
+          {"budget", used.budget},
+          {"tables", tables},
+          {"findings", result.findings},
+          {"remade", result.remade},
+          {"not_remade", result.not_remade},
           {"provenance", {{"program", "hysteron " HYSTERON_VERSION}, {"command", command_line()}}}};
 }
 
-std::string reproduction_markdown(const PublishedTable& entry, const Reproduction& result, const ReproduceOptions& used) {
-  std::string text = fmt::format("# {}: {}\n\nSource: {}.\nMade by `{}` ({} seeds, {} evaluations a run).\n", entry.id, entry.title,
-                                 entry.source, command_line(), used.seeds, used.budget);
+std::string reproduction_markdown(const PublishedTable& entry, const Reproduction& result,
+                                  const ReproduceOptions& used) {
+  std::string text = fmt::format("# {}: {}\n\nSource: {}.\nMade by `{}` ({} seeds, {} evaluations a run).\n", entry.id,
+                                 entry.title, entry.source, command_line(), used.seeds, used.budget);
   text += list("## What the numbers say", result.findings);
   for (const StudyTable& one : result.tables) {
-    text += "\n## " + one.title + "\n\n" + (one.note.empty() ? "" : one.note + "\n\n") + markdown_table(one.header, one.rows);
+    text += "\n## " + one.title + "\n\n" + (one.note.empty() ? "" : one.note + "\n\n") +
+            markdown_table(one.header, one.rows);
   }
   text += list("## As published", result.remade);
   text += list("## Not as published", result.not_remade);
@@ -62,12 +73,15 @@ void run(const Options& options) {
   if (entry == nullptr) {
     std::vector<std::string> known;
     for (const PublishedTable& table : published_tables()) known.emplace_back(table.id);
-    throw InputError("unknown table '" + options.table + "'" + suggestion(options.table, known) + ", see `hysteron list tables`");
+    throw InputError("unknown table '" + options.table + "'" + suggestion(options.table, known) +
+                     ", see `hysteron list tables`");
   }
   if (!options.data.empty() && !entry->takes_data) {
-    throw InputError("--data: " + options.table + " is tied to its own recordings, expected it with table-v, table-vi or table-vii");
+    throw InputError("--data: " + options.table +
+                     " is tied to its own recordings, expected it with table-v, table-vi or table-vii");
   }
-  ReproduceOptions used{options.seeds > 0 ? options.seeds : entry->seeds, options.budget > 0 ? options.budget : entry->budget, options.data};
+  ReproduceOptions used{options.seeds > 0 ? options.seeds : entry->seeds,
+                        options.budget > 0 ? options.budget : entry->budget, options.data};
   const Plan plan = make_plan(entry->study(used), HYSTERON_VERSION);
   const std::filesystem::path out(options.out);
   Store store = options.out.empty() ? Store::memory() : Store::open(out, Store::Mode::write);
@@ -100,18 +114,23 @@ void run(const Options& options) {
 
 void add_reproduce(CLI::App& program) {
   auto options = std::make_shared<Options>();
-  CLI::App* command = program.add_subcommand("reproduce", "makes a published table again, beside the published numbers");
+  CLI::App* command =
+      program.add_subcommand("reproduce", "makes a published table again, beside the published numbers");
   command->add_option("TABLE", options->table, "an id of `hysteron list tables`")->required();
-  command->add_option("--seeds", options->seeds, "repeats of every run, default the table's")->check(CLI::Range(1, 100000));
-  command->add_option("--budget", options->budget, "evaluations of a run, default the table's")->check(CLI::Range(10, 1000000000));
-  command->add_option("--data", options->data, "recordings instead of the stand-in: table-v, table-vi, table-vii")->allow_extra_args();
+  command->add_option("--seeds", options->seeds, "repeats of every run, default the table's")
+      ->check(CLI::Range(1, 100000));
+  command->add_option("--budget", options->budget, "evaluations of a run, default the table's")
+      ->check(CLI::Range(10, 1000000000));
+  command->add_option("--data", options->data, "recordings instead of the stand-in: table-v, table-vi, table-vii")
+      ->allow_extra_args();
   command->add_option("--out", options->out, "folder for records, report and table; an interrupted call is continued");
   command->add_option("--threads", options->threads, "runs beside each other; 0 takes OMP_NUM_THREADS or all cores")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
   command->add_flag("--quiet", options->quiet, "no progress on standard error");
   command->add_flag("--json", options->json, "JSON on standard output");
-  command->footer("Examples:\n  hysteron reproduce table-v\n  hysteron reproduce table-v --data recordings --seeds 31 --out real");
+  command->footer(
+      "Examples:\n  hysteron reproduce table-v\n  hysteron reproduce table-v --data recordings --seeds 31 --out real");
   command->callback([options] { run(*options); });
 }
 

@@ -39,7 +39,8 @@ RunProgress run_with_progress(const Plan& plan, Store& store, const RunOptions& 
 
 StudyView view_of(const Store& store, const std::filesystem::path& folder) {
   const auto text = store.plan();
-  if (!text) throw InputError(folder.string(), 0, "the store holds no plan yet, expected a study begun with `hysteron bench`");
+  if (!text)
+    throw InputError(folder.string(), 0, "the store holds no plan yet, expected a study begun with `hysteron bench`");
   StudyView view;
   view.plan = json::parse(*text);
   const std::vector<RunRecord> records = store.records();
@@ -48,7 +49,8 @@ StudyView view_of(const Store& store, const std::filesystem::path& folder) {
   return view;
 }
 
-void write_study_report(const Store& store, const std::filesystem::path& folder, const StudyView& view, bool times, bool ioh) {
+void write_study_report(const Store& store, const std::filesystem::path& folder, const StudyView& view, bool times,
+                        bool ioh) {
   make_output_folder(folder);
   const std::vector<RunRecord> records = store.records();
   const json shown = times ? view.times : json(nullptr);

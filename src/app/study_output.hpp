@@ -21,6 +21,7 @@ StudyView view_of(const Store& store, const std::filesystem::path& folder);
 
 // report.html, report.md, tables.tex, runs.csv, traces.csv, parameters.csv, columns.csv, analysis.json, and
 // environment.json with everything that varies between identical studies. `times` puts wall time into the report too.
-void write_study_report(const Store& store, const std::filesystem::path& folder, const StudyView& view, bool times, bool ioh);
+void write_study_report(const Store& store, const std::filesystem::path& folder, const StudyView& view, bool times,
+                        bool ioh);
 
 }  // namespace hysteron::app

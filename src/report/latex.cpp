@@ -8,10 +8,26 @@
 namespace hysteron {
 
 std::string latex_escape(const std::string& text) {
-  static constexpr std::pair<std::string_view, std::string_view> signs[] = {
-      {"\\", "\\textbackslash{}"}, {"&", "\\&"}, {"%", "\\%"}, {"$", "\\$"}, {"#", "\\#"}, {"_", "\\_"}, {"{", "\\{"},
-      {"}", "\\}"}, {"~", "\\textasciitilde{}"}, {"^", "\\textasciicircum{}"}, {"<", "$<$"}, {">", "$>$"}, {"|", "$|$"},
-      {"≤", "$\\leq$"}, {"≥", "$\\geq$"}, {"∞", "$\\infty$"}, {"±", "$\\pm$"}, {"−", "$-$"}, {"–", "--"}, {"×", "$\\times$"}};
+  static constexpr std::pair<std::string_view, std::string_view> signs[] = {{"\\", "\\textbackslash{}"},
+                                                                            {"&", "\\&"},
+                                                                            {"%", "\\%"},
+                                                                            {"$", "\\$"},
+                                                                            {"#", "\\#"},
+                                                                            {"_", "\\_"},
+                                                                            {"{", "\\{"},
+                                                                            {"}", "\\}"},
+                                                                            {"~", "\\textasciitilde{}"},
+                                                                            {"^", "\\textasciicircum{}"},
+                                                                            {"<", "$<$"},
+                                                                            {">", "$>$"},
+                                                                            {"|", "$|$"},
+                                                                            {"≤", "$\\leq$"},
+                                                                            {"≥", "$\\geq$"},
+                                                                            {"∞", "$\\infty$"},
+                                                                            {"±", "$\\pm$"},
+                                                                            {"−", "$-$"},
+                                                                            {"–", "--"},
+                                                                            {"×", "$\\times$"}};
   std::string result;
   for (std::size_t k = 0; k < text.size();) {
     const std::string_view rest = std::string_view(text).substr(k);

@@ -60,15 +60,19 @@ StudyTable ranking_table(const json& analysis, const Names& names) {
     return table;
   }
   table.note = fmt::format(
-      "Mean rank over {} pairs of (problem, seed) on {} problems, at {} evaluations; costs within {} of each other tie. "
-      "Friedman's test: chi-squared {} with {} degrees of freedom, p {}. Solvers whose mean ranks differ by less than the "
-      "critical difference {} (Nemenyi, 5 %) tie: the place is one more than the number of solvers that are better. The "
+      "Mean rank over {} pairs of (problem, seed) on {} problems, at {} evaluations; costs within {} of each other "
+      "tie. "
+      "Friedman's test: chi-squared {} with {} degrees of freedom, p {}. Solvers whose mean ranks differ by less than "
+      "the "
+      "critical difference {} (Nemenyi, 5 %) tie: the place is one more than the number of solvers that are better. "
+      "The "
       "test speaks of these problems, not of others.",
       whole(ranking.at("blocks")), whole(ranking.at("problems")), analysis.at("budgets").back().get<std::size_t>(),
       percent(analysis.at("tie").get<double>()), shown(ranking.at("chi_squared"), 3), whole(ranking.at("degrees")),
       p_value(ranking.at("p")), shown(ranking.at("critical_difference"), 3));
   for (const json& row : ranking.at("rows")) {
-    table.rows.push_back({whole(row.at("place")), names.solver(row.at("solver")), fmt::format("{:.2f}", row.at("mean_rank").get<double>()),
+    table.rows.push_back({whole(row.at("place")), names.solver(row.at("solver")),
+                          fmt::format("{:.2f}", row.at("mean_rank").get<double>()),
                           percent(row.at("share_best").get<double>()),
                           row.at("ties_with").empty() ? "none" : joined(row.at("ties_with"))});
   }
@@ -80,57 +84,64 @@ StudyTable fixed_budget_table(const json& analysis, const Names& names) {
                    "Fixed budget: NRMSE reached",
                    "Quartiles over the seeds, normalised by " + analysis.at("normalisation").get<std::string>() +
                        ". Diverged: share of evaluations whose simulation did not stay finite.",
-                   {"problem", "budget", "solver", "runs", "best", "lower quartile", "median", "upper quartile", "worst", "diverged"},
+                   {"problem", "budget", "solver", "runs", "best", "lower quartile", "median", "upper quartile",
+                    "worst", "diverged"},
                    {}};
   bool heldout = false;
   for (const json& row : analysis.at("fixed_budget")) heldout = heldout || !row.at("heldout_median").is_null();
   if (heldout) table.header.emplace_back("held-out median");
   for (const json& row : analysis.at("fixed_budget")) {
-    table.rows.push_back({names.problem(row.at("problem")), whole(row.at("budget")), names.solver(row.at("solver")), whole(row.at("runs")),
-                          shown(row.at("best")), shown(row.at("q1")), shown(row.at("median")), shown(row.at("q3")),
-                          shown(row.at("worst")), percent(row.at("diverged_share").get<double>())});
+    table.rows.push_back({names.problem(row.at("problem")), whole(row.at("budget")), names.solver(row.at("solver")),
+                          whole(row.at("runs")), shown(row.at("best")), shown(row.at("q1")), shown(row.at("median")),
+                          shown(row.at("q3")), shown(row.at("worst")),
+                          percent(row.at("diverged_share").get<double>())});
     if (heldout) table.rows.back().push_back(shown(row.at("heldout_median")));
   }
   return table;
 }
 
 StudyTable fixed_target_table(const json& analysis, const Names& names) {
-  StudyTable table{"fixed-target",
-                   "Fixed target: success and expected run time",
-                   "Success with its 95 % Wilson interval; ERT: evaluations of all runs over successes, with a 95 % bootstrap "
-                   "interval over the runs. Without a success only a lower bound is known: the evaluations spent.",
-                   {"problem", "target", "NRMSE", "solver", "success", "of runs", "95 % interval", "ERT", "95 % interval of ERT"},
-                   {}};
+  StudyTable table{
+      "fixed-target",
+      "Fixed target: success and expected run time",
+      "Success with its 95 % Wilson interval; ERT: evaluations of all runs over successes, with a 95 % bootstrap "
+      "interval over the runs. Without a success only a lower bound is known: the evaluations spent.",
+      {"problem", "target", "NRMSE", "solver", "success", "of runs", "95 % interval", "ERT", "95 % interval of ERT"},
+      {}};
   for (const json& row : analysis.at("fixed_target")) {
     const bool reached = !row.at("ert").is_null();
-    table.rows.push_back(
-        {names.problem(row.at("problem")), row.at("target"), shown(row.at("nrmse")), names.solver(row.at("solver")),
-         whole(row.at("successes")), whole(row.at("runs")),
-         fmt::format("{:.0f}-{:.0f} %", 100.0 * row.at("success_low").get<double>(), 100.0 * row.at("success_high").get<double>()),
-         reached ? fmt::format("{:.0f}", row.at("ert").get<double>()) : fmt::format("> {:.0f}", row.at("spent").get<double>()),
-         !reached ? "-"
-                  : fmt::format("{:.0f}-{}", row.at("ert_low").get<double>(),
-                                row.at("ert_high").is_null() ? "inf" : fmt::format("{:.0f}", row.at("ert_high").get<double>()))});
+    table.rows.push_back({names.problem(row.at("problem")), row.at("target"), shown(row.at("nrmse")),
+                          names.solver(row.at("solver")), whole(row.at("successes")), whole(row.at("runs")),
+                          fmt::format("{:.0f}-{:.0f} %", 100.0 * row.at("success_low").get<double>(),
+                                      100.0 * row.at("success_high").get<double>()),
+                          reached ? fmt::format("{:.0f}", row.at("ert").get<double>())
+                                  : fmt::format("> {:.0f}", row.at("spent").get<double>()),
+                          !reached ? "-"
+                                   : fmt::format("{:.0f}-{}", row.at("ert_low").get<double>(),
+                                                 row.at("ert_high").is_null()
+                                                     ? "inf"
+                                                     : fmt::format("{:.0f}", row.at("ert_high").get<double>()))});
   }
   return table;
 }
 
 StudyTable pair_table(const json& analysis, const Names& names, const std::string& member) {
   const bool by_problem = member == "problem_pairs";
-  StudyTable table{by_problem ? "pairs-by-problem" : "pairs",
-                   by_problem ? "Paired tests by problem" : "Paired tests over all problems",
-                   "Wilcoxon's signed-rank test of log(NRMSE a / NRMSE b) over pairs with the same seed, two-sided; ties are "
-                   "dropped and counted; p after Holm's correction over this table. A median ratio below 1: a is better.",
-                   {"a", "b", "pairs", "ties", "a better", "median ratio a/b", "p", "p Holm", "verdict"},
-                   {}};
+  StudyTable table{
+      by_problem ? "pairs-by-problem" : "pairs",
+      by_problem ? "Paired tests by problem" : "Paired tests over all problems",
+      "Wilcoxon's signed-rank test of log(NRMSE a / NRMSE b) over pairs with the same seed, two-sided; ties are "
+      "dropped and counted; p after Holm's correction over this table. A median ratio below 1: a is better.",
+      {"a", "b", "pairs", "ties", "a better", "median ratio a/b", "p", "p Holm", "verdict"},
+      {}};
   if (by_problem) {
     table.header.insert(table.header.begin(), "problem");
     table.note += " With more than four solvers each is tested against the one with the lowest median only.";
   }
   for (const json& row : analysis.at(member)) {
-    std::vector<std::string> cells{names.solver(row.at("a")), names.solver(row.at("b")), whole(row.at("pairs")), whole(row.at("ties")),
-                                   whole(row.at("a_better")), shown(row.at("median_ratio")), p_value(row.at("p")),
-                                   p_value(row.at("p_holm")), verdict_of(row, names)};
+    std::vector<std::string> cells{names.solver(row.at("a")), names.solver(row.at("b")), whole(row.at("pairs")),
+                                   whole(row.at("ties")),     whole(row.at("a_better")), shown(row.at("median_ratio")),
+                                   p_value(row.at("p")),      p_value(row.at("p_holm")), verdict_of(row, names)};
     if (by_problem) cells.insert(cells.begin(), names.problem(row.at("problem")));
     table.rows.push_back(std::move(cells));
   }
@@ -168,8 +179,9 @@ StudyTable time_table(const json& times, const Names& names) {
 }
 
 std::string state_of(const json& analysis) {
-  return fmt::format("{} of {} runs: {} problems, {} solvers, {} seeds", whole(analysis.at("done")), whole(analysis.at("planned")),
-                     analysis.at("problems").size(), analysis.at("solvers").size(), analysis.at("seeds").size());
+  return fmt::format("{} of {} runs: {} problems, {} solvers, {} seeds", whole(analysis.at("done")),
+                     whole(analysis.at("planned")), analysis.at("problems").size(), analysis.at("solvers").size(),
+                     analysis.at("seeds").size());
 }
 
 }  // namespace
@@ -190,8 +202,8 @@ std::string study_verdict(const json& analysis) {
   if (ranking.at("rows").empty()) return "No seed has been finished by every solver yet: nothing can be compared.";
   if (ranking.at("rows").size() == 1) return "One solver only: nothing to compare.";
   if (!ranking.at("different").get<bool>()) {
-    return fmt::format("No difference between the {} solvers was shown (Friedman p = {}): they tie.", ranking.at("rows").size(),
-                       p_value(ranking.at("p")));
+    return fmt::format("No difference between the {} solvers was shown (Friedman p = {}): they tie.",
+                       ranking.at("rows").size(), p_value(ranking.at("p")));
   }
   std::string first;
   std::size_t count = 0;
@@ -217,7 +229,8 @@ std::string study_terminal(const json& analysis, const json& times) {
 }
 
 std::string study_markdown(const json& analysis, const json& times) {
-  std::string text = "# " + analysis.at("title").get<std::string>() + "\n\n" + study_verdict(analysis) + "\n\n" + state_of(analysis) + ".\n";
+  std::string text = "# " + analysis.at("title").get<std::string>() + "\n\n" + study_verdict(analysis) + "\n\n" +
+                     state_of(analysis) + ".\n";
   for (const json& warning : analysis.at("warnings")) text += "\n> " + warning.get<std::string>() + "\n";
   for (const StudyTable& one : study_tables(analysis, times)) {
     text += "\n## " + one.title + "\n\n" + one.note + "\n";

@@ -8,9 +8,9 @@
 namespace hysteron {
 
 struct StudyTable {
-  std::string id;       // "ranking", "fixed-budget", ...
+  std::string id;  // "ranking", "fixed-budget", ...
   std::string title;
-  std::string note;     // what the columns mean and how they were computed
+  std::string note;  // what the columns mean and how they were computed
   std::vector<std::string> header;
   std::vector<std::vector<std::string>> rows;
 };

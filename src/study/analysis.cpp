@@ -19,10 +19,10 @@ using nlohmann::json;
 constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double significance = 0.05;
 constexpr int ecdf_targets = 41;
-constexpr double ecdf_closest = 1e-3;   // of the distance to the best known cost, relative to it
+constexpr double ecdf_closest = 1e-3;  // of the distance to the best known cost, relative to it
 constexpr double ecdf_farthest = 10.0;
 constexpr std::size_t curve_points = 80;
-constexpr double failure_ratio = 1e3;   // stands for the cost ratio to a run that found no finite candidate
+constexpr double failure_ratio = 1e3;  // stands for the cost ratio to a run that found no finite candidate
 constexpr std::size_t all_pairs_up_to = 4;
 
 json number(double value) { return std::isfinite(value) ? json(value) : json(nullptr); }
@@ -99,8 +99,8 @@ class Analysis {
       ++done_;
       const auto problem = run.at("problem").get<std::size_t>();
       const auto solver = run.at("solver").get<std::size_t>();
-      const auto budget = static_cast<std::size_t>(
-          std::ranges::find(budgets_, run.at("budget").get<std::size_t>()) - budgets_.begin());
+      const auto budget =
+          static_cast<std::size_t>(std::ranges::find(budgets_, run.at("budget").get<std::size_t>()) - budgets_.begin());
       const RunRecord* record = found->second;
       cell(problem, budget, solver).by_seed[seed_index.at(run.at("seed").get<std::uint64_t>())] = record;
       if (best_[problem] == nullptr || cost_of(*record) < cost_of(*best_[problem])) {
@@ -113,7 +113,8 @@ class Analysis {
   json run() {
     json result;
     result["schema"] = "hysteron.study-analysis/1";
-    for (const char* name : {"title", "normalisation", "weighting", "tolerance", "start", "targets", "target_nrmse", "tie", "budgets", "seeds", "solvers"}) {
+    for (const char* name : {"title", "normalisation", "weighting", "tolerance", "start", "targets", "target_nrmse",
+                             "tie", "budgets", "seeds", "solvers"}) {
       result[name] = plan_.at(name);
     }
     result["planned"] = planned_;
@@ -166,7 +167,9 @@ class Analysis {
       json row = plan_.at("problems").at(p);
       row["best"] = nullptr;
       if (std::isfinite(best_cost(p))) {
-        row["best"] = {{"nrmse", best_cost(p)}, {"key", best_[p]->key}, {"solver", solver_name(best_solver_[p])},
+        row["best"] = {{"nrmse", best_cost(p)},
+                       {"key", best_[p]->key},
+                       {"solver", solver_name(best_solver_[p])},
                        {"parameters", json::parse(best_[p]->parameters)}};
       }
       rows.push_back(std::move(row));
@@ -227,7 +230,8 @@ class Analysis {
       all.insert(all.end(), rows.begin(), rows.end());
       by_problem.push_back(friedman_test(rows, tie_).mean_ranks);
     }
-    json result = {{"blocks", all.size()}, {"problems", by_problem.size()}, {"rows", json::array()}, {"cliques", json::array()}};
+    json result = {
+        {"blocks", all.size()}, {"problems", by_problem.size()}, {"rows", json::array()}, {"cliques", json::array()}};
     if (all.empty()) return result;
     const Friedman test = friedman_test(all, tie_);
     const bool different = solvers_ > 1 && test.p < significance;
@@ -238,7 +242,8 @@ class Analysis {
     result["different"] = different;
     std::vector<std::size_t> order(solvers_);
     std::iota(order.begin(), order.end(), std::size_t{0});
-    std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) { return test.mean_ranks[a] < test.mean_ranks[b]; });
+    std::ranges::stable_sort(order,
+                             [&](std::size_t a, std::size_t b) { return test.mean_ranks[a] < test.mean_ranks[b]; });
     std::vector<double> sorted;
     for (const std::size_t s : order) sorted.push_back(test.mean_ranks[s]);
     const auto apart = [&](std::size_t a, std::size_t b) {
@@ -308,7 +313,8 @@ class Analysis {
     }
   }
 
-  [[nodiscard]] std::vector<double> ratios(const std::vector<std::vector<double>>& rows, std::size_t a, std::size_t b) const {
+  [[nodiscard]] std::vector<double> ratios(const std::vector<std::vector<double>>& rows, std::size_t a,
+                                           std::size_t b) const {
     std::vector<double> result;
     for (const auto& row : rows) result.push_back(log_ratio(row[a], row[b]));
     return result;
@@ -394,7 +400,8 @@ class Analysis {
         for (std::size_t s = 0; s < solvers_; ++s) {
           const auto tries = attempts(p, s, level.value);
           if (tries.empty()) continue;
-          const Stream stream = Stream(0).child("expected run time").child(problem_name(p)).child(solver_name(s)).child(level.label);
+          const Stream stream =
+              Stream(0).child("expected run time").child(problem_name(p)).child(solver_name(s)).child(level.label);
           const ExpectedRunTime time = expected_run_time(tries, stream);
           const Interval share = wilson(time.successes, time.runs);
           rows.push_back({{"problem", p},
@@ -432,7 +439,11 @@ class Analysis {
       }
       curves.push_back(distribution(hits, grid));
     }
-    return {{"evaluations", grid}, {"share", curves}, {"targets", ecdf_targets}, {"closest", ecdf_closest}, {"farthest", ecdf_farthest}};
+    return {{"evaluations", grid},
+            {"share", curves},
+            {"targets", ecdf_targets},
+            {"closest", ecdf_closest},
+            {"farthest", ecdf_farthest}};
   }
 
   [[nodiscard]] json profiles() const {
@@ -476,8 +487,8 @@ class Analysis {
       }
     }
     const std::vector<double> ratios = log_grid(1.0, 100.0, curve_points);
-    const std::vector<double> budgets =
-        log_grid(1.0, std::max(2.0, static_cast<double>(budgets_.back()) / static_cast<double>(smallest + 1)), curve_points);
+    const std::vector<double> budgets = log_grid(
+        1.0, std::max(2.0, static_cast<double>(budgets_.back()) / static_cast<double>(smallest + 1)), curve_points);
     return {{"ratios", ratios},
             {"performance", performance_profile(expected, ratios)},
             {"performance_cases", expected.size()},
@@ -534,8 +545,9 @@ class Analysis {
           for (std::size_t s = 0; s < solvers_; ++s) {
             const RunRecord* record = cell(p, b, s).by_seed[k];
             if (record == nullptr) continue;
-            rows.push_back({record->key, p, s, budgets_[b], seeds_[k], record->nrmse ? json(*record->nrmse) : json(nullptr),
-                            record->evaluations, record->stopped});
+            rows.push_back({record->key, p, s, budgets_[b], seeds_[k],
+                            record->nrmse ? json(*record->nrmse) : json(nullptr), record->evaluations,
+                            record->stopped});
           }
         }
       }
@@ -547,7 +559,8 @@ class Analysis {
     json list = json::array();
     if (done_ < planned_) {
       list.push_back(std::to_string(planned_ - done_) + " of " + std::to_string(planned_) +
-                     " runs are missing: everything below is of the others, and rankings of the seeds that every solver has finished");
+                     " runs are missing: everything below is of the others, and rankings of the seeds that every "
+                     "solver has finished");
     }
     const std::size_t blocks = result.at("ranking").at("blocks").get<std::size_t>();
     const std::size_t tests = result.at("pairs").size();
@@ -582,7 +595,8 @@ class Analysis {
         }
       }
       if (failed > 0) {
-        list.push_back(problem_name(p) + ": " + std::to_string(failed) + " runs found no candidate that stays finite; they rank last");
+        list.push_back(problem_name(p) + ": " + std::to_string(failed) +
+                       " runs found no candidate that stays finite; they rank last");
       }
     }
     return list;
@@ -627,13 +641,14 @@ json analyse_times(const json& plan, const std::vector<RunRecord>& records, cons
   json rows = json::array();
   for (const auto& [where, what] : cells) {
     const double sum = std::accumulate(what.first.begin(), what.first.end(), 0.0);
-    rows.push_back({{"problem", where.first},
-                    {"solver", where.second},
-                    {"runs", what.first.size()},
-                    {"seconds_median", quantile(what.first, 0.5)},
-                    {"seconds_total", sum},
-                    {"evaluations_total", what.second},
-                    {"microseconds_per_evaluation", what.second > 0.0 ? json(1e6 * sum / what.second) : json(nullptr)}});
+    rows.push_back(
+        {{"problem", where.first},
+         {"solver", where.second},
+         {"runs", what.first.size()},
+         {"seconds_median", quantile(what.first, 0.5)},
+         {"seconds_total", sum},
+         {"evaluations_total", what.second},
+         {"microseconds_per_evaluation", what.second > 0.0 ? json(1e6 * sum / what.second) : json(nullptr)}});
   }
   return {{"schema", "hysteron.study-times/1"}, {"seconds_total", total}, {"runs_by_host", hosts}, {"rows", rows}};
 }

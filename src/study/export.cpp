@@ -35,7 +35,9 @@ std::vector<Row> rows_of(const json& plan, const std::vector<RunRecord>& records
   return rows;
 }
 
-const json& problem_of(const json& plan, const json& run) { return plan.at("problems").at(run.at("problem").get<std::size_t>()); }
+const json& problem_of(const json& plan, const json& run) {
+  return plan.at("problems").at(run.at("problem").get<std::size_t>());
+}
 std::string solver_of(const json& plan, const json& run) {
   return plan.at("solvers").at(run.at("solver").get<std::size_t>()).at("label");
 }
@@ -82,7 +84,8 @@ std::vector<std::string> header_of(const std::string& file) {
 std::string plain_name(const std::string& label) {
   std::string name;
   for (const char c : label) {
-    const bool keep = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '.';
+    const bool keep =
+        (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '.';
     name += keep ? c : '_';
   }
   return name;
@@ -96,9 +99,10 @@ std::string runs_csv(const json& plan, const std::vector<RunRecord>& records) {
     const json& problem = problem_of(plan, *run);
     rows.push_back({record->key, problem.at("label"), problem.at("model"), problem.at("data"),
                     std::to_string(problem.at("dimension").get<std::size_t>()), solver_of(plan, *run),
-                    std::to_string(run->at("budget").get<std::size_t>()), std::to_string(run->at("seed").get<std::uint64_t>()),
-                    digits(record->nrmse), digits(record->nrmse_tight), digits(record->nrmse_heldout),
-                    std::to_string(record->evaluations), std::to_string(record->diverged), record->stopped});
+                    std::to_string(run->at("budget").get<std::size_t>()),
+                    std::to_string(run->at("seed").get<std::uint64_t>()), digits(record->nrmse),
+                    digits(record->nrmse_tight), digits(record->nrmse_heldout), std::to_string(record->evaluations),
+                    std::to_string(record->diverged), record->stopped});
   }
   return csv_table(header_of("runs.csv"), rows);
 }
@@ -146,7 +150,8 @@ std::map<std::string, std::string> ioh_files(const json& plan, const std::vector
     if (record->trace.back().evaluations < record->evaluations) {
       block.data += fmt::format("{} {}\n", record->evaluations, record->trace.back().best);
     }
-    block.summary += fmt::format(", {}:{}|{}", run->at("seed").get<std::uint64_t>(), record->evaluations, record->trace.back().best);
+    block.summary +=
+        fmt::format(", {}:{}|{}", run->at("seed").get<std::uint64_t>(), record->evaluations, record->trace.back().best);
   }
   std::map<std::string, std::string> files;
   for (const auto& [where, block] : blocks) {
@@ -160,8 +165,8 @@ std::map<std::string, std::string> ioh_files(const json& plan, const std::vector
     std::ranges::replace(algorithm, '\'', '_');
     files[folder + "/" + data] = block.data;
     files[fmt::format("{}/IOHprofiler_f{}.info", folder, function)] =
-        fmt::format("suite = 'hysteron', funcId = {}, DIM = {}, algId = '{}'\n%{}\n{}{}\n", function, dimension, algorithm,
-                    problem.at("label").get<std::string>(), data, block.summary);
+        fmt::format("suite = 'hysteron', funcId = {}, DIM = {}, algId = '{}'\n%{}\n{}{}\n", function, dimension,
+                    algorithm, problem.at("label").get<std::string>(), data, block.summary);
   }
   return files;
 }

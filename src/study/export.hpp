@@ -21,6 +21,7 @@ namespace hysteron {
 
 // IOHprofiler format (IOHanalyzer reads it): file name inside the export folder -> content. A solver is an algorithm, a
 // problem a function, a seed an instance; the largest budget only.
-[[nodiscard]] std::map<std::string, std::string> ioh_files(const nlohmann::json& plan, const std::vector<RunRecord>& records);
+[[nodiscard]] std::map<std::string, std::string> ioh_files(const nlohmann::json& plan,
+                                                           const std::vector<RunRecord>& records);
 
 }  // namespace hysteron

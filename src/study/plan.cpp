@@ -42,8 +42,10 @@ Campaign load(const DataSpec& spec) {
   }
   if (spec.dataset.empty()) return load_campaign(spec.paths);
   const auto catalogue = dataset_catalogue();
-  const auto found = std::ranges::find_if(catalogue, [&](const DatasetEntry* entry) { return entry->id == spec.dataset; });
-  if (found == catalogue.end()) throw InputError("unknown dataset '" + spec.dataset + "', see `hysteron list datasets`");
+  const auto found =
+      std::ranges::find_if(catalogue, [&](const DatasetEntry* entry) { return entry->id == spec.dataset; });
+  if (found == catalogue.end())
+    throw InputError("unknown dataset '" + spec.dataset + "', see `hysteron list datasets`");
   Campaign campaign = (*found)->generate(Stream(spec.seed).child((*found)->id));
   for (Recording& recording : campaign.recordings) recording.sha256 = hash_of(recording);
   return campaign;
@@ -77,7 +79,8 @@ std::vector<DataGroup> groups_of(const DataSpec& spec, const std::string& file) 
   }
   if (spec.each) return each;
   if (all.fitted.empty()) {
-    throw InputError(file, spec.line, "every recording of '" + spec.label + "' has the role validate, expected one to fit");
+    throw InputError(file, spec.line,
+                     "every recording of '" + spec.label + "' has the role validate, expected one to fit");
   }
   return {all};
 }
@@ -129,8 +132,14 @@ Plan make_plan(const Study& study, const std::string& version) {
           Layout layout(make_model(model.model, model.effects), scale, model.layout);
           if (layout.dimension() == 0) throw InputError("every parameter is fixed, expected at least one to identify");
           for (const Recording& recording : group.fitted) normaliser(recording, study.objective.normalisation);
-          StudyProblem problem{model.label + " @ " + group.label, model.label,   group.label, {}, {},
-                               std::move(layout),                 group.fitted, group.heldout};
+          StudyProblem problem{model.label + " @ " + group.label,
+                               model.label,
+                               group.label,
+                               {},
+                               {},
+                               std::move(layout),
+                               group.fitted,
+                               group.heldout};
           problem.config = problem_config(model, problem, study.objective).dump();
           problem.hash = sha256_hex(problem.config);
           if (!labels.insert(problem.label).second) {
@@ -138,7 +147,8 @@ Plan make_plan(const Study& study, const std::string& version) {
           }
           plan.problems.push_back(std::move(problem));
         } catch (const InputError& error) {
-          throw InputError(study.file, model.line, "model '" + model.label + "' on '" + group.label + "': " + error.what());
+          throw InputError(study.file, model.line,
+                           "model '" + model.label + "' on '" + group.label + "': " + error.what());
         }
       }
     }
@@ -149,19 +159,21 @@ Plan make_plan(const Study& study, const std::string& version) {
       for (const std::uint64_t seed : study.seeds) {
         for (std::size_t s = 0; s < study.solvers.size(); ++s) {
           const SolverEntry* entry = find_solver(study.solvers[s].id);
-          if (entry == nullptr) throw InputError(study.file, study.solvers[s].line, "unknown solver '" + study.solvers[s].id + "'");
+          if (entry == nullptr)
+            throw InputError(study.file, study.solvers[s].line, "unknown solver '" + study.solvers[s].id + "'");
           json settings = json::object();
           for (const Setting& row : entry->settings) settings[std::string(row.name)] = row.value;
           for (const auto& [name, value] : study.solvers[s].settings) settings[name] = value;
           PlannedRun run;
-          run.config = json{{"problem", plan.problems[p].hash},
-                            {"solver", study.solvers[s].id},
-                            {"settings", settings},
-                            {"budget", budget},
-                            {"seed", seed},
-                            {"start", study.start == StartPoint::card ? "card" : "random"},
-                            {"version", version}}
-                           .dump();
+          run.config = json{
+              {"problem", plan.problems[p].hash},
+              {"solver", study.solvers[s].id},
+              {"settings", settings},
+              {"budget", budget},
+              {"seed", seed},
+              {"start", study.start == StartPoint::card ? "card" : "random"},
+              {"version",
+               version}}.dump();
           run.key = sha256_hex(run.config);
           run.problem = p;
           run.solver = s;
@@ -208,7 +220,11 @@ json plan_json(const Plan& plan) {
   }
   json runs = json::array();
   for (const PlannedRun& run : plan.runs) {
-    runs.push_back({{"key", run.key}, {"problem", run.problem}, {"solver", run.solver}, {"budget", run.budget}, {"seed", run.seed}});
+    runs.push_back({{"key", run.key},
+                    {"problem", run.problem},
+                    {"solver", run.solver},
+                    {"budget", run.budget},
+                    {"seed", run.seed}});
   }
   return {{"schema", "hysteron.plan/1"},
           {"title", plan.study.title},

@@ -14,11 +14,11 @@ namespace hysteron {
 
 // One model on one set of recordings.
 struct StudyProblem {
-  std::string label;                  // model @ data
-  std::string model;                  // label of the model
-  std::string data;                   // label of the data
-  std::string hash;                   // sha256 of `config`
-  std::string config;                 // canonical JSON: recordings, model, effects, box, normalisation, tolerance
+  std::string label;   // model @ data
+  std::string model;   // label of the model
+  std::string data;    // label of the data
+  std::string hash;    // sha256 of `config`
+  std::string config;  // canonical JSON: recordings, model, effects, box, normalisation, tolerance
   Layout layout;
   std::vector<Recording> recordings;  // fitted
   std::vector<Recording> heldout;     // role "validate": scored, never fitted

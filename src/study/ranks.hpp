@@ -11,11 +11,11 @@ namespace hysteron {
 [[nodiscard]] std::vector<double> midranks(const std::vector<double>& values, double tie = 0.0);
 
 struct SignedRank {
-  std::size_t pairs = 0;   // given
-  std::size_t zeros = 0;   // dropped: differences that are ties
-  double w_plus = 0.0;     // sum of the ranks of positive differences
-  double p = 1.0;          // two-sided
-  bool exact = false;      // from the permutation distribution of the ranks, else normal with tie correction
+  std::size_t pairs = 0;  // given
+  std::size_t zeros = 0;  // dropped: differences that are ties
+  double w_plus = 0.0;    // sum of the ranks of positive differences
+  double p = 1.0;         // two-sided
+  bool exact = false;     // from the permutation distribution of the ranks, else normal with tie correction
 };
 
 // Wilcoxon signed-rank test of differences against a symmetric distribution about zero (Wilcoxon, Biometrics Bull. 1
@@ -28,10 +28,10 @@ struct SignedRank {
 
 struct Friedman {
   std::size_t blocks = 0;
-  std::vector<double> mean_ranks;     // one a treatment
-  double chi_squared = 0.0;           // corrected for ties
+  std::vector<double> mean_ranks;  // one a treatment
+  double chi_squared = 0.0;        // corrected for ties
   double p = 1.0;
-  double critical_difference = 0.0;   // Nemenyi at 5 %: mean ranks closer than this are not told apart; 0 if unknown
+  double critical_difference = 0.0;  // Nemenyi at 5 %: mean ranks closer than this are not told apart; 0 if unknown
 };
 
 // Friedman's test over `blocks` (rows of costs, one a treatment; J. Am. Stat. Assoc. 32 (1937) 675-701) with the

@@ -11,9 +11,11 @@ namespace hysteron {
 namespace {
 
 constexpr std::string_view pso_paper =
-    "Parametric estimation from empirical data using particle swarm optimization for different magnetorheological damper "
+    "Parametric estimation from empirical data using particle swarm optimization for different magnetorheological "
+    "damper "
     "models, IEEE Access, 2021";
-constexpr std::string_view least_squares_paper = "Bouc-Wen identification of an MR damper by non-linear least squares, 2023";
+constexpr std::string_view least_squares_paper =
+    "Bouc-Wen identification of an MR damper by non-linear least squares, 2023";
 constexpr std::string_view lm_paper =
     "Long and short stroke MR dampers (RD-8040-1, RD-8041-1), Bouc-Wen identified by Levenberg-Marquardt";
 
@@ -22,19 +24,20 @@ constexpr PublishedTable tables[] = {
      &reproduce::pso_table_v, &reproduce::pso_table_v_result},
     {"table-vi", "NRMSE of five models identified by PSO", pso_paper, 5, 2000, true, &reproduce::pso_table_vi,
      &reproduce::pso_table_vi_result},
-    {"table-vii", "Modified Bouc-Wen with and without offset force", pso_paper, 3, 2000, true, &reproduce::pso_table_vii,
-     &reproduce::pso_table_vii_result},
-    {"table-viii", "NRMSE over 55 conditions of current and frequency", pso_paper, 1, 1500, false, &reproduce::pso_table_viii,
-     &reproduce::pso_table_viii_result},
-    {"figure-9", "Order of the parameter polynomials against error", pso_paper, 1, 1000, false, &reproduce::pso_figure_9,
-     &reproduce::pso_figure_9_result},
+    {"table-vii", "Modified Bouc-Wen with and without offset force", pso_paper, 3, 2000, true,
+     &reproduce::pso_table_vii, &reproduce::pso_table_vii_result},
+    {"table-viii", "NRMSE over 55 conditions of current and frequency", pso_paper, 1, 1500, false,
+     &reproduce::pso_table_viii, &reproduce::pso_table_viii_result},
+    {"figure-9", "Order of the parameter polynomials against error", pso_paper, 1, 1000, false,
+     &reproduce::pso_figure_9, &reproduce::pso_figure_9_result},
     {"least-squares-table-2", "Bouc-Wen parameters at five currents, round trip", least_squares_paper, 3, 4000, false,
      &reproduce::least_squares_table_2, &reproduce::least_squares_table_2_result},
     {"lm-table-1", "Bouc-Wen parameters of two dampers with voltage, round trip", lm_paper, 3, 4000, false,
      &reproduce::lm_table_1, &reproduce::lm_table_1_result},
 };
 
-std::vector<double> costs(const Plan& plan, const std::vector<RunRecord>& records, std::size_t problem, std::size_t solver) {
+std::vector<double> costs(const Plan& plan, const std::vector<RunRecord>& records, std::size_t problem,
+                          std::size_t solver) {
   std::map<std::string, const RunRecord*> by_key;
   for (const RunRecord& record : records) by_key[record.key] = &record;
   std::vector<double> result;

@@ -13,9 +13,9 @@
 namespace hysteron {
 
 struct ReproduceOptions {
-  std::size_t seeds = 0;           // 0: the table's default
-  std::size_t budget = 0;          // likewise
-  std::vector<std::string> data;   // recordings instead of the stand-in, for tables that can
+  std::size_t seeds = 0;          // 0: the table's default
+  std::size_t budget = 0;         // likewise
+  std::vector<std::string> data;  // recordings instead of the stand-in, for tables that can
 };
 
 struct Reproduction {
@@ -29,7 +29,7 @@ struct PublishedTable {
   std::string_view id;
   std::string_view title;
   std::string_view source;
-  std::size_t seeds;   // defaults that finish in minutes on two cores
+  std::size_t seeds;  // defaults that finish in minutes on two cores
   std::size_t budget;
   bool takes_data;
   Study (*study)(const ReproduceOptions& options);  // with seeds and budget filled in

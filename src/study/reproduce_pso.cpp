@@ -121,9 +121,12 @@ void say_common(const Plan& plan, Reproduction& result, bool pso = true) {
   const std::size_t budget = plan.study.budgets.front();
   if (on_twin(plan)) {
     result.not_remade.push_back(
-        "The recordings of the paper are not public. The stand-in rd8040-twin is simulated from its published equations (16) "
-        "to (23) with white noise of 1 % of each recording's peak force, so that no model can reach an NRMSE much below 0.010 "
-        "and the true model can reach just that; the published errors of 0.015 to 0.13 are those of a real damper that the "
+        "The recordings of the paper are not public. The stand-in rd8040-twin is simulated from its published "
+        "equations (16) "
+        "to (23) with white noise of 1 % of each recording's peak force, so that no model can reach an NRMSE much "
+        "below 0.010 "
+        "and the true model can reach just that; the published errors of 0.015 to 0.13 are those of a real damper that "
+        "the "
         "model only approximates. Absolute numbers are therefore not comparable; orderings are.");
   } else {
     result.not_remade.push_back("These are the recordings given, of another damper than the paper's.");
@@ -131,19 +134,23 @@ void say_common(const Plan& plan, Reproduction& result, bool pso = true) {
   result.remade.push_back("The cost: RMSE over the largest absolute force.");
   if (pso) {
     result.remade.push_back(
-        "PSO with Clerc's constriction, k = 1, phi1 = phi2 = 2.05; the printed formula (3) is garbled, the original is used.");
+        "PSO with Clerc's constriction, k = 1, phi1 = phi2 = 2.05; the printed formula (3) is garbled, the original is "
+        "used.");
   }
   if (!pso) {
-    result.not_remade.push_back(fmt::format("The budget: {} evaluations a condition, of a solver with derivatives.", budget));
+    result.not_remade.push_back(
+        fmt::format("The budget: {} evaluations a condition, of a solver with derivatives.", budget));
   } else if (budget >= published_budget) {
     result.remade.push_back("The budget: a population of 100 over 100 iterations.");
   } else {
-    result.not_remade.push_back(fmt::format(
-        "The budget: {} evaluations (population {:.0f}) instead of 100 x 100; --budget 10000 does the published amount.", budget,
-        population_for(budget)));
+    result.not_remade.push_back(
+        fmt::format("The budget: {} evaluations (population {:.0f}) instead of 100 x 100; --budget 10000 does the "
+                    "published amount.",
+                    budget, population_for(budget)));
   }
   result.not_remade.push_back(
-      "The parameter ranges: the paper does not print them; those of the model's card are used, the same for all solvers.");
+      "The parameter ranges: the paper does not print them; those of the model's card are used, the same for all "
+      "solvers.");
 }
 
 std::string p_text(double p) { return p < 1e-4 ? "< 0.0001" : format_number(p, 2); }
@@ -167,13 +174,17 @@ Reproduction pso_table_v_result(const Plan& plan, const std::vector<RunRecord>& 
   const json analysis = analyse(plan_json(plan), records);
   std::map<std::size_t, json> tests;
   for (const json& row : analysis.at("problem_pairs")) tests[row.at("problem").get<std::size_t>()] = row;
-  StudyTable table{"table-v", "PSO against GA", "Obtained: median [quartiles] over the seeds; p: Wilcoxon on pairs of seeds, Holm over the table.",
-                   {"condition", "published PSO", "published GA", "obtained PSO", "obtained GA", "p Holm", "verdict"}, {}};
+  StudyTable table{"table-v",
+                   "PSO against GA",
+                   "Obtained: median [quartiles] over the seeds; p: Wilcoxon on pairs of seeds, Holm over the table.",
+                   {"condition", "published PSO", "published GA", "obtained PSO", "obtained GA", "p Holm", "verdict"},
+                   {}};
   std::size_t pso_ahead = 0;
   std::size_t compared = 0;
   const auto add = [&](const std::string& name, const std::string& pso, const std::string& ga, std::size_t problem) {
     if (problem >= plan.problems.size()) return;
-    std::vector<std::string> row{name, pso, ga, spread(plan, records, problem, 0), spread(plan, records, problem, 1), "-", "-"};
+    std::vector<std::string> row{name, pso, ga, spread(plan, records, problem, 0), spread(plan, records, problem, 1),
+                                 "-",  "-"};
     if (const auto test = tests.find(problem); test != tests.end()) {
       row[5] = p_text(test->second.at("p_holm").get<double>());
       const std::string verdict = test->second.at("verdict");
@@ -192,19 +203,22 @@ Reproduction pso_table_v_result(const Plan& plan, const std::vector<RunRecord>& 
     for (std::size_t p = 0; p < plan.problems.size(); ++p) add(data_name(plan.problems[p].data), "-", "-", p);
   }
   result.tables.push_back(std::move(table));
-  result.findings.push_back(fmt::format("PSO has the lower median in {} of {} cases (published: in all 10).", pso_ahead, compared));
+  result.findings.push_back(
+      fmt::format("PSO has the lower median in {} of {} cases (published: in all 10).", pso_ahead, compared));
   if (!analysis.at("pairs").empty()) {
     const json& pair = analysis.at("pairs").front();
     const std::string verdict = pair.at("verdict");
-    result.findings.push_back(fmt::format(
-        "Over all {} pairs of (condition, seed) the median ratio PSO / GA is {} (Wilcoxon p = {}): {}",
-        pair.at("pairs").get<std::size_t>(), format_number(pair.at("median_ratio").get<double>(), 3), p_text(pair.at("p").get<double>()),
-        verdict == "a"   ? "the paper's claim that PSO is better holds here."
-        : verdict == "b" ? "here GA is better: the paper's claim does not hold."
-                         : "no difference is shown: the paper's claim is not confirmed."));
+    result.findings.push_back(
+        fmt::format("Over all {} pairs of (condition, seed) the median ratio PSO / GA is {} (Wilcoxon p = {}): {}",
+                    pair.at("pairs").get<std::size_t>(), format_number(pair.at("median_ratio").get<double>(), 3),
+                    p_text(pair.at("p").get<double>()),
+                    verdict == "a"   ? "the paper's claim that PSO is better holds here."
+                    : verdict == "b" ? "here GA is better: the paper's claim does not hold."
+                                     : "no difference is shown: the paper's claim is not confirmed."));
   }
   say_common(plan, result);
-  result.not_remade.push_back("The GA: MATLAB's is not public in every detail; `ga` follows its documentation (`hysteron describe ga`).");
+  result.not_remade.push_back(
+      "The GA: MATLAB's is not public in every detail; `ga` follows its documentation (`hysteron describe ga`).");
   result.not_remade.push_back("The paper prints one number a case, so that its own spread over seeds is unknown.");
   return result;
 }
@@ -228,8 +242,8 @@ Reproduction pso_table_vi_result(const Plan& plan, const std::vector<RunRecord>&
     for (const ModelRow& row : table_vi) {
       const std::size_t half = problem_index(plan, twin_problem(row.model, 2.0, 0.5));
       const std::size_t full = problem_index(plan, twin_problem(row.model, 2.0, 1.0));
-      table.rows.push_back({row.name, fmt::format("{:.4f}", row.half), spread(plan, records, half, 0), fmt::format("{:.4f}", row.full),
-                            spread(plan, records, full, 0)});
+      table.rows.push_back({row.name, fmt::format("{:.4f}", row.half), spread(plan, records, half, 0),
+                            fmt::format("{:.4f}", row.full), spread(plan, records, full, 0)});
       published.emplace_back(row.full, row.name);
       obtained.emplace_back(median_nrmse(plan, records, full, 0), row.name);
     }
@@ -240,13 +254,17 @@ Reproduction pso_table_vi_result(const Plan& plan, const std::vector<RunRecord>&
       for (const auto& [value, name] : rows) text += (text.empty() ? "" : " < ") + name;
       return text;
     };
-    const bool same = std::ranges::equal(published, obtained, [](const auto& a, const auto& b) { return a.second == b.second; });
+    const bool same =
+        std::ranges::equal(published, obtained, [](const auto& a, const auto& b) { return a.second == b.second; });
     result.findings.push_back("Order at 2 Hz, 1 A, published: " + order(published) + ".");
-    result.findings.push_back("Order at 2 Hz, 1 A, obtained: " + order(obtained) + (same ? " (the same)." : " (not the same)."));
+    result.findings.push_back("Order at 2 Hz, 1 A, obtained: " + order(obtained) +
+                              (same ? " (the same)." : " (not the same)."));
     result.not_remade.push_back(
-        "The twin is made of the modified Bouc-Wen model: that this model fits it best is so by construction and proves nothing.");
+        "The twin is made of the modified Bouc-Wen model: that this model fits it best is so by construction and "
+        "proves nothing.");
   } else {
-    table.header = {"recording", "Bingham", "Simple Bouc-Wen", "Modified Bouc-Wen", "Nonlinear biviscous", "Hyperbolic tangent"};
+    table.header = {"recording",           "Bingham",           "Simple Bouc-Wen", "Modified Bouc-Wen",
+                    "Nonlinear biviscous", "Hyperbolic tangent"};
     const std::size_t models = std::size(table_vi);
     std::vector<std::size_t> wins(models, 0);
     for (std::size_t p = 0; p + models <= plan.problems.size(); p += models) {
@@ -260,7 +278,8 @@ Reproduction pso_table_vi_result(const Plan& plan, const std::vector<RunRecord>&
       table.rows.push_back(std::move(row));
     }
     for (std::size_t m = 0; m < models; ++m) {
-      result.findings.push_back(fmt::format("{} has the lowest median on {} of {} recordings.", table_vi[m].name, wins[m], plan.problems.size() / models));
+      result.findings.push_back(fmt::format("{} has the lowest median on {} of {} recordings.", table_vi[m].name,
+                                            wins[m], plan.problems.size() / models));
     }
   }
   result.tables.push_back(std::move(table));
@@ -279,11 +298,15 @@ Study pso_table_vii(const ReproduceOptions& options) {
 
 Reproduction pso_table_vii_result(const Plan& plan, const std::vector<RunRecord>& records) {
   Reproduction result;
-  StudyTable table{"table-vii", "With and without offset force", "Obtained: median [quartiles] over the seeds.",
-                   {"condition", "published with", "published without", "obtained with", "obtained without"}, {}};
+  StudyTable table{"table-vii",
+                   "With and without offset force",
+                   "Obtained: median [quartiles] over the seeds.",
+                   {"condition", "published with", "published without", "obtained with", "obtained without"},
+                   {}};
   std::size_t better = 0;
   std::size_t cases = 0;
-  const auto add = [&](const std::string& name, const std::string& with, const std::string& without, std::size_t a, std::size_t b) {
+  const auto add = [&](const std::string& name, const std::string& with, const std::string& without, std::size_t a,
+                       std::size_t b) {
     if (a >= plan.problems.size() || b >= plan.problems.size()) return;
     table.rows.push_back({name, with, without, spread(plan, records, a, 0), spread(plan, records, b, 0)});
     better += median_nrmse(plan, records, a, 0) < median_nrmse(plan, records, b, 0) ? 1 : 0;
@@ -296,12 +319,15 @@ Reproduction pso_table_vii_result(const Plan& plan, const std::vector<RunRecord>
           problem_index(plan, twin_problem("modified-bouc-wen", row.frequency, row.current)));
     }
     result.not_remade.push_back(
-        "The twin holds the offset force of equation (23); where that is small against the noise, leaving it out costs little.");
+        "The twin holds the offset force of equation (23); where that is small against the noise, leaving it out costs "
+        "little.");
   } else {
-    for (std::size_t p = 0; p + 1 < plan.problems.size(); p += 2) add(data_name(plan.problems[p].data), "-", "-", p, p + 1);
+    for (std::size_t p = 0; p + 1 < plan.problems.size(); p += 2)
+      add(data_name(plan.problems[p].data), "-", "-", p, p + 1);
   }
   result.tables.push_back(std::move(table));
-  result.findings.push_back(fmt::format("The model with offset force has the lower median in {} of {} cases (published: in all 10).", better, cases));
+  result.findings.push_back(fmt::format(
+      "The model with offset force has the lower median in {} of {} cases (published: in all 10).", better, cases));
   say_common(plan, result);
   return result;
 }
@@ -317,7 +343,11 @@ Study pso_table_viii(const ReproduceOptions& options) {
 
 Reproduction pso_table_viii_result(const Plan& plan, const std::vector<RunRecord>& records) {
   Reproduction result;
-  StudyTable obtained{"table-viii-obtained", "Obtained NRMSE", "Median over the seeds; current in A across, frequency down.", {"Hz"}, {}};
+  StudyTable obtained{"table-viii-obtained",
+                      "Obtained NRMSE",
+                      "Median over the seeds; current in A across, frequency down.",
+                      {"Hz"},
+                      {}};
   StudyTable published{"table-viii-published", "Published NRMSE", "", {"Hz"}, {}};
   for (int c = 0; c <= 10; ++c) {
     obtained.header.push_back(fmt::format("{:.1f} A", 0.1 * c));
@@ -333,7 +363,8 @@ Reproduction pso_table_viii_result(const Plan& plan, const std::vector<RunRecord
     std::vector<std::string> row_published = row;
     for (int c = 0; c <= 10; ++c) {
       const double current = 0.1 * c;
-      const double value = median_nrmse(plan, records, problem_index(plan, twin_problem(full_model, frequency, current)), 0);
+      const double value =
+          median_nrmse(plan, records, problem_index(plan, twin_problem(full_model, frequency, current)), 0);
       row.push_back(fmt::format("{:.4f}", value));
       row_published.push_back(fmt::format("{:.3f}", table_viii[f][c]));
       own.push_back(value);
@@ -348,16 +379,22 @@ Reproduction pso_table_viii_result(const Plan& plan, const std::vector<RunRecord
     published.rows.push_back(std::move(row_published));
   }
   result.tables = {published, obtained};
-  result.findings.push_back(fmt::format("Median over the 55 conditions: published {}, obtained {} (noise of the twin: 0.010).",
-                                        format_number(quantile(theirs, 0.5), 3), format_number(quantile(own, 0.5), 3)));
+  result.findings.push_back(
+      fmt::format("Median over the 55 conditions: published {}, obtained {} (noise of the twin: 0.010).",
+                  format_number(quantile(theirs, 0.5), 3), format_number(quantile(own, 0.5), 3)));
   result.findings.push_back(fmt::format(
-      "In the published table itself the accuracy is 100 (1 - NRMSE) within rounding except in {} of 55 cells: {}.", wrong, inconsistent));
+      "In the published table itself the accuracy is 100 (1 - NRMSE) within rounding except in {} of 55 cells: {}.",
+      wrong, inconsistent));
   say_common(plan, result);
   result.not_remade.push_back(
-      "The text calls the table the error of the model with polynomial parameters, but its cells equal those of table V, which are "
-      "fits of each condition alone; here each condition is identified alone. The twin is made of the polynomials, so that "
+      "The text calls the table the error of the model with polynomial parameters, but its cells equal those of table "
+      "V, which are "
+      "fits of each condition alone; here each condition is identified alone. The twin is made of the polynomials, so "
+      "that "
       "their own error on it is its noise.");
-  result.not_remade.push_back("Many published k0 are negative; the box of the model's card begins at zero, as k0 < 0 is unstable over longer records.");
+  result.not_remade.push_back(
+      "Many published k0 are negative; the box of the model's card begins at zero, as k0 < 0 is unstable over longer "
+      "records.");
   return result;
 }
 
@@ -374,19 +411,32 @@ constexpr std::size_t paper_count = std::size(paper_names);
 std::array<double, paper_count> paper_form(const json& p) {
   const double sum = 1.0 / p.at("x_y").get<double>();
   const double gamma = p.at("share").get<double>() * sum;
-  return {sum - gamma, gamma, p.at("alpha").get<double>() * sum / paper_alpha, p.at("k1").get<double>(),
-          p.at("k0").get<double>(), p.at("c0").get<double>(), p.at("c1").get<double>(), p.at("f0").get<double>()};
+  return {sum - gamma,
+          gamma,
+          p.at("alpha").get<double>() * sum / paper_alpha,
+          p.at("k1").get<double>(),
+          p.at("k0").get<double>(),
+          p.at("c0").get<double>(),
+          p.at("c1").get<double>(),
+          p.at("f0").get<double>()};
 }
 
 // Back again; empty when the polynomials left the range where the model means something.
 std::vector<Term> normal_terms(const Layout& layout, const std::array<double, paper_count>& v) {
   const double sum = v[0] + v[1];
   if (!(sum > 0.0) || !(v[2] > 0.0) || !(v[5] + v[6] > 0.0)) return {};
-  const std::map<std::string, double> values{{"alpha", paper_alpha * v[2] / sum}, {"x_y", 1.0 / sum}, {"share", v[1] / sum},
-                                             {"k1", v[3]}, {"k0", v[4]}, {"c0", v[5]}, {"c1", v[6]}, {"f0", v[7]}};
+  const std::map<std::string, double> values{{"alpha", paper_alpha * v[2] / sum},
+                                             {"x_y", 1.0 / sum},
+                                             {"share", v[1] / sum},
+                                             {"k1", v[3]},
+                                             {"k0", v[4]},
+                                             {"c0", v[5]},
+                                             {"c1", v[6]},
+                                             {"f0", v[7]}};
   std::vector<Term> terms;
   for (std::size_t k = 0; k < layout.names().size(); ++k) {
-    if (const auto found = values.find(layout.names()[k]); found != values.end()) terms.push_back({k, 0, 0, found->second});
+    if (const auto found = values.find(layout.names()[k]); found != values.end())
+      terms.push_back({k, 0, 0, found->second});
   }
   return terms;
 }
@@ -426,12 +476,13 @@ Reproduction pso_figure_9_result(const Plan& plan, const std::vector<RunRecord>&
     problems.push_back(p);
     direct.push_back(*run->nrmse);
   }
-  StudyTable table{"figure-9",
-                   "Polynomials of total order p in current and frequency through the parameters of 55 conditions",
-                   "Curve fitting error: RMS over the 8 parameters of RMS deviation / range. Force error: median NRMSE over the "
-                   "conditions that can be simulated with the polynomials' values.",
-                   {"order", "terms", "curve fitting error", "force NRMSE, median", "upper quartile", "not simulable"},
-                   {}};
+  StudyTable table{
+      "figure-9",
+      "Polynomials of total order p in current and frequency through the parameters of 55 conditions",
+      "Curve fitting error: RMS over the 8 parameters of RMS deviation / range. Force error: median NRMSE over the "
+      "conditions that can be simulated with the polynomials' values.",
+      {"order", "terms", "curve fitting error", "force NRMSE, median", "upper quartile", "not simulable"},
+      {}};
   std::vector<double> errors;
   for (int order = 1; order <= highest_order; ++order) {
     const auto n = static_cast<Eigen::Index>(values.size());
@@ -461,7 +512,8 @@ Reproduction pso_figure_9_result(const Plan& plan, const std::vector<RunRecord>&
       double value = std::numeric_limits<double>::infinity();
       if (!own.empty()) {
         const Recording& recording = problem.recordings.front();
-        const auto force = predict(problem.layout.model(), problem.layout.held(), own, make_target(recording, plan.study.objective));
+        const auto force =
+            predict(problem.layout.model(), problem.layout.held(), own, make_target(recording, plan.study.objective));
         value = score(force, recording, plan.study.objective.normalisation).nrmse;
       }
       if (std::isfinite(value) && value < 10.0) {
@@ -471,27 +523,36 @@ Reproduction pso_figure_9_result(const Plan& plan, const std::vector<RunRecord>&
       }
     }
     errors.push_back(nrmse.empty() ? std::numeric_limits<double>::infinity() : quantile(nrmse, 0.5));
-    table.rows.push_back({std::to_string(order), std::to_string(terms), format_number(std::sqrt(squares / paper_count), 3),
+    table.rows.push_back({std::to_string(order), std::to_string(terms),
+                          format_number(std::sqrt(squares / paper_count), 3),
                           nrmse.empty() ? "-" : format_number(errors.back(), 3),
                           nrmse.empty() ? "-" : format_number(quantile(nrmse, 0.75), 3), std::to_string(broken)});
   }
   result.tables.push_back(std::move(table));
   if (!direct.empty()) {
-    result.findings.push_back(fmt::format("Identified condition by condition, without polynomials: median NRMSE {}.", format_number(quantile(direct, 0.5), 3)));
+    result.findings.push_back(fmt::format("Identified condition by condition, without polynomials: median NRMSE {}.",
+                                          format_number(quantile(direct, 0.5), 3)));
   }
   result.findings.push_back(
-      "Published (figure without printed numbers): both errors fall with the order, computation time grows, third order was chosen.");
+      "Published (figure without printed numbers): both errors fall with the order, computation time grows, third "
+      "order was chosen.");
   if (errors.size() == highest_order) {
     result.findings.push_back(fmt::format("Obtained: force error {} from order 1 to 3 and {} from 3 to 5.",
-                                          errors[2] < errors[0] ? "falls" : "does not fall", errors[4] < errors[2] ? "falls further" : "does not fall further"));
+                                          errors[2] < errors[0] ? "falls" : "does not fall",
+                                          errors[4] < errors[2] ? "falls further" : "does not fall further"));
   }
   result.findings.push_back(
-      "The parameters of one sine each are not all determined by it (k0, c1 and the loop shape trade against each other), so that "
-      "polynomials through them fit badly even where every single fit is good. Identifying the polynomials' coefficients on "
+      "The parameters of one sine each are not all determined by it (k0, c1 and the loop shape trade against each "
+      "other), so that "
+      "polynomials through them fit badly even where every single fit is good. Identifying the polynomials' "
+      "coefficients on "
       "all recordings at once (`hysteron fit --by-current`) avoids it.");
-  result.not_remade.push_back("The figure prints no numbers, so that only its shape can be compared. Computation time depends on the machine and is not shown.");
+  result.not_remade.push_back(
+      "The figure prints no numbers, so that only its shape can be compared. Computation time depends on the machine "
+      "and is not shown.");
   say_common(plan, result, false);
-  result.not_remade.push_back("Each condition is identified by multistart-lm, not PSO: the figure asks about polynomials, not about solvers.");
+  result.not_remade.push_back(
+      "Each condition is identified by multistart-lm, not PSO: the figure asks about polynomials, not about solvers.");
   return result;
 }
 

@@ -31,8 +31,9 @@ std::string host_name() {
 double heldout_nrmse(const StudyProblem& problem, const std::vector<Term>& terms, const ObjectiveOptions& options) {
   std::vector<Score> scores;
   for (const Recording& recording : problem.heldout) {
-    scores.push_back(score(predict(problem.layout.model(), problem.layout.held(), terms, make_target(recording, options)),
-                           recording, options.normalisation));
+    scores.push_back(
+        score(predict(problem.layout.model(), problem.layout.held(), terms, make_target(recording, options)), recording,
+              options.normalisation));
   }
   return overall(scores, problem.heldout, options.normalisation, options.weighting);
 }
@@ -40,14 +41,16 @@ double heldout_nrmse(const StudyProblem& problem, const std::vector<Term>& terms
 // Objectives of the problems under way: made when the first run of a problem starts, dropped after its last.
 class Objectives {
  public:
-  Objectives(const Plan& plan, std::vector<std::size_t> uses) : plan_(plan), uses_(std::move(uses)), made_(uses_.size()) {}
+  Objectives(const Plan& plan, std::vector<std::size_t> uses)
+      : plan_(plan), uses_(std::move(uses)), made_(uses_.size()) {}
 
   std::shared_ptr<const Objective> take(std::size_t problem) {
     const std::lock_guard guard(mutex_);
     if (!made_[problem]) {
       ObjectiveOptions options = plan_.study.objective;
       options.threads = 1;
-      made_[problem] = std::make_shared<const Objective>(plan_.problems[problem].layout, plan_.problems[problem].recordings, options);
+      made_[problem] = std::make_shared<const Objective>(plan_.problems[problem].layout,
+                                                         plan_.problems[problem].recordings, options);
     }
     auto result = made_[problem];
     if (--uses_[problem] == 0) made_[problem].reset();
@@ -69,7 +72,8 @@ std::optional<RunRecord> do_run(const Plan& plan, const PlannedRun& run, const O
   const SolverEntry* entry = find_solver(plan.study.solvers[run.solver].id);
   if (entry == nullptr) throw InputError("unknown solver '" + plan.study.solvers[run.solver].id + "'");
   const RunResult result = run_solver(
-      *entry, solver_problem(problem, run, plan.study), [&](const Request& request) { return objective.evaluate(request); },
+      *entry, solver_problem(problem, run, plan.study),
+      [&](const Request& request) { return objective.evaluate(request); },
       [&](const RunResult&) { return !stop || !stop(); });
   if (result.stopped == "interrupted") return {};
   RunRecord record;
@@ -87,7 +91,8 @@ std::optional<RunRecord> do_run(const Plan& plan, const PlannedRun& run, const O
     record.best = result.best;
     const std::vector<Term> terms = problem.layout.terms(result.best);
     for (const Term& term : terms) {
-      parameters[term_name(problem.layout.names()[term.parameter], term.drive_power, term.frequency_power)] = term.value;
+      parameters[term_name(problem.layout.names()[term.parameter], term.drive_power, term.frequency_power)] =
+          term.value;
     }
     ObjectiveOptions options = plan.study.objective;
     options.threads = 1;

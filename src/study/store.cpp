@@ -78,8 +78,9 @@ Descriptor take_lock(const fs::path& folder) {
   if (descriptor < 0) throw WorkError(path.string() + ": cannot be opened: " + std::strerror(errno));
   Descriptor lock(descriptor);
   if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
-    throw WorkError(folder.string() +
-                    ": another process is writing this study; wait for it, or give another --out (and `hysteron merge`)");
+    throw WorkError(
+        folder.string() +
+        ": another process is writing this study; wait for it, or give another --out (and `hysteron merge`)");
   }
   return lock;
 }
@@ -116,8 +117,9 @@ struct Store::State {
   }
   [[noreturn]] void damaged(const std::string& what) const {
     throw InputError(name(), 0,
-                     "the store is damaged (" + what + "), expected the file as hysteron left it; restore it from a copy, "
-                     "or move it away and run the study again");
+                     "the store is damaged (" + what +
+                         "), expected the file as hysteron left it; restore it from a copy, "
+                         "or move it away and run the study again");
   }
   void check(int code) const {
     if (code != SQLITE_OK && code != SQLITE_DONE && code != SQLITE_ROW) fail(code);
@@ -164,8 +166,9 @@ class Statement {
   }
   [[nodiscard]] std::string text(int column) const {
     const auto* bytes = sqlite3_column_text(statement_, column);
-    return bytes == nullptr ? std::string{} : std::string(reinterpret_cast<const char*>(bytes),
-                                                          static_cast<std::size_t>(sqlite3_column_bytes(statement_, column)));
+    return bytes == nullptr ? std::string{}
+                            : std::string(reinterpret_cast<const char*>(bytes),
+                                          static_cast<std::size_t>(sqlite3_column_bytes(statement_, column)));
   }
   [[nodiscard]] std::int64_t whole(int column) const { return sqlite3_column_int64(statement_, column); }
   [[nodiscard]] double real(int column) const { return sqlite3_column_double(statement_, column); }
@@ -193,9 +196,10 @@ void verify(const State& state) {
     Statement<State> statement(state, "PRAGMA user_version");
     statement.step();
     if (statement.whole(0) != schema_version) {
-      throw InputError(state.name(), 0, "has schema " + std::to_string(statement.whole(0)) +
-                                            " of the store, which this version does not know, expected " +
-                                            std::to_string(schema_version));
+      throw InputError(state.name(), 0,
+                       "has schema " + std::to_string(statement.whole(0)) +
+                           " of the store, which this version does not know, expected " +
+                           std::to_string(schema_version));
     }
   }
   Statement<State> statement(state, "PRAGMA integrity_check(1)");
@@ -244,11 +248,13 @@ Store Store::open(const fs::path& folder, Mode mode) {
   std::error_code ignored;
   if (mode == Mode::read) {
     if (!fs::exists(state->path, ignored)) {
-      throw InputError(folder.string(), 0, "holds no study (store.sqlite), expected a folder written by `hysteron bench`");
+      throw InputError(folder.string(), 0,
+                       "holds no study (store.sqlite), expected a folder written by `hysteron bench`");
     }
     if (fs::file_size(state->path, ignored) == 0) state->damaged("the file is empty");
     // Without a log beside it the file is whole, and a folder that cannot be written needs no lock files.
-    const bool alone = !fs::exists(state->path.string() + "-wal", ignored) && !fs::exists(state->path.string() + "-journal", ignored);
+    const bool alone =
+        !fs::exists(state->path.string() + "-wal", ignored) && !fs::exists(state->path.string() + "-journal", ignored);
     const bool writable = ::access(folder.c_str(), W_OK) == 0 && ::access(state->path.c_str(), W_OK) == 0;
     if (alone && !writable) {
       std::string uri = "file:";
@@ -330,9 +336,16 @@ void Store::add(const RunRecord& record, const RunTiming& timing) {
   try {
     {
       Statement<State> statement(*state_, "INSERT OR IGNORE INTO runs VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
-      statement.bind(record.key).bind(record.config).bind(record.nrmse).bind(record.nrmse_tight).bind(record.nrmse_heldout);
+      statement.bind(record.key)
+          .bind(record.config)
+          .bind(record.nrmse)
+          .bind(record.nrmse_tight)
+          .bind(record.nrmse_heldout);
       statement.bind(static_cast<std::int64_t>(record.evaluations)).bind(static_cast<std::int64_t>(record.diverged));
-      statement.bind(record.stopped).bind(json(record.best).dump()).bind(record.parameters).bind(trace_text(record.trace));
+      statement.bind(record.stopped)
+          .bind(json(record.best).dump())
+          .bind(record.parameters)
+          .bind(trace_text(record.trace));
       statement.bind(sha256_hex(record_text(record))).step();
     }
     {
@@ -356,9 +369,10 @@ std::set<std::string> Store::keys() const {
 
 std::vector<RunRecord> Store::records() const {
   std::vector<RunRecord> result;
-  Statement<State> statement(*state_,
-                             "SELECT key, config, nrmse, nrmse_tight, nrmse_heldout, evaluations, diverged, stopped, best, "
-                             "parameters, trace, checksum FROM runs ORDER BY key");
+  Statement<State> statement(
+      *state_,
+      "SELECT key, config, nrmse, nrmse_tight, nrmse_heldout, evaluations, diverged, stopped, best, "
+      "parameters, trace, checksum FROM runs ORDER BY key");
   while (statement.step()) {
     RunRecord record;
     record.key = statement.text(0);

@@ -18,16 +18,16 @@ namespace hysteron {
 // What a finished run leaves: depends on its configuration only.
 struct RunRecord {
   std::string key;
-  std::string config;                  // canonical JSON whose sha256 is the key
-  std::optional<double> nrmse;         // absent when no candidate stayed finite
-  std::optional<double> nrmse_tight;   // the same point with a 256 times smaller integration tolerance
+  std::string config;                 // canonical JSON whose sha256 is the key
+  std::optional<double> nrmse;        // absent when no candidate stayed finite
+  std::optional<double> nrmse_tight;  // the same point with a 256 times smaller integration tolerance
   std::optional<double> nrmse_heldout;
   std::size_t evaluations = 0;
   std::size_t diverged = 0;
   std::string stopped;
-  std::vector<double> best;            // unit coordinates
-  std::string parameters;              // JSON object: term -> value in SI units
-  std::vector<TracePoint> trace;       // evaluations and best cost at every improvement
+  std::vector<double> best;       // unit coordinates
+  std::string parameters;         // JSON object: term -> value in SI units
+  std::vector<TracePoint> trace;  // evaluations and best cost at every improvement
 };
 
 // What it took, which is no result.
@@ -35,8 +35,8 @@ struct RunTiming {
   std::string key;
   double seconds = 0.0;
   std::string host;
-  int threads = 1;           // runs under way beside each other
-  std::int64_t finished = 0; // seconds since 1970
+  int threads = 1;            // runs under way beside each other
+  std::int64_t finished = 0;  // seconds since 1970
 };
 
 class Store {

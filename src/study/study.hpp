@@ -45,7 +45,7 @@ enum class StartPoint {
 };
 
 struct Study {
-  std::string file;   // as named by the user, for messages
+  std::string file;  // as named by the user, for messages
   std::string title;
   std::vector<ModelSpec> models;
   std::vector<DataSpec> data;

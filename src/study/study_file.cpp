@@ -59,10 +59,12 @@ class Parser {
     if (const auto* node = root.get("targets")) study.targets = numbers_of(*node, "targets", 1.0, 1e6);
     if (const auto* node = root.get("target_nrmse")) study.target_nrmse = numbers_of(*node, "target_nrmse", 1e-12, 1e6);
     if (const auto* node = root.get("tie")) study.tie = number_of(*node, "tie", 0.0, 0.5);
-    if (const auto* node = root.get("tolerance")) study.objective.tolerance = number_of(*node, "tolerance", 1e-10, 1e-2);
+    if (const auto* node = root.get("tolerance"))
+      study.objective.tolerance = number_of(*node, "tolerance", 1e-10, 1e-2);
     if (const auto* node = root.get("start")) {
       const std::string word = text_of(*node, "start");
-      if (word != "random" && word != "card") fail(*node, "unknown start " + in_quotes(word) + ", expected 'random' or 'card'");
+      if (word != "random" && word != "card")
+        fail(*node, "unknown start " + in_quotes(word) + ", expected 'random' or 'card'");
       study.start = word == "card" ? StartPoint::card : StartPoint::random;
     }
     if (const auto* node = root.get("normalisation")) {
@@ -98,7 +100,8 @@ class Parser {
     }
   }
 
-  void check_keys(const toml::table& table, std::initializer_list<std::string_view> known, const std::string& of) const {
+  void check_keys(const toml::table& table, std::initializer_list<std::string_view> known,
+                  const std::string& of) const {
     for (const auto& [key, node] : table) {
       if (std::ranges::find(known, key.str()) != known.end()) continue;
       std::vector<std::string> words;
@@ -107,8 +110,9 @@ class Parser {
         words.emplace_back(name);
         expected += (expected.empty() ? "" : ", ") + std::string(name);
       }
-      fail_at(static_cast<int>(key.source().begin.line),
-              "unknown key " + in_quotes(key.str()) + of + suggestion(key.str(), words) + ", expected one of " + expected);
+      fail_at(
+          static_cast<int>(key.source().begin.line),
+          "unknown key " + in_quotes(key.str()) + of + suggestion(key.str(), words) + ", expected one of " + expected);
     }
   }
 
@@ -180,7 +184,8 @@ class Parser {
     std::vector<std::size_t> result;
     const auto add = [&](const toml::node& one) {
       const auto value = static_cast<std::size_t>(whole_of(one, "budgets", 1, largest_budget));
-      if (std::ranges::find(result, value) != result.end()) fail(one, "budget " + std::to_string(value) + " is given twice");
+      if (std::ranges::find(result, value) != result.end())
+        fail(one, "budget " + std::to_string(value) + " is given twice");
       result.push_back(value);
     };
     if (node.is_integer()) {
@@ -201,8 +206,8 @@ class Parser {
     }
     std::set<std::uint64_t> seen;
     for (const auto& element : array_of(node, "seeds", "seeds = 31, which means 1 to 31, or seeds = [1, 2, 3]")) {
-      const auto seed = static_cast<std::uint64_t>(
-          whole_of(element, "seeds", 0, std::numeric_limits<std::int64_t>::max()));
+      const auto seed =
+          static_cast<std::uint64_t>(whole_of(element, "seeds", 0, std::numeric_limits<std::int64_t>::max()));
       if (!seen.insert(seed).second) fail(element, "seed " + std::to_string(seed) + " is given twice");
       result.push_back(seed);
     }
@@ -243,7 +248,8 @@ class Parser {
       for (const std::string& effect : spec.effects) spec.label += "+" + effect;
       if (const auto* label = table->get("label")) spec.label = text_of(*label, "label");
       if (const auto* orders = table->get("by_current")) spec.layout.by_current = orders_of(*orders, "by_current");
-      if (const auto* orders = table->get("by_frequency")) spec.layout.by_frequency = orders_of(*orders, "by_frequency");
+      if (const auto* orders = table->get("by_frequency"))
+        spec.layout.by_frequency = orders_of(*orders, "by_frequency");
       if (const auto* fix = table->get("fix")) {
         if (!fix->is_table()) fail(*fix, "'fix' is not a table, expected fix = { n = 1.0 }");
         for (const auto& [key, value] : *fix->as_table()) {
@@ -255,23 +261,27 @@ class Parser {
         for (const auto& [key, value] : *bounds->as_table()) {
           const auto* pair = value.as_array();
           if (pair == nullptr || pair->size() != 2) {
-            fail(value, "the bounds of '" + std::string(key.str()) + "' are not a pair, expected [LOWER, UPPER] in SI units");
+            fail(value,
+                 "the bounds of '" + std::string(key.str()) + "' are not a pair, expected [LOWER, UPPER] in SI units");
           }
           const double low = number_of(*pair->get(0), std::string(key.str()), -1e300, 1e300);
           const double high = number_of(*pair->get(1), std::string(key.str()), -1e300, 1e300);
-          if (!(low < high)) fail(value, "the bounds of '" + std::string(key.str()) + "' are empty, expected LOWER below UPPER");
+          if (!(low < high))
+            fail(value, "the bounds of '" + std::string(key.str()) + "' are empty, expected LOWER below UPPER");
           spec.layout.bounds[std::string(key.str())] = {low, high};
         }
       }
     }
     const auto models = ids_of(model_catalogue());
     if (std::ranges::find(models, spec.model) == models.end()) {
-      fail(node, "unknown model " + in_quotes(spec.model) + suggestion(spec.model, models) + ", see `hysteron list models`");
+      fail(node,
+           "unknown model " + in_quotes(spec.model) + suggestion(spec.model, models) + ", see `hysteron list models`");
     }
     const auto effects = ids_of(effect_catalogue());
     for (const std::string& effect : spec.effects) {
       if (std::ranges::find(effects, effect) == effects.end()) {
-        fail(node, "unknown effect " + in_quotes(effect) + suggestion(effect, effects) + ", see `hysteron list effects`");
+        fail(node,
+             "unknown effect " + in_quotes(effect) + suggestion(effect, effects) + ", see `hysteron list effects`");
       }
     }
     return spec;
@@ -333,7 +343,8 @@ class Parser {
                 if (const auto* value = table->get("label")) spec.label = text_of(*value, "label");
                 if (const auto* value = table->get("seed")) {
                   if (dataset == nullptr) fail(*value, "'seed' is the noise of a shipped dataset, not of recordings");
-                  spec.seed = static_cast<std::uint64_t>(whole_of(*value, "seed", 0, std::numeric_limits<std::int64_t>::max()));
+                  spec.seed =
+                      static_cast<std::uint64_t>(whole_of(*value, "seed", 0, std::numeric_limits<std::int64_t>::max()));
                 }
                 if (const auto* value = table->get("only")) spec.only = texts_of(*value, "only");
                 if (const auto* value = table->get("each")) {
@@ -374,12 +385,13 @@ class Parser {
       if (settings != nullptr) {
         for (const auto& [key, value] : *settings) {
           const std::string name(key.str());
-          const auto row = std::ranges::find(entry->settings, name, [](const Setting& one) { return std::string(one.name); });
+          const auto row =
+              std::ranges::find(entry->settings, name, [](const Setting& one) { return std::string(one.name); });
           if (row == entry->settings.end()) {
             std::vector<std::string> known;
             for (const Setting& one : entry->settings) known.emplace_back(one.name);
-            fail(value, "solver " + in_quotes(spec.id) + " has no setting " + in_quotes(name) + suggestion(name, known) +
-                            ", see `hysteron describe " + spec.id + "`");
+            fail(value, "solver " + in_quotes(spec.id) + " has no setting " + in_quotes(name) +
+                            suggestion(name, known) + ", see `hysteron describe " + spec.id + "`");
           }
           spec.settings[name] = number_of(value, name, row->lower, row->upper);
         }

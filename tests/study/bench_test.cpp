@@ -121,8 +121,10 @@ TEST_F(Bench, KilledAndResumedGivesTheSameBytes) {
 }
 
 TEST_F(Bench, InterruptKeepsFinishedRuns) {
-  folder.write("long.toml", "schema = \"hysteron.study/1\"\nmodels = [\"viscous\"]\nsolvers = [\"pso\"]\nbudgets = 200\nseeds = 3000\n"
-                            "[[data]]\ndataset = \"rd8040-twin\"\nonly = \"2.0Hz_1.0A\"\n");
+  folder.write(
+      "long.toml",
+      "schema = \"hysteron.study/1\"\nmodels = [\"viscous\"]\nsolvers = [\"pso\"]\nbudgets = 200\nseeds = 3000\n"
+      "[[data]]\ndataset = \"rd8040-twin\"\nonly = \"2.0Hz_1.0A\"\n");
   const pid_t child = start({"bench", "long.toml", "--out", "out", "--quiet"}, folder.path());
   // Until the store holds runs: its log grows with every one.
   for (int k = 0; k < 600; ++k) {
@@ -156,8 +158,8 @@ TEST_F(Bench, AGrownStudyDoesOnlyWhatIsNew) {
 TEST_F(Bench, ShardsMergeToTheWhole) {
   ASSERT_EQ(run({"bench", "study.toml", "--out", "whole", "--quiet"}, folder.path()).status, 0);
   for (const char* shard : {"1/3", "2/3", "3/3"}) {
-    const Outcome outcome =
-        run({"bench", "study.toml", "--out", std::string("part") + shard[0], "--shard", shard, "--quiet"}, folder.path());
+    const Outcome outcome = run(
+        {"bench", "study.toml", "--out", std::string("part") + shard[0], "--shard", shard, "--quiet"}, folder.path());
     ASSERT_EQ(outcome.status, 0) << outcome.err;
   }
   const Outcome merged = run({"merge", "part1", "part2", "part3", "--out", "merged"}, folder.path());
@@ -201,7 +203,8 @@ TEST_F(Bench, AFullDiskIsToldAndLosesNothing) {
   EXPECT_EQ(std::ranges::count(outcome.err, '\n'), 1) << outcome.err;
   const Outcome resumed = run({"bench", "study.toml", "--out", "full", "--quiet"}, folder.path());
   ASSERT_EQ(resumed.status, 0) << resumed.err;
-  EXPECT_EQ(resumed.out.find("60 runs done"), std::string::npos) << "nothing of the first call was kept: " << resumed.out;
+  EXPECT_EQ(resumed.out.find("60 runs done"), std::string::npos)
+      << "nothing of the first call was kept: " << resumed.out;
   EXPECT_EQ(report_bytes(folder.path(), "full"), report_bytes(folder.path(), "whole"));
 }
 

@@ -38,9 +38,7 @@ void fill(const fs::path& folder, int count) {
   for (int k = 0; k < count; ++k) store.add(record(k), {record(k).key, 0.1, "host", 2, 1});
 }
 
-std::string message(const std::function<void()>& work) {
-  return testing::message_of<InputError>(work);
-}
+std::string message(const std::function<void()>& work) { return testing::message_of<InputError>(work); }
 
 TEST(Store, GivesBackWhatItTook) {
   const TemporaryFolder folder;
@@ -72,8 +70,9 @@ TEST(Store, RefusesASecondWriterAndAllowsAReader) {
   const TemporaryFolder folder;
   fill(folder.path(), 1);
   const Store first = Store::open(folder.path(), Store::Mode::write);
-  EXPECT_NE(testing::message_of<WorkError>([&] { Store::open(folder.path(), Store::Mode::write); }).find("another process"),
-            std::string::npos);
+  EXPECT_NE(
+      testing::message_of<WorkError>([&] { Store::open(folder.path(), Store::Mode::write); }).find("another process"),
+      std::string::npos);
   EXPECT_EQ(Store::open(folder.path(), Store::Mode::read).records().size(), 1U);
 }
 
@@ -83,7 +82,8 @@ TEST(Store, FindsFlippedBytes) {
   fill(folder.path() / "whole", 40);
   const auto size = fs::file_size(folder.path() / "whole/store.sqlite");
   std::string expected;
-  for (const RunRecord& one : Store::open(folder.path() / "whole", Store::Mode::read).records()) expected += record_text(one);
+  for (const RunRecord& one : Store::open(folder.path() / "whole", Store::Mode::read).records())
+    expected += record_text(one);
   std::size_t refused = 0;
   for (std::uintmax_t at = 20; at < size; at += 512 + 37) {
     const fs::path copy = folder.path() / "copy";
@@ -130,8 +130,9 @@ TEST(Store, FindsChangedNumbers) {
   ASSERT_EQ(sqlite3_open((folder.path() / "store.sqlite").c_str(), &database), SQLITE_OK);
   ASSERT_EQ(sqlite3_exec(database, "UPDATE runs SET nrmse = 0.001", nullptr, nullptr, nullptr), SQLITE_OK);
   sqlite3_close(database);
-  EXPECT_NE(message([&] { static_cast<void>(Store::open(folder.path(), Store::Mode::read).records()); }).find("checksum"),
-            std::string::npos);
+  EXPECT_NE(
+      message([&] { static_cast<void>(Store::open(folder.path(), Store::Mode::read).records()); }).find("checksum"),
+      std::string::npos);
 }
 
 TEST(Store, RefusesForeignFilesAndOtherSchemas) {
@@ -143,8 +144,10 @@ TEST(Store, RefusesForeignFilesAndOtherSchemas) {
   ASSERT_EQ(sqlite3_open((folder.path() / "newer/store.sqlite").c_str(), &database), SQLITE_OK);
   ASSERT_EQ(sqlite3_exec(database, "PRAGMA user_version=99", nullptr, nullptr, nullptr), SQLITE_OK);
   sqlite3_close(database);
-  EXPECT_NE(message([&] { Store::open(folder.path() / "newer", Store::Mode::read); }).find("schema 99"), std::string::npos);
-  EXPECT_NE(message([&] { Store::open(folder.path() / "nothing", Store::Mode::read); }).find("holds no study"), std::string::npos);
+  EXPECT_NE(message([&] { Store::open(folder.path() / "newer", Store::Mode::read); }).find("schema 99"),
+            std::string::npos);
+  EXPECT_NE(message([&] { Store::open(folder.path() / "nothing", Store::Mode::read); }).find("holds no study"),
+            std::string::npos);
 }
 
 TEST(Store, ReadsFromAReadOnlyFolder) {
@@ -153,7 +156,8 @@ TEST(Store, ReadsFromAReadOnlyFolder) {
   chmod(folder.path().c_str(), 0555);
   EXPECT_EQ(Store::open(folder.path(), Store::Mode::read).records().size(), 2U);
   if (geteuid() != 0) {
-    EXPECT_NE(message([&] { Store::open(folder.path(), Store::Mode::write); }).find("cannot be written"), std::string::npos);
+    EXPECT_NE(message([&] { Store::open(folder.path(), Store::Mode::write); }).find("cannot be written"),
+              std::string::npos);
   }
   chmod(folder.path().c_str(), 0755);
 }
