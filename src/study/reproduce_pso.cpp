@@ -212,9 +212,14 @@ Reproduction pso_table_v_result(const Plan& plan, const std::vector<RunRecord>& 
         fmt::format("Over all {} pairs of (condition, seed) the median ratio PSO / GA is {} (Wilcoxon p = {}): {}",
                     pair.at("pairs").get<std::size_t>(), format_number(pair.at("median_ratio").get<double>(), 3),
                     p_text(pair.at("p").get<double>()),
-                    verdict == "a"   ? "the paper's claim that PSO is better holds here."
-                    : verdict == "b" ? "here GA is better: the paper's claim does not hold."
-                                     : "no difference is shown: the paper's claim is not confirmed."));
+                    verdict == "a"   ? "PSO is ahead, as the paper claims."
+                    : verdict == "b" ? "GA is ahead, against the paper's claim."
+                                     : "no difference is shown, and the paper's claim is not confirmed."));
+    if (on_twin(plan) && plan.study.budgets.front() < published_budget) {
+      result.findings.push_back(
+          "At this budget neither has converged (the twin's noise is 0.010): this says nothing of the published 10,000 "
+          "evaluations.");
+    }
   }
   say_common(plan, result);
   result.not_remade.push_back(
