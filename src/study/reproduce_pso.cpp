@@ -374,8 +374,9 @@ Reproduction pso_table_viii_result(const Plan& plan, const std::vector<RunRecord
       row_published.push_back(fmt::format("{:.3f}", table_viii[f][c]));
       own.push_back(value);
       theirs.push_back(table_viii[f][c]);
-      // Printed with three decimals of NRMSE, accuracy = 100 (1 - NRMSE) can differ by 0.05.
-      if (std::fabs(100.0 * (1.0 - table_viii[f][c]) - table_viii_accuracy[f][c]) > 0.06) {
+      // Rounded or cut to three decimals, an NRMSE leaves the accuracy open by 0.05 upwards and 0.1 downwards.
+      const double excess = table_viii_accuracy[f][c] - 100.0 * (1.0 - table_viii[f][c]);
+      if (excess > 0.051 || excess < -0.101) {
         ++wrong;
         inconsistent += (inconsistent.empty() ? "" : "; ") + shown(frequency, current);
       }
@@ -387,9 +388,10 @@ Reproduction pso_table_viii_result(const Plan& plan, const std::vector<RunRecord
   result.findings.push_back(
       fmt::format("Median over the 55 conditions: published {}, obtained {} (noise of the twin: 0.010).",
                   format_number(quantile(theirs, 0.5), 3), format_number(quantile(own, 0.5), 3)));
-  result.findings.push_back(fmt::format(
-      "In the published table itself the accuracy is 100 (1 - NRMSE) within rounding except in {} of 55 cells: {}.",
-      wrong, inconsistent));
+  result.findings.push_back(
+      fmt::format("In the published table itself the accuracy is 100 (1 - NRMSE) within rounding or cutting except in "
+                  "{} of 55 cells: {}.",
+                  wrong, inconsistent));
   say_common(plan, result);
   result.not_remade.push_back(
       "The text calls the table the error of the model with polynomial parameters, but its cells equal those of table "
@@ -408,6 +410,7 @@ Reproduction pso_table_viii_result(const Plan& plan, const std::vector<RunRecord
 namespace {
 
 constexpr double paper_alpha = 80.0;
+constexpr const char* offset_name = "offset-force.f0";
 constexpr int highest_order = 5;
 constexpr const char* paper_names[] = {"beta", "gamma", "A", "k1", "k0", "c0", "c1", "f0"};
 constexpr std::size_t paper_count = std::size(paper_names);
@@ -423,7 +426,7 @@ std::array<double, paper_count> paper_form(const json& p) {
           p.at("k0").get<double>(),
           p.at("c0").get<double>(),
           p.at("c1").get<double>(),
-          p.at("f0").get<double>()};
+          p.at(offset_name).get<double>()};
 }
 
 // Back again; empty when the polynomials left the range where the model means something.
@@ -437,7 +440,7 @@ std::vector<Term> normal_terms(const Layout& layout, const std::array<double, pa
                                              {"k0", v[4]},
                                              {"c0", v[5]},
                                              {"c1", v[6]},
-                                             {"f0", v[7]}};
+                                             {offset_name, v[7]}};
   std::vector<Term> terms;
   for (std::size_t k = 0; k < layout.names().size(); ++k) {
     if (const auto found = values.find(layout.names()[k]); found != values.end())
@@ -544,7 +547,7 @@ Reproduction pso_figure_9_result(const Plan& plan, const std::vector<RunRecord>&
   if (errors.size() == highest_order) {
     result.findings.push_back(fmt::format("Obtained: force error {} from order 1 to 3 and {} from 3 to 5.",
                                           errors[2] < errors[0] ? "falls" : "does not fall",
-                                          errors[4] < errors[2] ? "falls further" : "does not fall further"));
+                                          errors[4] < errors[2] ? "falls" : "does not fall"));
   }
   result.findings.push_back(
       "The parameters of one sine each are not all determined by it (k0, c1 and the loop shape trade against each "

@@ -37,7 +37,8 @@ TEST_P(Table, CanBeMade) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Table,
-                         ::testing::Values("table-v", "table-vi", "table-vii", "least-squares-table-2", "lm-table-1"),
+                         ::testing::Values("table-v", "table-vi", "table-vii", "table-viii", "figure-9",
+                                           "least-squares-table-2", "lm-table-1"),
                          [](const auto& row) {
                            std::string name = row.param;
                            std::ranges::replace(name, '-', '_');
