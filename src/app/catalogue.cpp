@@ -9,6 +9,7 @@
 #include "datasets/dataset.hpp"
 #include "presets/preset.hpp"
 #include "report/terminal.hpp"
+#include "study/reproduce.hpp"
 
 namespace hysteron::app {
 namespace {
@@ -37,6 +38,10 @@ std::vector<Row> rows_of(const std::string& kind) {
   } else if (kind == "datasets") {
     for (const DatasetEntry* entry : dataset_catalogue()) {
       add(entry->id, entry->title, entry->reference);
+    }
+  } else if (kind == "tables") {
+    for (const PublishedTable& table : published_tables()) {
+      add(table.id, table.title, table.source);
     }
   }
   return rows;

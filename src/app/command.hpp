@@ -76,5 +76,9 @@ void add_catalogue(CLI::App& program);
 void add_generate(CLI::App& program);
 void add_diagnose(CLI::App& program);
 void add_challenge(CLI::App& program);
+void add_bench(CLI::App& program);
+void add_report(CLI::App& program);
+void add_merge(CLI::App& program);
+void add_reproduce(CLI::App& program);
 
 }  // namespace hysteron::app

@@ -47,6 +47,10 @@ int main(int count, char** arguments) {
   app::add_generate(program);
   app::add_diagnose(program);
   app::add_challenge(program);
+  app::add_bench(program);
+  app::add_report(program);
+  app::add_merge(program);
+  app::add_reproduce(program);
   try {
     load_plugins(count, arguments);
     program.parse(count, arguments);

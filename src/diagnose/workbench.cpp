@@ -174,7 +174,7 @@ Fit Workbench::from_fit(const Hypothesis& what, const Fit& warm, int rounds) con
   std::vector<double> known = layout.initial();
   const std::vector<bool> fresh = take_over(warm, layout, known);
   std::vector<std::vector<double>> starts;
-  constexpr std::array<double, start_count> pushes = {0.03, -0.03, 0.15, -0.15, 0.4, -0.4, 0.08, -0.08};
+  constexpr std::array<double, start_count> pushes = {0.01, -0.02, 0.05, -0.1, 0.003, -0.005, 0.3, -0.3};
   constexpr std::array<std::size_t, 4> bases = {2, 3, 5, 7};
   for (std::size_t k = 0; k < start_count; ++k) {
     std::vector<double> start = known;

@@ -116,22 +116,32 @@ std::string html_escape(const std::string& text) {
   return escaped;
 }
 
-std::string fit_report_html(const nlohmann::json& report) {
-  nlohmann::json reduced = report;
-  shorten_samples(reduced);
+namespace {
+
+std::string page_of(const nlohmann::json& data, std::string_view script) {
   std::string title = "Hysteron report";
-  if (report.is_object() && report.contains("title") && report["title"].is_string()) {
-    title = report["title"].get<std::string>();
+  if (data.is_object() && data.contains("title") && data["title"].is_string()) {
+    title = data["title"].get<std::string>();
   }
   title = html_escape(title);
-  const std::string data = script_safe_json(reduced);
+  const std::string text = script_safe_json(data);
   return filled(web::report_html(), {{"title", title},
                                      {"uplot_css", web::uplot_css()},
                                      {"report_css", web::report_css()},
                                      {"uplot_license", web::uplot_license()},
                                      {"uplot_js", without_banner(web::uplot_js())},
-                                     {"report_js", web::report_js()},
-                                     {"data", data}});
+                                     {"report_js", script},
+                                     {"data", text}});
 }
+
+}  // namespace
+
+std::string fit_report_html(const nlohmann::json& report) {
+  nlohmann::json reduced = report;
+  shorten_samples(reduced);
+  return page_of(reduced, web::report_js());
+}
+
+std::string study_page_html(const nlohmann::json& page) { return page_of(page, web::study_js()); }
 
 }  // namespace hysteron

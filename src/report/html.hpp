@@ -11,6 +11,9 @@ namespace hysteron {
 // Members that the page does not know are kept in its data and otherwise ignored; missing ones leave their part out.
 std::string fit_report_html(const nlohmann::json& report);
 
+// The page of a study: `page` is what web/study.js draws.
+std::string study_page_html(const nlohmann::json& page);
+
 // JSON text that may stand inside a <script> element: no `<` is left, so no tag can end or open there.
 std::string script_safe_json(const nlohmann::json& value);
 

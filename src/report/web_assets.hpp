@@ -8,6 +8,7 @@ namespace hysteron::web {
 std::string_view report_html();
 std::string_view report_css();
 std::string_view report_js();
+std::string_view study_js();
 std::string_view uplot_js();
 std::string_view uplot_css();
 std::string_view uplot_license();

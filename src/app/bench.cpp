@@ -1,0 +1,99 @@
+// hysteron bench: runs a study, resuming what an interrupted call left.
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "app/command.hpp"
+#include "app/study_output.hpp"
+#include "core/error.hpp"
+#include "report/study.hpp"
+#include "study/study_file.hpp"
+
+namespace hysteron::app {
+namespace {
+
+struct Shard {
+  std::size_t index = 1;
+  std::size_t count = 1;
+};
+
+Shard parse_shard(const std::string& text) {
+  Shard shard;
+  const auto slash = text.find('/');
+  const auto digits = [](const std::string& word) {
+    return !word.empty() && word.size() < 7 && word.find_first_not_of("0123456789") == std::string::npos;
+  };
+  const std::string first = text.substr(0, slash);
+  const std::string second = slash == std::string::npos ? "" : text.substr(slash + 1);
+  if (digits(first) && digits(second)) {
+    shard.index = std::stoul(first);
+    shard.count = std::stoul(second);
+    if (shard.index >= 1 && shard.index <= shard.count) return shard;
+  }
+  throw InputError("--shard: '" + text + "' is wrong, expected I/N with 1 <= I <= N, e.g. 2/8");
+}
+
+}  // namespace
+
+void add_bench(CLI::App& program) {
+  struct Options {
+    std::string study;
+    std::string out;
+    std::string shard;
+    int threads = 0;
+    bool quiet = false;
+    bool dry = false;
+  };
+  auto options = std::make_shared<Options>();
+  CLI::App* command =
+      program.add_subcommand("bench", "runs a study: models x data x solvers x seeds; resumes an interrupted one");
+  command->add_option("STUDY", options->study, "study file (TOML), see docs/studies.md")->required();
+  command->add_option("--out", options->out, "folder of the records; an earlier call's is continued")->required();
+  command->add_option("--threads", options->threads, "runs beside each other; 0 takes OMP_NUM_THREADS or all cores")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  command->add_option("--shard", options->shard, "I/N: only the I-th of N parts of the runs, see `hysteron merge`");
+  command->add_flag("--dry-run", options->dry, "says what would be run and writes nothing");
+  command->add_flag("--quiet", options->quiet, "no progress on standard error");
+  command->footer(
+      "Examples:\n"
+      "  hysteron bench bench/studies/quick.toml --out out\n"
+      "  hysteron bench study.toml --out part2 --shard 2/8\n"
+      "Ctrl-C keeps the finished runs; the same command continues.");
+  command->callback([options] {
+    RunOptions run;
+    run.threads = options->threads;
+    if (!options->shard.empty()) {
+      const Shard shard = parse_shard(options->shard);
+      run.shard_index = shard.index;
+      run.shard_count = shard.count;
+    }
+    const Plan plan = make_plan(read_study_file(options->study), HYSTERON_VERSION);
+    if (options->dry) {
+      std::size_t own = 0;
+      double evaluations = 0.0;
+      for (const PlannedRun& one : plan.runs) {
+        if (!in_shard(one.key, run.shard_index, run.shard_count)) continue;
+        ++own;
+        evaluations += static_cast<double>(one.budget);
+      }
+      fmt::print("{} runs of {}, at most {:.0f} evaluations; {} problems, {} solvers, {} budgets, {} seeds\n", own,
+                 plan.runs.size(), evaluations, plan.problems.size(), plan.study.solvers.size(),
+                 plan.study.budgets.size(), plan.study.seeds.size());
+      return;
+    }
+    Store store = Store::open(options->out, Store::Mode::write);
+    const RunProgress progress = run_with_progress(plan, store, run, options->quiet);
+    const std::size_t there = progress.found + progress.done;
+    if (there < progress.planned) {
+      fmt::print(stderr, "interrupted: {} of {} runs are kept in {}; the same command continues\n", there,
+                 progress.planned, options->out);
+      return;
+    }
+    fmt::print("{} runs done, {} found in {}\n\n", progress.done, progress.found, options->out);
+    const StudyView view = view_of(store, options->out);
+    fmt::print("{}\nThe whole report: hysteron report {}\n", study_terminal(view.analysis, view.times), options->out);
+  });
+}
+
+}  // namespace hysteron::app

@@ -1,0 +1,137 @@
+// hysteron reproduce: published tables made again, beside the published numbers.
+#include "study/reproduce.hpp"
+
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "app/command.hpp"
+#include "app/study_output.hpp"
+#include "core/error.hpp"
+#include "core/suggest.hpp"
+#include "io/output.hpp"
+#include "report/markdown.hpp"
+#include "report/terminal.hpp"
+
+namespace hysteron::app {
+namespace {
+
+using nlohmann::json;
+
+struct Options {
+  std::string table;
+  std::string out;
+  std::size_t seeds = 0;
+  std::size_t budget = 0;
+  std::vector<std::string> data;
+  int threads = 0;
+  bool quiet = false;
+  bool json = false;
+};
+
+std::string list(const std::string& title, const std::vector<std::string>& lines) {
+  std::string text = lines.empty() ? "" : "\n" + title + "\n\n";
+  for (const std::string& line : lines) text += "- " + line + "\n";
+  return text;
+}
+
+json reproduction_json(const PublishedTable& entry, const Reproduction& result, const ReproduceOptions& used) {
+  json tables = json::array();
+  for (const StudyTable& one : result.tables) {
+    tables.push_back(
+        {{"id", one.id}, {"title", one.title}, {"note", one.note}, {"header", one.header}, {"rows", one.rows}});
+  }
+  return {{"schema", "hysteron.reproduction/1"},
+          {"table", entry.id},
+          {"title", entry.title},
+          {"source", entry.source},
+          {"seeds", used.seeds},
+          {"budget", used.budget},
+          {"tables", tables},
+          {"findings", result.findings},
+          {"remade", result.remade},
+          {"not_remade", result.not_remade},
+          {"provenance", {{"program", "hysteron " HYSTERON_VERSION}, {"command", command_line()}}}};
+}
+
+std::string reproduction_markdown(const PublishedTable& entry, const Reproduction& result,
+                                  const ReproduceOptions& used) {
+  std::string text = fmt::format("# {}: {}\n\nSource: {}.\nMade by `{}` ({} seeds, {} evaluations a run).\n", entry.id,
+                                 entry.title, entry.source, command_line(), used.seeds, used.budget);
+  text += list("## What the numbers say", result.findings);
+  for (const StudyTable& one : result.tables) {
+    text += "\n## " + one.title + "\n\n" + (one.note.empty() ? "" : one.note + "\n\n") +
+            markdown_table(one.header, one.rows);
+  }
+  text += list("## As published", result.remade);
+  text += list("## Not as published", result.not_remade);
+  return text;
+}
+
+void run(const Options& options) {
+  const PublishedTable* entry = find_published_table(options.table);
+  if (entry == nullptr) {
+    std::vector<std::string> known;
+    for (const PublishedTable& table : published_tables()) known.emplace_back(table.id);
+    throw InputError("unknown table '" + options.table + "'" + suggestion(options.table, known) +
+                     ", see `hysteron list tables`");
+  }
+  if (!options.data.empty() && !entry->takes_data) {
+    throw InputError("--data: " + options.table +
+                     " is tied to its own recordings, expected it with table-v, table-vi or table-vii");
+  }
+  ReproduceOptions used{options.seeds > 0 ? options.seeds : entry->seeds,
+                        options.budget > 0 ? options.budget : entry->budget, options.data};
+  const Plan plan = make_plan(entry->study(used), HYSTERON_VERSION);
+  const std::filesystem::path out(options.out);
+  Store store = options.out.empty() ? Store::memory() : Store::open(out, Store::Mode::write);
+  RunOptions how;
+  how.threads = options.threads;
+  const RunProgress progress = run_with_progress(plan, store, how, options.quiet);
+  if (progress.found + progress.done < progress.planned) {
+    fmt::print(stderr, "interrupted: {} of {} runs done{}\n", progress.found + progress.done, progress.planned,
+               options.out.empty() ? "; with --out DIR they would be kept" : " are kept in " + options.out);
+    return;
+  }
+  const Reproduction result = entry->result(plan, store.records());
+  if (!options.out.empty()) {
+    const StudyView view = view_of(store, out);
+    write_study_report(store, out, view, false, false);
+    write_file_atomically(out / (options.table + ".md"), reproduction_markdown(*entry, result, used));
+    write_file_atomically(out / (options.table + ".json"), json_text(reproduction_json(*entry, result, used)));
+  }
+  if (options.json) {
+    fmt::print("{}", json_text(reproduction_json(*entry, result, used)));
+    return;
+  }
+  fmt::print("{}\n{}\n{} seeds, {} evaluations a run\n\n", entry->title, entry->source, used.seeds, used.budget);
+  for (const StudyTable& one : result.tables) fmt::print("{}\n{}\n", one.title, table(one.header, one.rows));
+  for (const std::string& line : result.findings) fmt::print("{}\n", line);
+  fmt::print("{}{}", list("As published:", result.remade), list("Not as published:", result.not_remade));
+}
+
+}  // namespace
+
+void add_reproduce(CLI::App& program) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command =
+      program.add_subcommand("reproduce", "makes a published table again, beside the published numbers");
+  command->add_option("TABLE", options->table, "an id of `hysteron list tables`")->required();
+  command->add_option("--seeds", options->seeds, "repeats of every run, default the table's")
+      ->check(CLI::Range(1, 100000));
+  command->add_option("--budget", options->budget, "evaluations of a run, default the table's")
+      ->check(CLI::Range(10, 1000000000));
+  command->add_option("--data", options->data, "recordings instead of the stand-in: table-v, table-vi, table-vii")
+      ->allow_extra_args();
+  command->add_option("--out", options->out, "folder for records, report and table; an interrupted call is continued");
+  command->add_option("--threads", options->threads, "runs beside each other; 0 takes OMP_NUM_THREADS or all cores")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  command->add_flag("--quiet", options->quiet, "no progress on standard error");
+  command->add_flag("--json", options->json, "JSON on standard output");
+  command->footer(
+      "Examples:\n  hysteron reproduce table-v\n  hysteron reproduce table-v --data recordings --seeds 31 --out real");
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace hysteron::app

@@ -1,0 +1,75 @@
+#include "app/study_output.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+
+#include "app/command.hpp"
+#include "core/error.hpp"
+#include "io/output.hpp"
+#include "report/study.hpp"
+#include "report/terminal.hpp"
+#include "study/analysis.hpp"
+#include "study/export.hpp"
+
+namespace hysteron::app {
+
+using nlohmann::json;
+
+RunProgress run_with_progress(const Plan& plan, Store& store, const RunOptions& options, bool quiet) {
+  for (const StudyProblem& problem : plan.problems) store.add_problem(problem.hash, problem.config);
+  store.set_plan(plan_json(plan).dump());
+  ProgressLine line(quiet);
+  const auto begun = std::chrono::steady_clock::now();
+  double best = diverged_cost;
+  line.show(plan.study.title, 0.0, fmt::format("{} runs", plan.runs.size()));
+  const RunProgress progress = run_plan(plan, store, options, interrupted, [&](const RunProgress& now) {
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+    const std::size_t todo = now.planned - now.found;
+    if (now.nrmse) best = std::min(best, *now.nrmse);
+    line.show(plan.study.title, static_cast<double>(now.done) / static_cast<double>(todo),
+              fmt::format("{} of {} runs{}, {:.1f} runs/s, best NRMSE {}, last {}", now.found + now.done, now.planned,
+                          now.found > 0 ? fmt::format(" ({} found)", now.found) : "",
+                          static_cast<double>(now.done) / std::max(seconds, 1e-9),
+                          best < diverged_cost ? format_number(best, 4) : "-", now.last));
+  });
+  line.finish();
+  return progress;
+}
+
+StudyView view_of(const Store& store, const std::filesystem::path& folder) {
+  const auto text = store.plan();
+  if (!text)
+    throw InputError(folder.string(), 0, "the store holds no plan yet, expected a study begun with `hysteron bench`");
+  StudyView view;
+  view.plan = json::parse(*text);
+  const std::vector<RunRecord> records = store.records();
+  view.analysis = analyse(view.plan, records);
+  view.times = analyse_times(view.plan, records, store.timings());
+  return view;
+}
+
+void write_study_report(const Store& store, const std::filesystem::path& folder, const StudyView& view, bool times,
+                        bool ioh) {
+  make_output_folder(folder);
+  const std::vector<RunRecord> records = store.records();
+  const json shown = times ? view.times : json(nullptr);
+  write_file_atomically(folder / "analysis.json", json_text(view.analysis));
+  write_file_atomically(folder / "report.html", study_html(view.analysis, shown));
+  write_file_atomically(folder / "report.md", study_markdown(view.analysis, shown));
+  write_file_atomically(folder / "tables.tex", study_latex(view.analysis, shown));
+  write_file_atomically(folder / "runs.csv", runs_csv(view.plan, records));
+  write_file_atomically(folder / "traces.csv", traces_csv(view.plan, records));
+  write_file_atomically(folder / "parameters.csv", parameters_csv(view.plan, records));
+  write_file_atomically(folder / "columns.csv", data_dictionary_csv());
+  write_file_atomically(folder / "environment.json", json_text(view.times));
+  if (ioh) {
+    for (const auto& [name, content] : ioh_files(view.plan, records)) {
+      const std::filesystem::path path = folder / "ioh" / name;
+      make_output_folder(path.parent_path());
+      write_file_atomically(path, content);
+    }
+  }
+}
+
+}  // namespace hysteron::app

@@ -1,0 +1,267 @@
+#include "report/study.hpp"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "report/html.hpp"
+#include "report/latex.hpp"
+#include "report/markdown.hpp"
+#include "report/terminal.hpp"
+
+namespace hysteron {
+namespace {
+
+using nlohmann::json;
+
+constexpr int digits = 4;
+
+std::string shown(const json& value, int significant = digits) {
+  return value.is_number() ? format_number(value.get<double>(), significant) : std::string("-");
+}
+std::string p_value(const json& value) {
+  if (!value.is_number()) return "-";
+  const double p = value.get<double>();
+  return p < 1e-4 ? "< 0.0001" : format_number(p, 2);
+}
+std::string percent(double share) { return fmt::format("{:.1f} %", 100.0 * share); }
+std::string whole(const json& value) { return std::to_string(value.get<std::size_t>()); }
+
+class Names {
+ public:
+  explicit Names(const json& analysis) : analysis_(analysis) {}
+  [[nodiscard]] std::string solver(const json& index) const {
+    return analysis_.at("solvers").at(index.get<std::size_t>()).at("label");
+  }
+  [[nodiscard]] std::string problem(const json& index) const {
+    return analysis_.at("problems").at(index.get<std::size_t>()).at("label");
+  }
+
+ private:
+  const json& analysis_;
+};
+
+std::string joined(const json& words) {
+  std::string text;
+  for (const json& word : words) text += (text.empty() ? "" : ", ") + word.get<std::string>();
+  return text;
+}
+
+std::string verdict_of(const json& row, const Names& names) {
+  const std::string verdict = row.at("verdict");
+  return verdict == "tie" ? "tie" : names.solver(row.at(verdict)) + " better";
+}
+
+StudyTable ranking_table(const json& analysis, const Names& names) {
+  const json& ranking = analysis.at("ranking");
+  StudyTable table{"ranking", "Ranking", {}, {"place", "solver", "mean rank", "share best", "ties with"}, {}};
+  if (ranking.at("rows").empty()) {
+    table.note = "No seed has been finished by every solver yet.";
+    return table;
+  }
+  table.note = fmt::format(
+      "Mean rank over {} pairs of (problem, seed) on {} problems, at {} evaluations; costs within {} of each other "
+      "tie. "
+      "Friedman's test: chi-squared {} with {} degrees of freedom, p {}. Solvers whose mean ranks differ by less than "
+      "the "
+      "critical difference {} (Nemenyi, 5 %) tie: the place is one more than the number of solvers that are better. "
+      "The "
+      "test speaks of these problems, not of others.",
+      whole(ranking.at("blocks")), whole(ranking.at("problems")), analysis.at("budgets").back().get<std::size_t>(),
+      percent(analysis.at("tie").get<double>()), shown(ranking.at("chi_squared"), 3), whole(ranking.at("degrees")),
+      p_value(ranking.at("p")), shown(ranking.at("critical_difference"), 3));
+  for (const json& row : ranking.at("rows")) {
+    table.rows.push_back({whole(row.at("place")), names.solver(row.at("solver")),
+                          fmt::format("{:.2f}", row.at("mean_rank").get<double>()),
+                          percent(row.at("share_best").get<double>()),
+                          row.at("ties_with").empty() ? "none" : joined(row.at("ties_with"))});
+  }
+  return table;
+}
+
+StudyTable fixed_budget_table(const json& analysis, const Names& names) {
+  StudyTable table{"fixed-budget",
+                   "Fixed budget: NRMSE reached",
+                   "Quartiles over the seeds, normalised by " + analysis.at("normalisation").get<std::string>() +
+                       ". Diverged: share of evaluations whose simulation did not stay finite.",
+                   {"problem", "budget", "solver", "runs", "best", "lower quartile", "median", "upper quartile",
+                    "worst", "diverged"},
+                   {}};
+  bool heldout = false;
+  for (const json& row : analysis.at("fixed_budget")) heldout = heldout || !row.at("heldout_median").is_null();
+  if (heldout) table.header.emplace_back("held-out median");
+  for (const json& row : analysis.at("fixed_budget")) {
+    table.rows.push_back({names.problem(row.at("problem")), whole(row.at("budget")), names.solver(row.at("solver")),
+                          whole(row.at("runs")), shown(row.at("best")), shown(row.at("q1")), shown(row.at("median")),
+                          shown(row.at("q3")), shown(row.at("worst")),
+                          percent(row.at("diverged_share").get<double>())});
+    if (heldout) table.rows.back().push_back(shown(row.at("heldout_median")));
+  }
+  return table;
+}
+
+StudyTable fixed_target_table(const json& analysis, const Names& names) {
+  StudyTable table{
+      "fixed-target",
+      "Fixed target: success and expected run time",
+      "Success with its 95 % Wilson interval; ERT: evaluations of all runs over successes, with a 95 % bootstrap "
+      "interval over the runs. Without a success only a lower bound is known: the evaluations spent.",
+      {"problem", "target", "NRMSE", "solver", "success", "of runs", "95 % interval", "ERT", "95 % interval of ERT"},
+      {}};
+  for (const json& row : analysis.at("fixed_target")) {
+    const bool reached = !row.at("ert").is_null();
+    table.rows.push_back({names.problem(row.at("problem")), row.at("target"), shown(row.at("nrmse")),
+                          names.solver(row.at("solver")), whole(row.at("successes")), whole(row.at("runs")),
+                          fmt::format("{:.0f}-{:.0f} %", 100.0 * row.at("success_low").get<double>(),
+                                      100.0 * row.at("success_high").get<double>()),
+                          reached ? fmt::format("{:.0f}", row.at("ert").get<double>())
+                                  : fmt::format("> {:.0f}", row.at("spent").get<double>()),
+                          !reached ? "-"
+                                   : fmt::format("{:.0f}-{}", row.at("ert_low").get<double>(),
+                                                 row.at("ert_high").is_null()
+                                                     ? "inf"
+                                                     : fmt::format("{:.0f}", row.at("ert_high").get<double>()))});
+  }
+  return table;
+}
+
+StudyTable pair_table(const json& analysis, const Names& names, const std::string& member) {
+  const bool by_problem = member == "problem_pairs";
+  StudyTable table{
+      by_problem ? "pairs-by-problem" : "pairs",
+      by_problem ? "Paired tests by problem" : "Paired tests over all problems",
+      "Wilcoxon's signed-rank test of log(NRMSE a / NRMSE b) over pairs with the same seed, two-sided; ties are "
+      "dropped and counted; p after Holm's correction over this table. A median ratio below 1: a is better.",
+      {"a", "b", "pairs", "ties", "a better", "median ratio a/b", "p", "p Holm", "verdict"},
+      {}};
+  if (by_problem) {
+    table.header.insert(table.header.begin(), "problem");
+    table.note += " With more than four solvers each is tested against the one with the lowest median only.";
+  }
+  for (const json& row : analysis.at(member)) {
+    std::vector<std::string> cells{names.solver(row.at("a")), names.solver(row.at("b")), whole(row.at("pairs")),
+                                   whole(row.at("ties")),     whole(row.at("a_better")), shown(row.at("median_ratio")),
+                                   p_value(row.at("p")),      p_value(row.at("p_holm")), verdict_of(row, names)};
+    if (by_problem) cells.insert(cells.begin(), names.problem(row.at("problem")));
+    table.rows.push_back(std::move(cells));
+  }
+  return table;
+}
+
+StudyTable problem_table(const json& analysis) {
+  StudyTable table{"problems",
+                   "Problems and best known values",
+                   "Best NRMSE of any run of this study, with the key of the run that found it.",
+                   {"problem", "dimension", "recordings", "samples", "best NRMSE", "by", "run"},
+                   {}};
+  for (const json& row : analysis.at("problems")) {
+    const json& best = row.at("best");
+    table.rows.push_back({row.at("label"), whole(row.at("dimension")), std::to_string(row.at("recordings").size()),
+                          whole(row.at("samples")), best.is_null() ? "-" : shown(best.at("nrmse"), 6),
+                          best.is_null() ? "-" : best.at("solver").get<std::string>(),
+                          best.is_null() ? "-" : best.at("key").get<std::string>().substr(0, 12)});
+  }
+  return table;
+}
+
+StudyTable time_table(const json& times, const Names& names) {
+  StudyTable table{"times",
+                   "Wall time beside evaluations",
+                   "Of one run on one thread, as measured; it varies with machine and load and is no result.",
+                   {"problem", "solver", "runs", "median [s]", "total [s]", "per evaluation [us]"},
+                   {}};
+  for (const json& row : times.at("rows")) {
+    table.rows.push_back({names.problem(row.at("problem")), names.solver(row.at("solver")), whole(row.at("runs")),
+                          shown(row.at("seconds_median"), 3), shown(row.at("seconds_total"), 3),
+                          shown(row.at("microseconds_per_evaluation"), 3)});
+  }
+  return table;
+}
+
+std::string state_of(const json& analysis) {
+  return fmt::format("{} of {} runs: {} problems, {} solvers, {} seeds", whole(analysis.at("done")),
+                     whole(analysis.at("planned")), analysis.at("problems").size(), analysis.at("solvers").size(),
+                     analysis.at("seeds").size());
+}
+
+}  // namespace
+
+std::vector<StudyTable> study_tables(const json& analysis, const json& times) {
+  const Names names(analysis);
+  std::vector<StudyTable> tables{ranking_table(analysis, names), fixed_budget_table(analysis, names),
+                                 fixed_target_table(analysis, names), pair_table(analysis, names, "pairs")};
+  if (analysis.at("problems").size() > 1) tables.push_back(pair_table(analysis, names, "problem_pairs"));
+  tables.push_back(problem_table(analysis));
+  if (!times.is_null()) tables.push_back(time_table(times, names));
+  return tables;
+}
+
+std::string study_verdict(const json& analysis) {
+  const json& ranking = analysis.at("ranking");
+  const Names names(analysis);
+  if (ranking.at("rows").empty()) return "No seed has been finished by every solver yet: nothing can be compared.";
+  if (ranking.at("rows").size() == 1) return "One solver only: nothing to compare.";
+  if (!ranking.at("different").get<bool>()) {
+    return fmt::format("No difference between the {} solvers was shown (Friedman p = {}): they tie.",
+                       ranking.at("rows").size(), p_value(ranking.at("p")));
+  }
+  std::string first;
+  std::size_t count = 0;
+  for (const json& row : ranking.at("rows")) {
+    if (row.at("place").get<std::size_t>() != 1) continue;
+    first += (first.empty() ? "" : ", ") + names.solver(row.at("solver"));
+    ++count;
+  }
+  return first + (count > 1 ? " share the first place" : " leads alone") +
+         fmt::format(" at {} evaluations, over {} problems.", analysis.at("budgets").back().get<std::size_t>(),
+                     whole(ranking.at("problems")));
+}
+
+std::string study_terminal(const json& analysis, const json& times) {
+  std::string text = analysis.at("title").get<std::string>() + "\n" + state_of(analysis) + "\n\n";
+  for (const StudyTable& one : study_tables(analysis, times)) {
+    if (one.id == "fixed-target" || one.id == "pairs-by-problem" || one.id == "problems") continue;
+    if (one.rows.empty()) continue;
+    text += one.title + "\n" + table(one.header, one.rows) + "\n";
+  }
+  for (const json& warning : analysis.at("warnings")) text += "warning: " + warning.get<std::string>() + "\n";
+  return text + study_verdict(analysis) + "\n";
+}
+
+std::string study_markdown(const json& analysis, const json& times) {
+  std::string text = "# " + analysis.at("title").get<std::string>() + "\n\n" + study_verdict(analysis) + "\n\n" +
+                     state_of(analysis) + ".\n";
+  for (const json& warning : analysis.at("warnings")) text += "\n> " + warning.get<std::string>() + "\n";
+  for (const StudyTable& one : study_tables(analysis, times)) {
+    text += "\n## " + one.title + "\n\n" + one.note + "\n";
+    if (!one.rows.empty()) text += "\n" + markdown_table(one.header, one.rows);
+  }
+  return text + "\nEvery number comes from runs listed in `runs.csv`, each named by the sha256 of its configuration.\n";
+}
+
+std::string study_latex(const json& analysis, const json& times) {
+  std::string text = "% Tables of a study of hysteron; needs \\usepackage{booktabs}.\n";
+  for (const StudyTable& one : study_tables(analysis, times)) {
+    if (one.rows.empty()) continue;
+    text += "\n" + latex_table(one.title + ". " + one.note, "tab:" + one.id, one.header, one.rows);
+  }
+  return text;
+}
+
+std::string study_html(const json& analysis, const json& times) {
+  json page = analysis;
+  page["verdict"] = study_verdict(analysis);
+  page["state"] = state_of(analysis);
+  page["tables"] = json::array();
+  for (const StudyTable& one : study_tables(analysis, times)) {
+    page["tables"].push_back({{"id", one.id},
+                              {"title", one.title},
+                              {"note", one.note},
+                              {"header", one.header},
+                              {"numeric", numeric_columns(one.header, one.rows)},
+                              {"rows", one.rows}});
+  }
+  return study_page_html(page);
+}
+
+}  // namespace hysteron

@@ -1,0 +1,97 @@
+#include "study/reproduce.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <map>
+
+#include "report/terminal.hpp"
+#include "study/quantile.hpp"
+
+namespace hysteron {
+namespace {
+
+constexpr std::string_view pso_paper =
+    "Parametric estimation from empirical data using particle swarm optimization for different magnetorheological "
+    "damper "
+    "models, IEEE Access, 2021";
+constexpr std::string_view least_squares_paper =
+    "Bouc-Wen identification of an MR damper by non-linear least squares, 2023";
+constexpr std::string_view lm_paper =
+    "Long and short stroke MR dampers (RD-8040-1, RD-8041-1), Bouc-Wen identified by Levenberg-Marquardt";
+
+constexpr PublishedTable tables[] = {
+    {"table-v", "PSO against GA: NRMSE of the modified Bouc-Wen model with offset force", pso_paper, 5, 2000, true,
+     &reproduce::pso_table_v, &reproduce::pso_table_v_result},
+    {"table-vi", "NRMSE of five models identified by PSO", pso_paper, 5, 2000, true, &reproduce::pso_table_vi,
+     &reproduce::pso_table_vi_result},
+    {"table-vii", "Modified Bouc-Wen with and without offset force", pso_paper, 3, 2000, true,
+     &reproduce::pso_table_vii, &reproduce::pso_table_vii_result},
+    {"table-viii", "NRMSE over 55 conditions of current and frequency", pso_paper, 1, 1500, false,
+     &reproduce::pso_table_viii, &reproduce::pso_table_viii_result},
+    {"figure-9", "Order of the parameter polynomials against error", pso_paper, 1, 1000, false,
+     &reproduce::pso_figure_9, &reproduce::pso_figure_9_result},
+    {"least-squares-table-2", "Bouc-Wen parameters at five currents, round trip", least_squares_paper, 3, 4000, false,
+     &reproduce::least_squares_table_2, &reproduce::least_squares_table_2_result},
+    {"lm-table-1", "Bouc-Wen parameters of two dampers with voltage, round trip", lm_paper, 3, 4000, false,
+     &reproduce::lm_table_1, &reproduce::lm_table_1_result},
+};
+
+std::vector<double> costs(const Plan& plan, const std::vector<RunRecord>& records, std::size_t problem,
+                          std::size_t solver) {
+  std::map<std::string, const RunRecord*> by_key;
+  for (const RunRecord& record : records) by_key[record.key] = &record;
+  std::vector<double> result;
+  for (const PlannedRun& run : plan.runs) {
+    if (run.problem != problem || run.solver != solver) continue;
+    const auto found = by_key.find(run.key);
+    if (found != by_key.end()) result.push_back(found->second->nrmse.value_or(std::numeric_limits<double>::infinity()));
+  }
+  return result;
+}
+
+}  // namespace
+
+std::span<const PublishedTable> published_tables() { return tables; }
+
+const PublishedTable* find_published_table(std::string_view id) {
+  const auto found = std::ranges::find_if(tables, [&](const PublishedTable& table) { return table.id == id; });
+  return found == std::end(tables) ? nullptr : found;
+}
+
+namespace reproduce {
+
+std::string spread(const Plan& plan, const std::vector<RunRecord>& records, std::size_t problem, std::size_t solver) {
+  const std::vector<double> own = costs(plan, records, problem, solver);
+  if (own.empty()) return "-";
+  const Quartiles q = quartiles(own);
+  const std::string middle = format_number(q.median, 3);
+  return own.size() == 1 ? middle : middle + " [" + format_number(q.lower, 3) + ", " + format_number(q.upper, 3) + "]";
+}
+
+double median_nrmse(const Plan& plan, const std::vector<RunRecord>& records, std::size_t problem, std::size_t solver) {
+  const std::vector<double> own = costs(plan, records, problem, solver);
+  return own.empty() ? std::numeric_limits<double>::infinity() : quantile(own, 0.5);
+}
+
+const RunRecord* best_run(const Plan& plan, const std::vector<RunRecord>& records, std::size_t problem) {
+  std::map<std::string, const RunRecord*> by_key;
+  for (const RunRecord& record : records) by_key[record.key] = &record;
+  const RunRecord* best = nullptr;
+  for (const PlannedRun& run : plan.runs) {
+    if (run.problem != problem) continue;
+    const auto found = by_key.find(run.key);
+    if (found == by_key.end() || !found->second->nrmse) continue;
+    if (best == nullptr || *found->second->nrmse < *best->nrmse) best = found->second;
+  }
+  return best;
+}
+
+std::size_t problem_index(const Plan& plan, const std::string& label) {
+  for (std::size_t p = 0; p < plan.problems.size(); ++p) {
+    if (plan.problems[p].label == label) return p;
+  }
+  return plan.problems.size();
+}
+
+}  // namespace reproduce
+}  // namespace hysteron

@@ -1,0 +1,41 @@
+// Doing the runs of a plan that a store does not hold yet.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "study/plan.hpp"
+#include "study/store.hpp"
+
+namespace hysteron {
+
+struct RunOptions {
+  int threads = 0;  // runs beside each other, one thread each; 0: OpenMP's default
+  std::size_t shard_index = 1;
+  std::size_t shard_count = 1;
+};
+
+struct RunProgress {
+  std::size_t planned = 0;  // of this call: its shard
+  std::size_t found = 0;    // in the store before
+  std::size_t done = 0;     // by this call
+  std::string last;         // label of the run that finished last
+  std::optional<double> nrmse;
+};
+
+// Called from one thread at a time, after every run.
+using RunObserver = std::function<void(const RunProgress&)>;
+
+// One run from its configuration; absent when `stop` said so before the end.
+[[nodiscard]] std::optional<RunRecord> do_run(const Plan& plan, const PlannedRun& run, const Objective& objective,
+                                              const std::function<bool()>& stop);
+
+// All runs missing in the store, in parallel; each is stored as soon as it ends, by one writer at a time. Ends early
+// when `stop` turns true; runs under way are then dropped and done again by the next call. The first failure of the
+// store stops the rest and is thrown. Results do not depend on the number of threads.
+RunProgress run_plan(const Plan& plan, Store& store, const RunOptions& options, const std::function<bool()>& stop,
+                     const RunObserver& observer);
+
+}  // namespace hysteron

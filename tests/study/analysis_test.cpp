@@ -1,0 +1,129 @@
+// The analysis of a study of three solvers whose costs are set by hand.
+#include "study/analysis.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "report/study.hpp"
+
+namespace hysteron {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::size_t seeds = 10;
+
+// Solver a ends at 0.1 after 50 evaluations, b within the tie of it after 80, c at twice that, on one problem.
+struct Made {
+  json plan;
+  std::vector<RunRecord> records;
+};
+
+Made make() {
+  Made made;
+  made.plan = {{"title", "by hand"}, {"normalisation", "max-abs"}, {"weighting", "per-recording"},  {"tolerance", 1e-4},
+               {"start", "random"},  {"targets", {1.01, 3.0}},     {"target_nrmse", json::array()}, {"tie", 1e-3},
+               {"budgets", {100}}};
+  for (std::size_t k = 1; k <= seeds; ++k) made.plan["seeds"].push_back(k);
+  for (const char* label : {"a", "b", "c"})
+    made.plan["solvers"].push_back({{"label", label}, {"id", label}, {"settings", json::object()}});
+  made.plan["problems"].push_back({{"label", "m @ d"},
+                                   {"model", "m"},
+                                   {"data", "d"},
+                                   {"hash", "h"},
+                                   {"dimension", 4},
+                                   {"samples", 10},
+                                   {"recordings", json::array({json{{"file", "f"}, {"sha256", "s"}}})},
+                                   {"heldout", json::array()}});
+  for (std::size_t k = 1; k <= seeds; ++k) {
+    for (std::size_t s = 0; s < 3; ++s) {
+      RunRecord record;
+      record.key = std::to_string(k) + "-" + std::to_string(s);
+      const double final_cost = s == 2 ? 0.2 : 0.1 * (1.0 + 1e-4 * static_cast<double>(s));
+      record.nrmse = final_cost;
+      record.evaluations = 100;
+      record.parameters = "{}";
+      record.stopped = "budget";
+      record.trace = {{1, 1.0}, {s == 0 ? 50U : 80U, final_cost}};
+      made.records.push_back(record);
+      made.plan["runs"].push_back({{"key", record.key}, {"problem", 0}, {"solver", s}, {"budget", 100}, {"seed", k}});
+    }
+  }
+  return made;
+}
+
+TEST(Analysis, CallsATieATie) {
+  const Made made = make();
+  const json analysis = analyse(made.plan, made.records);
+  const json& rows = analysis.at("ranking").at("rows");
+  EXPECT_EQ(rows[0].at("mean_rank"), 1.5);
+  EXPECT_EQ(rows[1].at("mean_rank"), 1.5);
+  EXPECT_EQ(rows[2].at("mean_rank"), 3.0);
+  EXPECT_EQ(rows[0].at("place"), 1);
+  EXPECT_EQ(rows[1].at("place"), 1);
+  EXPECT_EQ(rows[2].at("place"), 3);
+  // Ranks 1.5, 1.5, 3 in ten blocks: sums 15, 15, 30 about 20; sum of squared ranks 135 - 120 = 15; 2 * 150 / 15 = 20.
+  EXPECT_DOUBLE_EQ(analysis.at("ranking").at("chi_squared"), 20.0);
+  EXPECT_NEAR(analysis.at("ranking").at("p").get<double>(), std::exp(-10.0), 1e-15);
+  EXPECT_EQ(study_verdict(analysis).find("a, b share the first place"), 0U);
+}
+
+TEST(Analysis, PairsAreTestedAndCorrected) {
+  const Made made = make();
+  const json pairs = analyse(made.plan, made.records).at("pairs");
+  ASSERT_EQ(pairs.size(), 3U);
+  EXPECT_EQ(pairs[0].at("ties"), seeds);
+  EXPECT_EQ(pairs[0].at("verdict"), "tie");
+  // Ten equal signs: 2 / 1024, times 3 by Holm.
+  EXPECT_DOUBLE_EQ(pairs[1].at("p"), 2.0 / 1024.0);
+  EXPECT_DOUBLE_EQ(pairs[1].at("p_holm"), 6.0 / 1024.0);
+  EXPECT_EQ(pairs[1].at("verdict"), "a");
+  EXPECT_NEAR(pairs[1].at("median_ratio").get<double>(), 0.5, 1e-12);
+}
+
+TEST(Analysis, TargetsCountEvaluations) {
+  const Made made = make();
+  const json rows = analyse(made.plan, made.records).at("fixed_target");
+  ASSERT_EQ(rows.size(), 6U);
+  EXPECT_DOUBLE_EQ(rows[0].at("ert"), 50.0);
+  EXPECT_DOUBLE_EQ(rows[1].at("ert"), 80.0);
+  EXPECT_TRUE(rows[2].at("ert").is_null());
+  EXPECT_DOUBLE_EQ(rows[2].at("spent"), 1000.0);
+  EXPECT_EQ(rows[2].at("successes"), 0);
+  EXPECT_DOUBLE_EQ(rows[5].at("ert"), 80.0);
+  const json ecdf = analyse(made.plan, made.records).at("ecdf");
+  EXPECT_DOUBLE_EQ(ecdf.at("share")[0].back(), 1.0);
+  EXPECT_LT(ecdf.at("share")[2].back(), 1.0);
+}
+
+TEST(Analysis, MissingAndFailedRunsAreSaid) {
+  Made made = make();
+  made.records.pop_back();
+  made.records.front().nrmse.reset();
+  made.records.front().trace.clear();
+  const json analysis = analyse(made.plan, made.records);
+  EXPECT_EQ(analysis.at("done"), 29);
+  EXPECT_EQ(analysis.at("ranking").at("blocks"), 9);
+  const std::string warnings = analysis.at("warnings").dump();
+  EXPECT_NE(warnings.find("1 of 30 runs are missing"), std::string::npos) << warnings;
+  EXPECT_NE(warnings.find("1 runs found no candidate"), std::string::npos) << warnings;
+  // Every form of the report can be written of it.
+  for (const std::string& text :
+       {study_terminal(analysis, nullptr), study_markdown(analysis, nullptr), study_latex(analysis, nullptr)}) {
+    EXPECT_EQ(text.find("nan"), std::string::npos);
+  }
+  EXPECT_NE(study_html(analysis, nullptr).find("<html"), std::string::npos);
+}
+
+TEST(Analysis, AnEmptyStudyIsNoError) {
+  const Made made = make();
+  const json analysis = analyse(made.plan, {});
+  EXPECT_EQ(analysis.at("done"), 0);
+  EXPECT_FALSE(study_terminal(analysis, nullptr).empty());
+  EXPECT_FALSE(study_html(analysis, nullptr).empty());
+}
+
+}  // namespace
+}  // namespace hysteron

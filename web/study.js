@@ -1,0 +1,306 @@
+// Draws the page of a study from its embedded data. Every number shown was computed by hysteron; this script only sets
+// numbers and curves on the page. Text from the data reaches the page as text nodes or through esc(), never as HTML.
+(function () {
+"use strict";
+
+const root = document.documentElement;
+const study = JSON.parse(document.getElementById("report-data").textContent);
+const solvers = study.solvers.map((s) => s.label);
+const problems = study.problems.map((p) => p.label);
+
+const isNumber = (v) => typeof v === "number" && Number.isFinite(v);
+const esc = (text) => String(text).replace(/[&<>"']/g, (c) => `&#${c.charCodeAt(0)};`);
+const css = (name) => getComputedStyle(root).getPropertyValue(name).trim();
+
+function superscript(n) {
+  return String(n).replace(/[-\d]/g, (c) => (c === "-" ? "⁻" : "⁰¹²³⁴⁵⁶⁷⁸⁹"[Number(c)]));
+}
+
+function fmt(v, digits = 4) {
+  if (!isNumber(v)) return "–";
+  if (v === 0) return "0";
+  const [mantissa, exponent] = v.toExponential(digits - 1).split("e");
+  const e = Number(exponent);
+  return e >= -4 && e < 6 ? v.toFixed(Math.max(0, digits - 1 - e)) : `${mantissa} × 10${superscript(e)}`;
+}
+
+function el(tag, attributes, ...children) {
+  const node = document.createElement(tag);
+  for (const [name, value] of Object.entries(attributes || {})) {
+    if (value === null || value === undefined || value === false) continue;
+    if (name.startsWith("on")) node.addEventListener(name.slice(2), value);
+    else node.setAttribute(name, value === true ? "" : value);
+  }
+  for (const child of children.flat()) {
+    if (child !== null && child !== undefined && child !== "") node.append(child);
+  }
+  return node;
+}
+
+function section(id, title, ...children) {
+  return el("section", { id, "aria-labelledby": `${id}-title` }, el("h2", { id: `${id}-title` }, title), ...children);
+}
+
+function picker(label, words, change) {
+  const select = el("select", { onchange: () => change(select.selectedIndex) }, words.map((w) => el("option", {}, w)));
+  return el("label", { class: "interactive" }, label, select);
+}
+
+// ------------------------------------------------------------------------------------------------------------- colours
+
+// Seven colours, then the same ones dashed: no two of the first 28 solvers look alike.
+const dashes = [null, [7, 3], [2, 3], [9, 3, 2, 3]];
+const color = (s) => css(`--s${s % 7}`);
+const dash = (s) => dashes[Math.floor(s / 7) % dashes.length];
+
+function faded(text, alpha) {
+  const value = text.replace("#", "");
+  const [r, g, b] = [0, 2, 4].map((k) => parseInt(value.slice(k, k + 2), 16));
+  return `rgba(${r},${g},${b},${alpha})`;
+}
+
+// --------------------------------------------------------------------------------------------------------------- plots
+
+const redraw = [];  // every plot again: other colours, other width
+
+// options: title, x and y {label, log, range}, grid, series [{name, solver, y, band}], step, points
+function plot(host, options) {
+  const font = "12px system-ui, -apple-system, 'Segoe UI', Roboto, 'Liberation Sans', Arial, sans-serif";
+  const axis = (label, side, log) => ({
+    label, font, labelFont: font, labelSize: 20, gap: 4, stroke: css("--ink"), size: side === 3 ? 58 : 32, space: side === 3 ? 30 : 60,
+    grid: { stroke: css("--grid"), width: 1 }, ticks: { stroke: css("--line"), width: 1, size: 4 },
+    values: (u, splits) => splits.map((v) => (v === null ? "" : log ? (v >= 1e4 || v < 1e-3 ? Number(v.toPrecision(2)).toExponential().replace(/e\+?(-?\d+)/, (m, e) => (m && `·10${superscript(e)}`)).replace(/^1·/, "") : String(Number(v.toPrecision(3)))) : String(Number(v.toPrecision(6))))),
+  });
+  const series = [{ label: options.x.short || options.x.label }];
+  const data = [options.grid];
+  const bands = [];
+  for (const s of options.series) {
+    const stroke = color(s.solver);
+    series.push({
+      label: s.name, stroke, width: 1.8, dash: dash(s.solver) || undefined, spanGaps: false,
+      points: options.points ? { show: true, size: 5, stroke, fill: stroke } : { show: false },
+      paths: options.step ? uPlot.paths.stepped({ align: 1 }) : undefined,
+      value: (u, v) => (v === null || v === undefined ? "–" : fmt(v, options.digits || 3)),
+    });
+    data.push(s.y);
+    if (s.band) {
+      const at = series.length;
+      for (const edge of s.band) {
+        series.push({ label: `${s.name} quartile`, stroke: "transparent", width: 1, points: { show: false } });
+        data.push(edge);
+      }
+      bands.push({ series: [at, at + 1], fill: faded(stroke, 0.14) });
+    }
+  }
+  let u = null;
+  function build() {
+    if (u) u.destroy();
+    host.replaceChildren();
+    const width = Math.max(280, host.clientWidth);
+    u = new uPlot({
+      width, height: Math.round(Math.min(options.height || 340, Math.max(240, width * 0.6))),
+      scales: { x: { time: false, distr: options.x.log ? 3 : 1, range: options.x.range || [options.grid[0], options.grid[options.grid.length - 1]] }, y: { distr: options.y.log ? 3 : 1, range: options.y.range } },
+      axes: [axis(options.x.label, 2, options.x.log), axis(options.y.label, 3, options.y.log)],
+      series, bands, cursor: { points: { size: 6 } }, legend: { live: true },
+      hooks: {
+        init: [(self) => {
+          // Edges of bands are no curves of their own: out of the legend.
+          const rows = self.root.querySelectorAll(".u-legend .u-series");
+          self.series.forEach((s, k) => { if (k && s.stroke && s.label.endsWith(" quartile") && rows[k]) rows[k].style.display = "none"; });
+        }],
+      },
+    }, data, host);
+  }
+  build();
+  redraw.push(build);
+  return { destroy: () => { if (u) u.destroy(); const at = redraw.indexOf(build); if (at >= 0) redraw.splice(at, 1); } };
+}
+
+function figure(caption, note) {
+  const host = el("div", { class: "host", role: "img", "aria-label": caption });
+  return { host, node: el("figure", { class: "plot" }, el("figcaption", {}, el("span", {}, caption)), host, note ? el("p", { class: "muted" }, note) : "") };
+}
+
+// A figure that is drawn again for every problem chosen.
+function byProblem(caption, note, draw) {
+  const f = figure(caption, note);
+  let current = null;
+  return { node: f.node, show: (p) => { if (current) current.destroy(); current = draw(f.host, p); } };
+}
+
+const decades = (values) => {
+  const positive = values.flat().filter((v) => isNumber(v) && v > 0);
+  if (!positive.length) return [0.1, 1];
+  const low = Math.min(...positive), high = Math.max(...positive);
+  return [low / 1.1, Math.max(high * 1.1, low * 1.5)];
+};
+
+// ------------------------------------------------------------------------------------- critical difference diagram
+
+function criticalDifference() {
+  const rows = study.ranking.rows;
+  if (rows.length < 2) return null;
+  const k = rows.length;
+  const width = 900, left = 230, right = 230, top = 54, step = 19;
+  const half = Math.ceil(k / 2);
+  const bars = study.ranking.cliques;
+  const barTop = top + 14;
+  const textTop = barTop + bars.length * 9 + 18;
+  const height = textTop + half * step + 8;
+  const px = (rank) => left + ((rank - 1) / (k - 1)) * (width - left - right);
+  const out = [`<svg viewBox="0 0 ${width} ${height}" role="img" aria-label="Mean ranks; solvers joined by a bar are not told apart">`];
+  out.push(`<path class="frame" d="M${px(1)} ${top}H${px(k)}"/>`);
+  for (let r = 1; r <= k; ++r) {
+    out.push(`<path class="frame" d="M${px(r)} ${top - 5}V${top}"/><text class="tick" x="${px(r)}" y="${top - 9}" text-anchor="middle">${r}</text>`);
+  }
+  const cd = study.ranking.critical_difference;
+  if (cd > 0 && cd < k - 1) {
+    out.push(`<path d="M${px(1)} 20H${px(1 + cd)}M${px(1)} 16V24M${px(1 + cd)} 16V24" style="stroke:var(--ink);fill:none;stroke-width:1.5"/>`);
+    out.push(`<text x="${px(1 + cd) + 6}" y="24">critical difference ${esc(fmt(cd, 3))}</text>`);
+  }
+  bars.forEach(([a, b], i) => {
+    const y = barTop + i * 9;
+    out.push(`<path d="M${px(rows[a].mean_rank) - 4} ${y}H${px(rows[b].mean_rank) + 4}" style="stroke:var(--ink);stroke-width:4.5;fill:none;stroke-linecap:round"/>`);
+  });
+  rows.forEach((row, i) => {
+    const onLeft = i < half;
+    const y = textTop + (onLeft ? i : k - 1 - i) * step;
+    const x = px(row.mean_rank);
+    const end = onLeft ? left - 24 : width - right + 24;
+    out.push(`<path d="M${x} ${top}V${y}H${end}" style="stroke:${color(row.solver)};fill:none;stroke-width:1.3"/>`);
+    out.push(`<text x="${onLeft ? end - 6 : end + 6}" y="${y}" dy="0.35em" text-anchor="${onLeft ? "end" : "start"}">${esc(solvers[row.solver])} (${row.mean_rank.toFixed(2)})</text>`);
+  });
+  out.push("</svg>");
+  const holder = document.createElement("div");
+  holder.innerHTML = out.join("");
+  return el("figure", { class: "plot wide" }, el("figcaption", {}, el("span", {}, "Mean ranks, best on the left; a bar joins solvers that are not told apart")), holder);
+}
+
+// -------------------------------------------------------------------------------------------------------------- tables
+
+const tableOf = (id) => study.tables.find((t) => t.id === id);
+
+// filter: column whose words the reader can choose from
+function shownTable(id, filter) {
+  const t = tableOf(id);
+  if (!t || !t.rows.length) return t ? el("div", {}, el("h3", {}, t.title), el("p", { class: "muted" }, t.note)) : null;
+  const body = el("tbody", {});
+  const fill = (word) => body.replaceChildren(...t.rows.filter((r) => !word || r[filter] === word).map((cells) =>
+    el("tr", {}, cells.map((cell, i) => el("td", { class: t.numeric[i] ? "num" : null }, cell)))));
+  fill();
+  const words = filter === undefined ? [] : [...new Set(t.rows.map((r) => r[filter]))];
+  return el("div", { id: `table-${id}` }, el("h3", {}, t.title), el("p", { class: "muted" }, t.note),
+    words.length > 1 ? el("div", { class: "controls" }, picker(t.header[filter], ["all", ...words], (k) => fill(k ? words[k - 1] : ""))) : "",
+    el("div", { class: `scroll${t.rows.length > 20 ? " tall" : ""}`, tabindex: 0, role: "region", "aria-label": t.title },
+      el("table", {}, el("thead", {}, el("tr", {}, t.header.map((h, i) => el("th", { scope: "col", class: t.numeric[i] ? "num" : null }, h)))), body)));
+}
+
+// ---------------------------------------------------------------------------------------------------------- the page
+
+function progress() {
+  const grid = study.convergence.evaluations;
+  const bands = byProblem("Convergence: median and quartiles of the best NRMSE so far", "", (host, p) => {
+    const rows = study.convergence.rows.filter((r) => r.problem === p);
+    return plot(host, {
+      grid, x: { label: "evaluations", log: true }, y: { label: "NRMSE", log: true, range: decades(rows.flatMap((r) => [r.q1, r.q3])) },
+      series: rows.map((r) => ({ name: solvers[r.solver], solver: r.solver, y: r.median, band: [r.q3, r.q1] })),
+    });
+  });
+  const starts = byProblem("Waterfall: final NRMSE of every start, sorted", "A flat step is an optimum found again and again.", (host, p) => {
+    const rows = study.waterfall.filter((r) => r.problem === p && r.nrmse.length);
+    const most = Math.max(1, ...rows.map((r) => r.nrmse.length));
+    return plot(host, {
+      grid: Array.from({ length: most }, (_, k) => k + 1), points: true,
+      x: { label: "start, best first", range: [0.5, most + 0.5] }, y: { label: "NRMSE", log: true, range: decades(rows.map((r) => r.nrmse)) },
+      series: rows.map((r) => ({ name: solvers[r.solver], solver: r.solver, y: Array.from({ length: most }, (_, k) => r.nrmse[k] ?? null) })),
+    });
+  });
+  const show = (p) => { bands.show(p); starts.show(p); };
+  return {
+    node: section("progress", "Every problem", el("div", { class: "controls" }, problems.length > 1 ? picker("Problem", problems, show) : el("strong", {}, problems[0])),
+      el("div", { class: "plots" }, bands.node, starts.node)),
+    draw: () => show(0),
+  };
+}
+
+function profiles() {
+  const parts = [
+    ["Targets reached", `Share of (problem, seed, target) reached; ${study.ecdf.targets} targets from ${study.ecdf.closest} to ${study.ecdf.farthest} above the best known NRMSE, relative to it.`,
+      study.ecdf.evaluations, { label: "evaluations", log: true }, study.ecdf.share],
+    ["Performance profile", `Share of ${study.profiles.performance_cases} (problem, target) pairs whose expected run time is within a factor of the best solver's. Relative to the solvers present.`,
+      study.profiles.ratios, { label: "factor to the best", log: true }, study.profiles.performance],
+    ["Data profile", `Share of ${study.profiles.data_cases} (problem, seed) solved to ${study.profiles.data_target || "the first target"} within a number of (dimension + 1) evaluations.`,
+      study.profiles.simplex_gradients, { label: "evaluations / (dimension + 1)", log: true }, study.profiles.data],
+  ];
+  const figures = parts.map(([caption, note]) => figure(caption, note));
+  return {
+    node: section("profiles", "Over all problems", el("div", { class: "plots" }, figures.map((f) => f.node))),
+    draw: () => parts.forEach(([, , grid, x, shares], k) => plot(figures[k].host, {
+      grid, x, y: { label: "share", range: [-0.02, 1.02] }, step: true,
+      series: shares.map((y, s) => ({ name: solvers[s], solver: s, y })),
+    })),
+  };
+}
+
+function runsSection() {
+  const chosen = { problem: -1, solver: -1, budget: -1 };
+  const limit = 500;
+  const body = el("tbody", {});
+  const count = el("span", { class: "muted" });
+  const fill = () => {
+    const rows = study.runs.filter((r) => (chosen.problem < 0 || r[1] === chosen.problem) && (chosen.solver < 0 || r[2] === chosen.solver) &&
+      (chosen.budget < 0 || r[3] === study.budgets[chosen.budget]));
+    count.textContent = rows.length > limit ? `the first ${limit} of ${rows.length}; all are in runs.csv` : `${rows.length} runs`;
+    body.replaceChildren(...rows.slice(0, limit).map((r) => el("tr", {}, el("td", { class: "mono", title: r[0] }, r[0].slice(0, 12)), el("td", {}, problems[r[1]]), el("td", {}, solvers[r[2]]),
+      el("td", { class: "num" }, String(r[3])), el("td", { class: "num" }, String(r[4])), el("td", { class: "num" }, fmt(r[5], 6)), el("td", { class: "num" }, String(r[6])), el("td", {}, r[7]))));
+  };
+  const pick = (name, label, words) => picker(label, ["all", ...words], (k) => { chosen[name] = k - 1; fill(); });
+  fill();
+  return section("runs", "Runs", el("p", { class: "muted" }, "Every number above comes from these runs. A key is the sha256 of the whole configuration: data, model, box, solver, settings, budget, seed, version."),
+    el("div", { class: "controls" }, pick("problem", "Problem", problems), pick("solver", "Solver", solvers), pick("budget", "Budget", study.budgets.map(String)), count),
+    el("div", { class: "scroll tall", tabindex: 0, role: "region", "aria-label": "Runs" }, el("table", {}, el("thead", {}, el("tr", {},
+      ["key", "problem", "solver", "budget", "seed", "NRMSE", "evaluations", "stopped"].map((h, i) => el("th", { scope: "col", class: i > 2 && i < 7 ? "num" : null }, h)))), body)));
+}
+
+function methodSection() {
+  const facts = [
+    ["Cost", `NRMSE, normalised by ${study.normalisation}, weighting ${study.weighting}, integration tolerance ${study.tolerance}`],
+    ["Budgets", `${study.budgets.join(", ")} evaluations; a point with derivatives costs 1 + dimension. Rankings, targets and profiles are those of the largest.`],
+    ["Seeds", study.seeds.length > 12 ? `${study.seeds[0]} to ${study.seeds[study.seeds.length - 1]} (${study.seeds.length})` : study.seeds.join(", ")],
+    ["Start", study.start === "card" ? "the model's default values, in every run" : "one random point a seed, the same for every solver"],
+    ["Tie", `costs within ${fmt(100 * study.tie, 3)} % count as equal`],
+    ...study.solvers.map((s) => [s.label, `${s.id}${Object.keys(s.settings).length ? `: ${Object.entries(s.settings).map(([k, v]) => `${k} = ${v}`).join(", ")}` : ", default settings"}`]),
+  ];
+  return section("method", "Method", el("dl", { class: "facts" }, facts.flatMap(([t, d]) => [el("dt", {}, t), el("dd", {}, d)])));
+}
+
+const parts = { progress: progress(), profiles: profiles() };
+const sections = [
+  section("answer", "Ranking", criticalDifference(), shownTable("ranking")),
+  parts.progress.node,
+  parts.profiles.node,
+  section("tables", "Tables", shownTable("fixed-budget", 0), shownTable("fixed-target", 0), shownTable("pairs"), shownTable("pairs-by-problem", 0), shownTable("problems"), shownTable("times", 0)),
+  runsSection(),
+  methodSection(),
+];
+const titles = { answer: "Ranking", progress: "Every problem", profiles: "Profiles", tables: "Tables", runs: "Runs", method: "Method" };
+const tile = (label, value, note) => el("div", { class: "tile" }, el("dt", {}, label), el("dd", {}, el("div", { class: "value" }, value), note ? el("div", { class: "note" }, note) : ""));
+document.getElementById("content").replaceChildren(
+  el("header", {}, el("h1", {}, study.title), el("p", { class: "subtitle" }, study.state), el("p", { class: "verdict" }, study.verdict),
+    el("dl", { class: "tiles" }, tile("Runs", `${study.done} of ${study.planned}`), tile("Problems", String(problems.length)), tile("Solvers", String(solvers.length)),
+      tile("Seeds", String(study.seeds.length)), tile("Largest budget", String(study.budgets[study.budgets.length - 1]), "evaluations a run")),
+    study.warnings.length ? el("div", { class: "warning", role: "note", "aria-label": "Warnings" }, el("strong", {}, "Warnings"), el("ul", {}, study.warnings.map((w) => el("li", {}, w)))) : ""),
+  el("nav", { "aria-label": "Sections" }, sections.map((s) => el("a", { href: `#${s.id}` }, titles[s.id]))),
+  el("main", {}, sections),
+  el("footer", {}, "Made by hysteron. Plots: uPlot (MIT licence). This page loads nothing from the network."));
+parts.progress.draw();
+parts.profiles.draw();
+
+let pending = 0;
+let lastWidth = window.innerWidth;
+const again = () => { cancelAnimationFrame(pending); pending = requestAnimationFrame(() => [...redraw].forEach((build) => build())); };
+window.addEventListener("resize", () => { if (window.innerWidth !== lastWidth) { lastWidth = window.innerWidth; again(); } });
+window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", again);
+root.dataset.plots = String(redraw.length);
+root.dataset.ready = "true";
+})();
