@@ -80,7 +80,8 @@ class MultistartLm final : public Solver {
       }
     }
     if (screening_ && finishing_.empty()) {
-      screening_ = affords(2 * spent_);
+      // Parameters too stiff for coarse steps cannot be screened.
+      screening_ = affords(2 * spent_) && (!ended_.empty() || diverged_ < starts_);
       if (!screening_) {
         // The rest of the budget on the full objective.
         ended_.clear();
@@ -102,8 +103,12 @@ class MultistartLm final : public Solver {
 
   // A descent has ended; a screened one may go on where it ended.
   void end(const Descent& descent) {
+    if (descent.best().size() == 0) {
+      ++diverged_;
+      return;
+    }
     ended_.push_back(descent.cost());
-    if (!screening_ || descent.best().size() == 0) {
+    if (!screening_) {
       return;
     }
     const double cost = descent.cost();
@@ -149,7 +154,8 @@ class MultistartLm final : public Solver {
   double lowest_ = 3.0 * diverged_cost;  // of all screened costs
   std::string reason_;
   std::size_t begun_ = 0;
-  std::size_t spent_ = 0;  // points told
+  std::size_t spent_ = 0;     // points told
+  std::size_t diverged_ = 0;  // descents whose start diverged
   std::size_t starts_ = 0;
   std::size_t agreement_ = 0;
   bool screening_ = false;

@@ -178,8 +178,12 @@ void estimate_errors(Identification& result, const Objective& objective, const s
       estimate.identifiable = !law_open;
       const auto row = static_cast<Eigen::Index>(t);
       // A term all of whose nodes sit on bounds has no error to state, not the error zero.
-      if (!law_open && law_free && term_covariance(row, row) > 0.0) {
-        estimate.std_error = std::sqrt(term_covariance(row, row));
+      bool determined = false;
+      for (const Eigen::Index c : free) {
+        determined = determined || to_terms(row, c) != 0.0;
+      }
+      if (!law_open && law_free && determined) {
+        estimate.std_error = std::sqrt(std::max(term_covariance(row, row), 0.0));
       }
       result.estimates.push_back(std::move(estimate));
     }

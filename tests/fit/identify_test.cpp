@@ -80,7 +80,7 @@ TEST_P(EveryModel, FindsItselfAgain) {
   const Identification result = identify(campaign_of(recordings), std::string(part.id), options,
                                          [](const std::string&, const RunResult& run) { return run.cost > 1e-8; });
   SCOPED_TRACE("seed " + std::to_string(seed));
-  EXPECT_LT(result.cost, 1e-4);
+  EXPECT_LT(result.cost, 1e-4) << result.solvers[0].run.stopped;
   ASSERT_EQ(result.estimates.size(), layout.dimension());
   std::size_t compared = 0;
   for (std::size_t c = 0; c < layout.dimension(); ++c) {
