@@ -1,7 +1,7 @@
 // Play between damper and machine: pins, rod ends. The damper rests while the gap is crossed.
 //   F = F_law(x - d, v - d') = q + tau q',   d = C_c q + (gap / 2) tanh(q / f_c)
 // q is the contact force: below f_c = 1 % of the peak force of the device the contact is open, above it bears with the
-// compliance C_c = 1 / k_c, 0 unless freed. tau = 0.5 ms damps the contact. gap is the full width of the play, in whose
+// compliance C_c = 1 / k_c. tau = 0.5 ms damps the contact. gap is the full width of the play, in whose
 // middle the recording starts.
 // Source: standard (backlash with contact stiffness), with the dead zone rounded at f_c.
 #include "simulate/compile.hpp"
@@ -27,9 +27,7 @@ struct Clearance {
        1.0e-6,
        0.0,
        Scale::linear,
-       {-1, 1, 0},
-       false,
-       true},
+       {-1, 1, 0}},
       {"f_c",
        "f_c",
        "N",

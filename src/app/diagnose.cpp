@@ -26,7 +26,7 @@ struct Options {
   std::string by_current;
   std::string by_frequency;
   std::vector<std::string> effects;
-  int most_effects = 4;
+  int most_effects = 3;
   bool json = false;
   std::string out;
 };

@@ -15,7 +15,9 @@ namespace hysteron {
 namespace {
 
 // What hypotheses are compared on.
-constexpr std::size_t quick_samples = 9000;
+constexpr std::size_t quick_samples = 5000;
+// What the base and the augmented model are then fitted on; every sample is predicted in the end.
+constexpr std::size_t fine_samples = 30000;
 
 std::string title_of(const std::string& effect) {
   const Part* part = find_effect(effect);
@@ -151,11 +153,26 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const DiagnoseOpti
   auto result = std::make_unique<Diagnosis>(Diagnosis{std::move(bench), {}, {}, 0.0, {}, {}, {}, {}, {}, {}, {}, {}, notes});
   Diagnosis& diagnosis = *result;
   Split fewer = diagnosis.bench.split();
+  Split some = fewer;
   fewer.fit = thinned(fewer.fit, quick_samples);
+  some.fit = thinned(some.fit, fine_samples);
   ObjectiveOptions coarse = objective;
   coarse.tolerance = std::max(coarse.tolerance, 1e-2);
   const Workbench quick(scale, std::move(fewer), layout, coarse, options.seed);
-  diagnosis.search = search(quick, diagnosis.bench, base, searching, progress);
+  const Workbench fine(scale, std::move(some), layout, coarse, options.seed);
+  diagnosis.search = search(quick, fine, base, searching, progress);
+  // What is reported is of every sample at the tolerance asked for.
+  Search& found = diagnosis.search;
+  found.base = diagnosis.bench.scored(found.base);
+  found.augmented = diagnosis.bench.scored(found.augmented);
+  for (Found& one : found.found) {
+    one.without = diagnosis.bench.scored(one.without);
+    for (Rival& rival : one.rivals) {
+      if (rival.share > 0.5) {
+        rival.fit = diagnosis.bench.scored(rival.fit);
+      }
+    }
+  }
   diagnosis.verdict = verdict_of(diagnosis.search);
 
   double floor = 0.0;
@@ -174,7 +191,7 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const DiagnoseOpti
     diagnosis.locations = locate(diagnosis.bench, diagnosis.search.base);
   }
   for (const Named& named : diagnosis.verdict.effects) {
-    diagnosis.parameters.push_back(intervals_of(diagnosis.bench, *named.fit, named.id));
+    diagnosis.parameters.push_back(intervals_of(fine, *named.fit, named.id));
     diagnosis.sentences.push_back(sentence_of(diagnosis, named, diagnosis.parameters.back()));
   }
 
@@ -188,7 +205,7 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const DiagnoseOpti
       absent.push_back(id);
     }
   }
-  for (Unobservable& row : detection_limits(diagnosis.bench, diagnosis.search.augmented, diagnosis.search.misfit, absent)) {
+  for (Unobservable& row : detection_limits(fine, diagnosis.search.augmented, diagnosis.search.misfit, absent)) {
     hidden.push_back(std::move(row));
   }
   diagnosis.not_observable = std::move(hidden);
@@ -244,8 +261,8 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const DiagnoseOpti
 
   progress(0.98, "final fit");
   const bool roles = std::ranges::any_of(campaign.roles, [](Role role) { return role == Role::validate; });
-  diagnosis.final = diagnosis.bench.on_all(diagnosis.search.augmented,
-                                           roles ? diagnosis.bench.split().fit : campaign.recordings, 25);
+  diagnosis.final = fine.on_all(diagnosis.search.augmented,
+                                thinned(roles ? diagnosis.bench.split().fit : campaign.recordings, fine_samples), 8);
   return result;
 }
 

@@ -14,7 +14,7 @@ struct DiagnoseOptions {
   LayoutOptions layout;        // laws of the base model; none given and a drive that varies: see base_laws
   ObjectiveOptions objective;
   std::uint64_t seed = 1;
-  int most_effects = 4;
+  int most_effects = 3;
   std::vector<std::string> candidates;  // empty: every effect of the catalogue
 };
 

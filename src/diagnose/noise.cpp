@@ -131,6 +131,17 @@ NoiseFloor noise_floor(const Recording& recording) {
   if (recording.size() < 16) {
     return result;
   }
+  std::vector<double> fourth;
+  for (std::size_t n = 4; n < recording.size(); ++n) {
+    const auto& f = recording.force;
+    fourth.push_back((f[n - 4] - 4.0 * f[n - 3] + 6.0 * f[n - 2] - 4.0 * f[n - 1] + f[n]) / std::sqrt(70.0));
+  }
+  std::vector<double> sizes(fourth.size());
+  std::ranges::transform(fourth, sizes.begin(), [](double v) { return std::fabs(v); });
+  result.white = 1.4826 * median_of(sizes);
+  if (result.white <= 0.0) {
+    result.white = clipped_deviation(fourth);
+  }
   const Periodicity cycle = periodicity(recording);
   if (cycle.period > 0.0) {
     std::vector<double> differences;
@@ -151,17 +162,7 @@ NoiseFloor noise_floor(const Recording& recording) {
       return result;
     }
   }
-  std::vector<double> differences;
-  for (std::size_t n = 4; n < recording.size(); ++n) {
-    const auto& f = recording.force;
-    differences.push_back((f[n - 4] - 4.0 * f[n - 3] + 6.0 * f[n - 2] - 4.0 * f[n - 1] + f[n]) / std::sqrt(70.0));
-  }
-  std::vector<double> sizes(differences.size());
-  std::ranges::transform(differences, sizes.begin(), [](double v) { return std::fabs(v); });
-  result.sigma = 1.4826 * median_of(sizes);
-  if (result.sigma <= 0.0) {
-    result.sigma = clipped_deviation(differences);
-  }
+  result.sigma = result.white;
   result.method = "high-pass";
   return result;
 }

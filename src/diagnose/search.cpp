@@ -12,10 +12,10 @@ namespace {
 
 // Rounds of a first look, and of a fit that is compared with others.
 constexpr int screening_rounds = 5;
-constexpr int fitting_rounds = 15;
-constexpr std::size_t survivors = 6;
+constexpr int fitting_rounds = 10;
+constexpr std::size_t survivors = 5;
 // Rivals set against an effect in its place: the best of all stages.
-constexpr std::size_t rival_count = 9;
+constexpr std::size_t rival_count = 6;
 // An effect is worth a place when the criterion gains this much (on top of what choosing among many costs), and the
 // squared error falls by this share.
 constexpr double least_evidence = 6.0;
@@ -156,9 +156,11 @@ Misfit misfit_of(const Workbench& bench, const Fit& fit) {
     // Periods tell the noise whatever its colour; without them only what repeats with the motion is surely not noise.
     structure += floor.method == "cycles" ? std::max(0.0, mean - noise) : share * mean;
     result.squares += mean;
+    result.white += std::min(mean, squared(floor.white / norm));
   }
   const auto count = static_cast<double>(recordings.size());
   result.squares /= count;
+  result.white /= count;
   result.structure = structure / count;
   result.predictable = predictable / count / result.squares;
   result.noise = result.squares - result.structure;

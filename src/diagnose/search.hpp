@@ -16,6 +16,7 @@ struct Misfit {
   double squares = 0.0;         // cost^2
   double structure = 0.0;       // the part that is not noise
   double noise = 0.0;           // squares - structure
+  double white = 0.0;           // squares of the noise by fourth differences: a lower bound of the noise
   double predictable = 0.0;     // share that repeats with the motion (structure.hpp)
   double correlation = 0.0;     // lag-one correlation of the residual
   double effective = 0.0;       // samples worth of independent information
@@ -66,7 +67,7 @@ using SearchProgress = std::function<void(double share, const std::string& stage
 
 struct SearchOptions {
   std::vector<std::string> candidates;  // effects to consider
-  int most_effects = 4;
+  int most_effects = 3;
   std::size_t base_budget = 20000;
 };
 

@@ -17,6 +17,8 @@ constexpr double margin_of_leftover = 0.5;
 constexpr double least_evidence = 10.0;
 // An effect is named only if it explains at least this many times what stays unexplained.
 constexpr double least_gain_over_leftover = 1.0;
+// Of the residual beyond its white noise, this part counts as unexplained even where nothing shows that it repeats.
+constexpr double doubtful_share = 0.2;
 // Another damper law does as well when its squared error is within this factor of the augmented model's.
 constexpr double law_factor = 1.1;
 
@@ -26,13 +28,16 @@ bool is_law(const std::string& id) { return id.starts_with("law:"); }
 
 bool structured(const Misfit& misfit) {
   const double ratio = misfit.structure / std::max(misfit.noise, 1e-300);
-  return ratio > 0.3 || (ratio > 0.08 && misfit.predictable > 0.03);
+  return ratio > 0.3 || (ratio > 0.08 && misfit.predictable > 0.1);
 }
 
 Verdict verdict_of(const Search& search) {
   Verdict verdict;
   verdict.remaining_structure = structured(search.misfit);
-  const double leftover = verdict.remaining_structure ? search.misfit.structure : 0.0;
+  // Coloured noise and structure that no motion variable tells look alike: part of what exceeds the white noise counts
+  // as unexplained.
+  const double leftover = std::max(verdict.remaining_structure ? search.misfit.structure : 0.0,
+                                   doubtful_share * (search.misfit.squares - search.misfit.white));
   if (search.found.empty()) {
     verdict.word = verdict.remaining_structure ? "unattributed" : "complete";
     if (verdict.remaining_structure) {
@@ -94,8 +99,10 @@ Verdict verdict_of(const Search& search) {
     }
   }
   if (verdict.effects.empty()) {
-    verdict.word = "unattributed";
-    verdict.reason = "the best known effect explains less of the misfit than stays unexplained";
+    const bool quiet = !structured(search.base_misfit);
+    verdict.word = quiet ? "complete" : "unattributed";
+    verdict.reason = quiet ? "the best known effect explains too little to be more than the colour of the noise"
+                           : "the best known effect explains less of the misfit than stays unexplained";
     return verdict;
   }
   verdict.word = "missing-physics";

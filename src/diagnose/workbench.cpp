@@ -214,6 +214,22 @@ Fit Workbench::on_all(const Fit& fit, const std::vector<Recording>& all, int rou
   return result;
 }
 
+Fit Workbench::scored(const Fit& fit) const {
+  double sum = 0.0;
+  for (const Recording& recording : split_.fit) {
+    const std::vector<double> r = residual(fit, recording);
+    double squares = 0.0;
+    std::size_t counted = 0;
+    for (const double value : r) {
+      squares += value * value;
+      counted += value != 0.0 ? 1 : 0;
+    }
+    const double norm = normaliser(recording, options_.normalisation);
+    sum += squares / static_cast<double>(std::max<std::size_t>(counted, 1)) / (norm * norm);
+  }
+  return finished(fit.what, *fit.layout, fit.point, std::sqrt(sum / static_cast<double>(split_.fit.size())));
+}
+
 std::vector<Fit> Workbench::from_fit(const std::vector<Hypothesis>& what, const Fit& warm, int rounds) const {
   std::vector<Fit> fits(what.size());
   Workbench single = *this;

@@ -50,6 +50,8 @@ class Workbench {
   [[nodiscard]] Fit polished(const Fit& fit, int rounds) const;
   // The same hypothesis fitted to all recordings, judged ones too.
   [[nodiscard]] Fit on_all(const Fit& fit, const std::vector<Recording>& all, int rounds) const;
+  // Costs of a fit as they are on this workbench, nothing refitted.
+  [[nodiscard]] Fit scored(const Fit& fit) const;
   // Several at once, in parallel; results in order.
   [[nodiscard]] std::vector<Fit> from_fit(const std::vector<Hypothesis>& what, const Fit& warm, int rounds) const;
   [[nodiscard]] std::vector<Fit> polished(const std::vector<Fit>& fits, int rounds) const;

@@ -12,7 +12,6 @@ namespace hysteron {
 namespace {
 
 constexpr std::size_t max_links = 9;
-constexpr int max_iterations = 40;
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
 // What a step holds of its series links: a factor on the gain, and dF/dv of the links below as the root's first guess.
@@ -228,7 +227,7 @@ class Assembly {
       high = select(g > Value(0.0), min(high, u), high);
     };
     narrow();
-    for (int k = 0; k < max_iterations; ++k) {
+    for (int k = 0; k < motion_.balance_iterations; ++k) {
       const auto active = abs(g) > tolerance;
       if (!any(active)) {
         break;

@@ -63,11 +63,12 @@ Motion make_motion(std::span<const double> time, std::span<const double> displac
     motion.step_limit = 1.5;
     motion.finer_at_reversals = 1.0;
     motion.finer_when_long = 0.0;
-    // Elements relax within a third of a sampling interval: what is faster is not seen between samples.
+    // Elements relax within half a sampling interval: what is faster is not seen between samples.
     const double interval = (time.back() - time.front()) / static_cast<double>(std::max<std::size_t>(time.size(), 2) - 1);
-    motion.balance_tolerance = 1e-5;
-    motion.element_rate_limit = 3.0 / interval;
-    motion.followed_rate_limit = 9.0 / interval;
+    motion.balance_tolerance = 1e-4;
+    motion.balance_iterations = 8;
+    motion.element_rate_limit = 2.0 / interval;
+    motion.followed_rate_limit = 3.0 / interval;
   }
   const std::vector<double> acceleration = slopes(time, velocity);
   motion.intervals.resize(time.empty() ? 0 : time.size() - 1);

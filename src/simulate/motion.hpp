@@ -42,9 +42,11 @@ struct Motion {
   // step lands on, such as the slip or the hysteresis force passing zero, and a coarse recording has few samples.
   double finer_when_long = 3.0;
   double most_substeps = 65536.0;  // of an interval, between two samples
-  // Series elements (simulate/assembly.hpp): relative error of the force balance, fastest relaxation in 1/s, and the
+  // Series elements (simulate/assembly.hpp): relative error of the force balance and how many
+  // iterations it may take, fastest relaxation in 1/s, and the
   // largest rate in 1/s that their steps follow.
   double balance_tolerance = 1e-11;
+  int balance_iterations = 40;
   double element_rate_limit = 5e4;
   double followed_rate_limit = 1e300;
 };

@@ -1,0 +1,134 @@
+#include "diagnose/diagnose.hpp"
+
+#include <gtest/gtest.h>
+
+#include "diagnose/record.hpp"
+#include "diagnose/thin.hpp"
+#include "fit/synthetic.hpp"
+
+namespace hysteron {
+namespace {
+
+constexpr std::uint64_t seed = 5;
+
+// Six sines of one damper, two amplitudes at three frequencies.
+Campaign campaign_with(const std::vector<std::string>& effects, const std::map<std::string, double>& values, double noise) {
+  LayoutOptions made;
+  made.fix = {{"alpha", 600.0}, {"c0", 1500.0}, {"k0", 2000.0}, {"f0", 20.0}, {"x_y", 8e-4}, {"share", 0.6}, {"n", 1.5}};
+  made.fix.insert(values.begin(), values.end());
+  const Layout layout(make_model("bouc-wen", effects), DataScale{}, made);
+  Campaign campaign;
+  int index = 0;
+  for (const double frequency : {0.5, 1.3, 3.0}) {
+    for (const double amplitude : {0.004, 0.012}) {
+      Recording recording =
+          testing::motion("r" + std::to_string(index) + ".csv", {{amplitude, frequency}}, 3.0 / frequency, 400, 0.2 / frequency);
+      testing::set_force(recording, layout, layout.terms(layout.initial()), {}, noise,
+                         Stream(seed).child(static_cast<std::uint64_t>(index)));
+      campaign.recordings.push_back(recording);
+      campaign.roles.push_back(Role::unassigned);
+      ++index;
+    }
+  }
+  return campaign;
+}
+
+std::unique_ptr<Diagnosis> diagnosis_of(const Campaign& campaign, const std::vector<std::string>& candidates) {
+  DiagnoseOptions options;
+  options.model = "bouc-wen";
+  options.seed = seed;
+  options.objective.threads = 2;
+  options.candidates = candidates;
+  return diagnose(campaign, options, [](double, const std::string&) {});
+}
+
+// Relatives and strangers of what is concealed, few enough to be quick.
+const std::vector<std::string> few = {"quadratic-damping", "shear-thinning", "inertia",      "sensor-delay",
+                                      "gas-spring",        "force-drift",    "seal-friction"};
+
+TEST(Diagnosis, NamesAndMeasuresAConcealedMass) {
+  const auto diagnosis = diagnosis_of(campaign_with({"inertia"}, {{"inertia.m", 8.0}}, 0.01), few);
+  ASSERT_EQ(diagnosis->verdict.word, "missing-physics");
+  ASSERT_EQ(diagnosis->verdict.effects.size(), 1U);
+  EXPECT_EQ(diagnosis->verdict.effects[0].id, "inertia");
+  ASSERT_FALSE(diagnosis->parameters[0].empty());
+  EXPECT_NEAR(diagnosis->parameters[0][0].value, 8.0, 0.8);
+  EXPECT_LT(diagnosis->search.augmented.heldout, diagnosis->search.base.heldout);
+  EXPECT_NEAR(diagnosis->search.augmented.cost, diagnosis->noise_floor, 0.2 * diagnosis->noise_floor);
+  EXPECT_FALSE(diagnosis->verdict.remaining_structure);
+}
+
+TEST(Diagnosis, NamesNothingWhereNothingIsMissing) {
+  const auto diagnosis = diagnosis_of(campaign_with({}, {}, 0.02), few);
+  EXPECT_EQ(diagnosis->verdict.word, "complete");
+  EXPECT_TRUE(diagnosis->verdict.effects.empty());
+}
+
+TEST(Diagnosis, DoesNotNameWhatIsNotAmongTheCandidates) {
+  // The cause is a hardening spring; only strangers are offered.
+  const auto diagnosis = diagnosis_of(campaign_with({"cubic-stiffness"}, {{"cubic-stiffness.k3", 9e7}}, 0.01),
+                                      {"inertia", "shear-thinning", "quadratic-damping", "force-drift"});
+  EXPECT_NE(diagnosis->verdict.word, "complete");
+  EXPECT_NE(diagnosis->verdict.word, "missing-physics");
+}
+
+TEST(Diagnosis, SaysWhatTheInputsCannotShow) {
+  const Campaign campaign = campaign_with({}, {}, 0.02);
+  EXPECT_TRUE(excluded_by_inputs("coil-lag", campaign.recordings));
+  EXPECT_TRUE(excluded_by_inputs("magnetic-saturation", campaign.recordings));
+  EXPECT_FALSE(excluded_by_inputs("inertia", campaign.recordings));
+}
+
+TEST(Diagnosis, TellsTheLagOfTheVelocityChannelWithoutAModel) {
+  Recording recording = testing::motion("r.csv", {{0.01, 2.0}}, 4.0, 4001, 0.2);
+  // The same motion 3 ms later.
+  const std::vector<double> velocity = recording.velocity;
+  for (std::size_t n = 3; n < velocity.size(); ++n) {
+    recording.velocity[n] = velocity[n - 3];
+  }
+  const auto lag = velocity_channel_lag({recording});
+  ASSERT_TRUE(lag);
+  EXPECT_NEAR(lag->lag, 3e-3, 2e-4);
+}
+
+TEST(Diagnosis, RecordHoldsWhatTheContractNames) {
+  const auto diagnosis = diagnosis_of(campaign_with({"inertia"}, {{"inertia.m", 8.0}}, 0.01), {"inertia", "force-drift"});
+  const nlohmann::json record = diagnosis_json(*diagnosis);
+  EXPECT_EQ(record["schema"], "hysteron.diagnosis/1");
+  for (const char* key : {"baseline", "verdict", "effects", "locations", "rejected", "not_observable", "augmented", "next_experiment"}) {
+    EXPECT_TRUE(record.contains(key)) << key;
+  }
+  for (const char* key : {"id", "confidence", "indistinguishable_from", "sentence", "parameters", "nrmse_heldout_before",
+                          "nrmse_heldout_after", "share_of_misfit"}) {
+    EXPECT_TRUE(record["effects"].at(0).contains(key)) << key;
+  }
+}
+
+TEST(Diagnosis, SameBytesForAnyNumberOfThreads) {
+  const Campaign campaign = campaign_with({"inertia"}, {{"inertia.m", 8.0}}, 0.01);
+  std::string first;
+  for (const int threads : {1, 3}) {
+    DiagnoseOptions options;
+    options.model = "bouc-wen";
+    options.seed = seed;
+    options.objective.threads = threads;
+    options.candidates = {"inertia", "force-drift", "sensor-delay"};
+    const std::string text = diagnosis_json(*diagnose(campaign, options, [](double, const std::string&) {})).dump();
+    if (first.empty()) {
+      first = text;
+    }
+    EXPECT_EQ(text, first) << threads << " threads";
+  }
+}
+
+TEST(Thinned, KeepsTheMotionAndStaysNearTheTotal) {
+  Recording recording = testing::motion("r.csv", {{0.01, 1.0}}, 10.0, 10001, 0.2);
+  recording.force.assign(recording.size(), 1.0);
+  const std::vector<Recording> few_samples = thinned({recording}, 1500);
+  EXPECT_LE(few_samples[0].size(), 1500U);
+  EXPECT_GE(few_samples[0].size(), 600U);
+  EXPECT_EQ(thinned({recording}, 20000)[0].size(), recording.size());
+}
+
+}  // namespace
+}  // namespace hysteron

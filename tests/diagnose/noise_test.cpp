@@ -1,0 +1,86 @@
+#include "diagnose/noise.hpp"
+
+#include <gtest/gtest.h>
+
+#include "diagnose/structure.hpp"
+#include "fit/synthetic.hpp"
+
+namespace hysteron {
+namespace {
+
+constexpr std::uint64_t seed = 11;
+
+// A force with a knee, so that the estimate has something to be fooled by.
+Recording noisy(double white, double coloured, double correlation, std::uint64_t draw = seed) {
+  Recording recording = testing::motion("r.csv", {{0.01, 2.0}}, 6.0, 3000, 0.2);
+  recording.velocity_measured = true;
+  const Stream stream = Stream(draw);
+  double state = 0.0;
+  for (std::size_t n = 0; n < recording.size(); ++n) {
+    state = correlation * state + std::sqrt(1.0 - correlation * correlation) * stream.normal(n, 1);
+    recording.force.push_back(800.0 * std::tanh(recording.velocity[n] / 0.02) + 2000.0 * recording.velocity[n] +
+                              white * stream.normal(n) + coloured * state);
+  }
+  return recording;
+}
+
+TEST(NoiseFloor, FindsTheDeviationOfWhiteNoiseFromCycles) {
+  const NoiseFloor floor = noise_floor(noisy(10.0, 0.0, 0.0));
+  EXPECT_EQ(floor.method, "cycles");
+  EXPECT_NEAR(floor.sigma, 10.0, 0.6);
+  EXPECT_NEAR(floor.white, 10.0, 0.8);
+}
+
+TEST(NoiseFloor, HoldsColouredNoiseToo) {
+  const NoiseFloor floor = noise_floor(noisy(5.0, 10.0, 0.9));
+  EXPECT_NEAR(floor.sigma, std::hypot(5.0, 10.0), 1.7);
+  EXPECT_LT(floor.white, 0.8 * floor.sigma);
+}
+
+TEST(NoiseFloor, SurvivesOutliers) {
+  Recording recording = noisy(10.0, 0.0, 0.0);
+  for (std::size_t n = 50; n < recording.size(); n += 300) {
+    recording.force[n] += 2000.0;
+  }
+  EXPECT_NEAR(noise_floor(recording).sigma, 10.0, 1.0);
+}
+
+TEST(NoiseFloor, FindsThePeriod) {
+  const Periodicity cycle = periodicity(noisy(1.0, 0.0, 0.0));
+  EXPECT_NEAR(cycle.period, 0.5, 1e-4);
+  Recording sweep = testing::motion("s.csv", {{0.01, 0.7}, {0.004, 1.93}, {0.003, 3.17}}, 6.0, 3000, 0.2);
+  sweep.force.assign(sweep.size(), 1.0);
+  EXPECT_EQ(periodicity(sweep).period, 0.0);
+}
+
+TEST(Structure, NoiseOfAnyColourCannotBePredicted) {
+  for (const double correlation : {0.0, 0.9, 0.98}) {
+    double sum = 0.0;
+    for (std::uint64_t draw = 1; draw <= 10; ++draw) {
+      const Recording recording = noisy(0.0, 10.0, correlation, draw);
+      std::vector<double> residual(recording.size());
+      for (std::size_t n = 0; n < recording.size(); ++n) {
+        residual[n] = recording.force[n] - 800.0 * std::tanh(recording.velocity[n] / 0.02) - 2000.0 * recording.velocity[n];
+      }
+      const double share = predictable_share(recording, residual);
+      sum += share;
+      // Few independent values make chance agreement possible, which the verdict's threshold of 0.1 allows for.
+      EXPECT_LT(share, 0.1) << "correlation " << correlation << ", seed " << draw;
+    }
+    EXPECT_LT(sum / 10.0, 0.01) << "correlation " << correlation;
+  }
+}
+
+TEST(Structure, WhatIsLockedToTheMotionIsPredicted) {
+  const Recording recording = noisy(0.0, 0.0, 0.0);
+  const Stream stream = Stream(seed);
+  std::vector<double> residual(recording.size());
+  for (std::size_t n = 0; n < recording.size(); ++n) {
+    residual[n] = 5.0 * std::copysign(1.0, recording.velocity[n]) * recording.displacement[n] / 0.01 + 2.0 * stream.normal(n);
+  }
+  // Of 25/2 + 4 the first part repeats.
+  EXPECT_NEAR(predictable_share(recording, residual), 12.5 / 16.5, 0.1);
+}
+
+}  // namespace
+}  // namespace hysteron
