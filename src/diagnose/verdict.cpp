@@ -17,12 +17,29 @@ constexpr double margin_of_leftover = 0.5;
 constexpr double least_evidence = 10.0;
 // An effect is named only if it explains at least this many times what stays unexplained.
 constexpr double least_gain_over_leftover = 1.0;
+// A gain below this share of the squared error must show in the judging recordings too, by this part of it.
+constexpr double plain_gain = 0.3;
+constexpr double confirmed_part = 0.25;
 // Of the residual beyond its white noise, this part counts as unexplained even where nothing shows that it repeats.
 constexpr double doubtful_share = 0.2;
 // Another damper law does as well when its squared error is within this factor of the augmented model's.
 constexpr double law_factor = 1.1;
 
 bool is_law(const std::string& id) { return id.starts_with("law:"); }
+
+// Whether the judging recordings bear the gain out. A plain gain may be of something they do not excite.
+bool confirmed(const Found& found, const Fit& augmented) {
+  const double fit = 1.0 - std::pow(augmented.cost / found.without.cost, 2);
+  const double heldout = 1.0 - std::pow(augmented.heldout / found.without.heldout, 2);
+  return fit > plain_gain ? heldout > -0.01 : heldout > confirmed_part * fit;
+}
+
+// A parameter that follows the drive in the base model: more curvature of it is what saturation is.
+bool follows_drive(const Layout& layout, const std::string& parameter) {
+  return std::ranges::any_of(layout.laws(), [&](const ParameterLaw& law) {
+    return layout.names()[law.parameter] == parameter && law.drive_nodes.size() > 1;
+  });
+}
 
 }  // namespace
 
@@ -54,7 +71,7 @@ Verdict verdict_of(const Search& search) {
     }
   }
   for (const Found& found : search.found) {
-    if (found.gain < least_gain_over_leftover * leftover) {
+    if (found.gain < least_gain_over_leftover * leftover || !confirmed(found, search.augmented)) {
       continue;
     }
     Named named;
@@ -68,6 +85,9 @@ Verdict verdict_of(const Search& search) {
     for (const Rival& rival : found.rivals) {
       if (rival.share > 1.0 - margin || rival.evidence < least_evidence) {
         if (is_law(rival.id)) {
+          if (found.id == "magnetic-saturation" && follows_drive(*search.base.layout, rival.id.substr(4))) {
+            continue;
+          }
           named.laws_as_good.push_back(rival.id.substr(4));
         } else {
           named.indistinguishable_from.push_back(rival.id);
@@ -79,8 +99,8 @@ Verdict verdict_of(const Search& search) {
     }
     const bool alone = named.indistinguishable_from.empty() && named.laws_as_good.empty();
     const double clear = (1.0 - best_share) / margin;
-    const bool confirmed = search.augmented.heldout < named.without->heldout;
-    named.confidence = alone ? std::min(0.99, 1.0 - 0.3 / std::max(clear, 1.0)) * (confirmed ? 1.0 : 0.8)
+    const bool better = search.augmented.heldout < named.without->heldout;
+    named.confidence = alone ? std::min(0.99, 1.0 - 0.3 / std::max(clear, 1.0)) * (better ? 1.0 : 0.8)
                              : 1.0 / static_cast<double>(1 + named.indistinguishable_from.size() + named.laws_as_good.size());
     verdict.effects.push_back(named);
     if (!alone && verdict.effects.size() == 1) {
@@ -102,7 +122,7 @@ Verdict verdict_of(const Search& search) {
     const bool quiet = !structured(search.base_misfit);
     verdict.word = quiet ? "complete" : "unattributed";
     verdict.reason = quiet ? "the best known effect explains too little to be more than the colour of the noise"
-                           : "the best known effect explains less of the misfit than stays unexplained";
+                           : "the best known effect explains less of the misfit than stays unexplained, or not on the held-out recordings";
     return verdict;
   }
   verdict.word = "missing-physics";
