@@ -16,8 +16,12 @@ namespace {
 
 // What hypotheses are compared on.
 constexpr std::size_t quick_samples = 5000;
+constexpr std::size_t quick_recordings = 8;
+// Yield displacements below this part of the half stroke are travelled between two samples: they cost much and tell
+// nothing of what is missing.
+constexpr double least_yield = 0.004;
 // What the base and the augmented model are then fitted on; every sample is predicted in the end.
-constexpr std::size_t fine_samples = 30000;
+constexpr std::size_t fine_samples = 12000;
 
 std::string title_of(const std::string& effect) {
   const Part* part = find_effect(effect);
@@ -130,6 +134,10 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const DiagnoseOpti
     }
   }
   const DataScale scale = scale_of(campaign.recordings);
+  const std::vector<std::string> names = make_model(options.model, {}).parameter_names();
+  if (std::ranges::find(names, "x_y") != names.end()) {
+    layout.bounds.try_emplace("x_y", least_yield * scale.length, scale.length);
+  }
   ObjectiveOptions objective = options.objective;
   objective.skip_run_in = true;
   Workbench bench(scale, split_of(campaign), layout, objective, options.seed);
@@ -154,7 +162,7 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const DiagnoseOpti
   Diagnosis& diagnosis = *result;
   Split fewer = diagnosis.bench.split();
   Split some = fewer;
-  fewer.fit = thinned(fewer.fit, quick_samples);
+  fewer.fit = thinned(spread(fewer.fit, quick_recordings), quick_samples);
   some.fit = thinned(some.fit, fine_samples);
   ObjectiveOptions coarse = objective;
   coarse.tolerance = std::max(coarse.tolerance, 1e-2);
@@ -262,7 +270,7 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const DiagnoseOpti
   progress(0.98, "final fit");
   const bool roles = std::ranges::any_of(campaign.roles, [](Role role) { return role == Role::validate; });
   diagnosis.final = fine.on_all(diagnosis.search.augmented,
-                                thinned(roles ? diagnosis.bench.split().fit : campaign.recordings, fine_samples), 8);
+                                thinned(roles ? diagnosis.bench.split().fit : campaign.recordings, fine_samples), 5);
   return result;
 }
 

@@ -293,10 +293,12 @@ Search search(const Workbench& bench, const Workbench& fine, const Hypothesis& b
   progress(0.8, "fitting the augmented model to all samples");
   result.effective = effective;
   result.quick_augmented = current;
-  result.augmented = current.what == base ? result.base : fine.polished(current, fitting_rounds);
+  result.augmented = current.what == base ? result.base : fine.polished(current, screening_rounds);
   result.misfit = misfit_of(fine, result.augmented);
   for (Found& found : result.found) {
-    found.without = found.without.what == base ? result.base : fine.polished(found.without, screening_rounds);
+    if (found.without.what == base) {
+      found.without = result.base;
+    }
   }
   for (Found& found : result.found) {
     found.share_of_misfit = std::clamp(

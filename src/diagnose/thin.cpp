@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <tuple>
 
 #include "simulate/motion.hpp"
 
@@ -86,6 +87,31 @@ std::vector<Recording> thinned(const std::vector<Recording>& recordings, std::si
       }
     }
     result.push_back(std::move(best));
+  }
+  return result;
+}
+
+std::vector<Recording> spread(const std::vector<Recording>& recordings, std::size_t count) {
+  if (recordings.size() <= count) {
+    return recordings;
+  }
+  std::vector<std::tuple<double, double, std::size_t>> order;
+  for (std::size_t k = 0; k < recordings.size(); ++k) {
+    double speed = 0.0;
+    for (const double velocity : recordings[k].velocity) {
+      speed = std::max(speed, std::fabs(velocity));
+    }
+    order.emplace_back(recordings[k].drive.empty() ? 0.0 : recordings[k].drive[recordings[k].size() / 2], speed, k);
+  }
+  std::ranges::sort(order);
+  std::vector<std::size_t> chosen;
+  for (std::size_t i = 0; i < count; ++i) {
+    chosen.push_back(std::get<2>(order[i * (order.size() - 1) / (count - 1)]));
+  }
+  std::ranges::sort(chosen);
+  std::vector<Recording> result;
+  for (const std::size_t k : chosen) {
+    result.push_back(recordings[k]);
   }
   return result;
 }

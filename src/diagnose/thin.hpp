@@ -13,4 +13,7 @@ namespace hysteron {
 // interpolation (displacement within 1e-3 of its standard deviation, velocity within 1e-2).
 std::vector<Recording> thinned(const std::vector<Recording>& recordings, std::size_t total);
 
+// At most `count` recordings, spread over drive level and speed.
+std::vector<Recording> spread(const std::vector<Recording>& recordings, std::size_t count);
+
 }  // namespace hysteron

@@ -15,8 +15,10 @@ constexpr double least_margin = 0.04;
 constexpr double margin_of_leftover = 0.5;
 // ... or when the criterion does not prefer the effect by this much.
 constexpr double least_evidence = 10.0;
-// An effect is named only if it explains at least this many times what stays unexplained.
+// An effect is named only if it explains at least this many times what stays unexplained; more where what stays surely
+// is structure, because the cause of that may be the cause of all.
 constexpr double least_gain_over_leftover = 1.0;
+constexpr double least_gain_over_structure = 3.0;
 // A gain below this share of the squared error must show in the judging recordings too, by this part of it.
 constexpr double plain_gain = 0.3;
 constexpr double confirmed_part = 0.25;
@@ -55,6 +57,7 @@ Verdict verdict_of(const Search& search) {
   // as unexplained.
   const double leftover = std::max(verdict.remaining_structure ? search.misfit.structure : 0.0,
                                    doubtful_share * (search.misfit.squares - search.misfit.white));
+  const double wanted = verdict.remaining_structure ? least_gain_over_structure : least_gain_over_leftover;
   if (search.found.empty()) {
     verdict.word = verdict.remaining_structure ? "unattributed" : "complete";
     if (verdict.remaining_structure) {
@@ -71,7 +74,7 @@ Verdict verdict_of(const Search& search) {
     }
   }
   for (const Found& found : search.found) {
-    if (found.gain < least_gain_over_leftover * leftover || !confirmed(found, search.augmented)) {
+    if (found.gain < wanted * leftover || !confirmed(found, search.augmented)) {
       continue;
     }
     Named named;

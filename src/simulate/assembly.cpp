@@ -12,6 +12,8 @@ namespace hysteron {
 namespace {
 
 constexpr std::size_t max_links = 9;
+// How much finer than their rate the steps of elements are: their knees are passed with a step on either side.
+constexpr double element_margin = 1.25;
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
 // What a step holds of its series links: a factor on the gain, and dF/dv of the links below as the root's first guess.
@@ -389,7 +391,7 @@ void march_segment(const Assembly<T>& system, const Motion& motion, std::size_t 
     }
     known = false;
     const Value left = Value(to) - theta;
-    Value step = Value(limit) / fma(Value(finer), start.stiffness, start.elements);
+    Value step = Value(limit) / fma(Value(finer), start.stiffness, Value(element_margin) * start.elements);
     step = select(step < shortest, shortest, step);
     step = select(step < left, step, left);  // all that is left for a lane with NaN
     const Value reached = select(step < left * Value(1.0 - 1e-9), theta + step, Value(to));
