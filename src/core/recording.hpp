@@ -1,6 +1,7 @@
 // A measured recording and a campaign of them: plain values in SI units.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <map>
 #include <string>
@@ -27,6 +28,13 @@ struct Recording {
 
   [[nodiscard]] std::size_t size() const { return time.size(); }
 };
+
+// All channels, absent ones too.
+std::array<std::vector<double>*, 7> channels_of(Recording& recording);
+// Every k-th sample of every channel, from the first on; k > 0.
+Recording every_kth(const Recording& recording, std::size_t k);
+// Whether the drive moves by more than 2 % of its largest size; false when there is none.
+bool drive_varies(const Recording& recording);
 
 enum class Role { unassigned, fit, validate };
 

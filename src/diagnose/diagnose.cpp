@@ -165,7 +165,7 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const DiagnoseOpti
   fewer.fit = thinned(spread(fewer.fit, quick_recordings), quick_samples);
   some.fit = thinned(some.fit, fine_samples);
   ObjectiveOptions coarse = objective;
-  coarse.tolerance = std::max(coarse.tolerance, 1e-2);
+  coarse.comparing = true;
   const Workbench quick(scale, std::move(fewer), layout, coarse, options.seed);
   const Workbench fine(scale, std::move(some), layout, coarse, options.seed);
   diagnosis.search = search(quick, fine, base, searching, progress);

@@ -37,14 +37,11 @@ Features features_of(const Recording& recording) {
     result.since_reversal_time.push_back(recording.time[n] - turned);
     result.travelled.push_back(travelled);
   }
-  if (recording.drive.empty()) {
+  if (!drive_varies(recording)) {
     return result;
   }
   const auto [least, most] = std::ranges::minmax(recording.drive);
   const double range = most - least;
-  if (range <= 0.02 * std::max(std::fabs(least), std::fabs(most))) {
-    return result;
-  }
   double settled = recording.drive[0];
   double changed = recording.time[0] - 1e3;
   double jump = 0.0;

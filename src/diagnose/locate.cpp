@@ -80,12 +80,12 @@ std::vector<Location> locate(const Workbench& bench, const Fit& fit) {
   std::vector<std::vector<double>> energy;  // per recording and sample, normalised, noise taken off
   for (const Recording& recording : recordings) {
     features.push_back(features_of(recording));
-    std::vector<double> r = bench.residual(fit, recording);
+    const Residual residual = bench.residual(fit, recording);
     const double norm = normaliser(recording, bench.options().normalisation);
     const double noise = noise_floor(recording).sigma / norm;
-    for (double& value : r) {
-      value = (value / norm) * (value / norm) - noise * noise;
-      value /= static_cast<double>(recording.size());
+    std::vector<double> r(recording.size(), 0.0);
+    for (std::size_t n = residual.from; n < r.size(); ++n) {
+      r[n] = (residual.force[n] * residual.force[n] / (norm * norm) - noise * noise) / static_cast<double>(r.size());
     }
     energy.push_back(std::move(r));
   }

@@ -12,14 +12,6 @@
 namespace hysteron {
 namespace {
 
-bool drive_varies(const Recording& recording) {
-  if (recording.drive.empty()) {
-    return false;
-  }
-  const auto [low, high] = std::ranges::minmax(recording.drive);
-  return high - low > 0.02 * std::max(std::fabs(low), std::fabs(high));
-}
-
 std::size_t drive_levels(const std::vector<Recording>& recordings) {
   std::set<long> levels;
   for (const Recording& recording : recordings) {

@@ -59,7 +59,7 @@ std::vector<std::string> law_candidates(const Workbench& bench, const Hypothesis
       return {};
     }
     const auto [low, high] = std::ranges::minmax(recording.drive);
-    varies = varies || high - low > 0.02 * std::max(std::fabs(low), std::fabs(high));
+    varies = varies || drive_varies(recording);
     levels.insert(std::lround(1e3 * 0.5 * (low + high)));
   }
   const int most = varies ? 3 : static_cast<int>(levels.size()) - 1;
@@ -136,19 +136,20 @@ Misfit misfit_of(const Workbench& bench, const Fit& fit) {
   double energy = 0.0;
   double predictable = 0.0;
   double structure = 0.0;
+  double counted = 0.0;
   const std::vector<Recording>& recordings = bench.split().fit;
   for (const Recording& recording : recordings) {
-    const std::vector<double> r = bench.residual(fit, recording);
+    const Residual residual = bench.residual(fit, recording);
+    const std::vector<double>& r = residual.force;
     const double norm = normaliser(recording, bench.options().normalisation);
-    double squares = 0.0;
-    for (std::size_t n = 0; n < r.size(); ++n) {
-      squares += r[n] * r[n];
-      if (n > 0) {
+    for (std::size_t n = residual.from; n < r.size(); ++n) {
+      energy += r[n] * r[n] / (norm * norm);
+      if (n > residual.from) {
         cross += r[n] * r[n - 1] / (norm * norm);
       }
     }
-    energy += squares / (norm * norm);
-    const double mean = squares / static_cast<double>(r.size()) / (norm * norm);
+    counted += static_cast<double>(r.size() - residual.from);
+    const double mean = residual.mean_square() / (norm * norm);
     const double share = std::max(0.0, predictable_share(recording, r));
     predictable += share * mean;
     const NoiseFloor floor = noise_floor(recording);
@@ -165,8 +166,7 @@ Misfit misfit_of(const Workbench& bench, const Fit& fit) {
   result.predictable = predictable / count / result.squares;
   result.noise = result.squares - result.structure;
   result.correlation = std::clamp(cross / energy, 0.0, 0.999);
-  result.effective = std::max(static_cast<double>(bench.samples()) * (1.0 - result.correlation) / (1.0 + result.correlation),
-                              20.0);
+  result.effective = std::max(counted * (1.0 - result.correlation) / (1.0 + result.correlation), 20.0);
   return result;
 }
 

@@ -10,8 +10,7 @@ namespace {
 
 Recording first_samples(const Recording& whole, std::size_t count) {
   Recording part = whole;
-  for (std::vector<double>* channel : {&part.time, &part.displacement, &part.velocity, &part.force, &part.acceleration,
-                                       &part.drive, &part.temperature}) {
+  for (std::vector<double>* channel : channels_of(part)) {
     if (!channel->empty()) {
       channel->resize(count);
     }

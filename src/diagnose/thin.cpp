@@ -14,23 +14,6 @@ constexpr std::array<std::size_t, 9> factors = {2, 3, 4, 5, 6, 8, 10, 12, 16};
 constexpr double displacement_error = 1e-3;
 constexpr double velocity_error = 1e-2;
 
-std::vector<double> every(const std::vector<double>& values, std::size_t k) {
-  std::vector<double> result;
-  for (std::size_t n = 0; n < values.size(); n += k) {
-    result.push_back(values[n]);
-  }
-  return result;
-}
-
-Recording every(const Recording& recording, std::size_t k) {
-  Recording result = recording;
-  for (std::vector<double>* channel : {&result.time, &result.displacement, &result.velocity, &result.force,
-                                       &result.acceleration, &result.drive, &result.temperature}) {
-    *channel = every(*channel, k);
-  }
-  return result;
-}
-
 double deviation(const std::vector<double>& values) {
   double sum = 0.0;
   double square = 0.0;
@@ -79,7 +62,7 @@ std::vector<Recording> thinned(const std::vector<Recording>& recordings, std::si
         if (best.size() <= share) {
           break;
         }
-        Recording part = every(recording, k);
+        Recording part = every_kth(recording, k);
         if (part.size() < 100 || !recovers(recording, part, k)) {
           break;
         }

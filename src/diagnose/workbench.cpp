@@ -52,13 +52,17 @@ double halton(std::size_t index, std::size_t base) {
 
 }  // namespace
 
+double Residual::mean_square(std::size_t first) const {
+  double sum = 0.0;
+  for (std::size_t n = std::max(first, from); n < force.size(); ++n) {
+    sum += force[n] * force[n];
+  }
+  return sum / static_cast<double>(force.size() - std::max(first, from));
+}
+
 Workbench::Workbench(const DataScale& scale, Split split, LayoutOptions layout, ObjectiveOptions objective,
                      std::uint64_t seed)
-    : scale_(scale), split_(std::move(split)), layout_(std::move(layout)), options_(objective), seed_(seed) {
-  for (const Recording& recording : split_.fit) {
-    samples_ += recording.size();
-  }
-}
+    : scale_(scale), split_(std::move(split)), layout_(std::move(layout)), options_(objective), seed_(seed) {}
 
 Layout Workbench::layout(const Hypothesis& what) const {
   LayoutOptions options = layout_;
@@ -84,13 +88,8 @@ Fit Workbench::finished(const Hypothesis& what, const Layout& layout, std::vecto
   fit.cost = cost;
   double sum = 0.0;
   for (const Judged& judged : split_.judge) {
-    const std::vector<double> r = residual(fit, judged.recording);
-    double squares = 0.0;
-    for (std::size_t n = judged.from; n < r.size(); ++n) {
-      squares += r[n] * r[n];
-    }
     const double norm = normaliser(judged.recording, options_.normalisation);
-    sum += squares / static_cast<double>(r.size() - judged.from) / (norm * norm);
+    sum += residual(fit, judged.recording).mean_square(judged.from) / (norm * norm);
   }
   fit.heldout = std::sqrt(sum / static_cast<double>(split_.judge.size()));
   if (!std::isfinite(fit.heldout)) {
@@ -215,19 +214,8 @@ Fit Workbench::on_all(const Fit& fit, const std::vector<Recording>& all, int rou
 }
 
 Fit Workbench::scored(const Fit& fit) const {
-  double sum = 0.0;
-  for (const Recording& recording : split_.fit) {
-    const std::vector<double> r = residual(fit, recording);
-    double squares = 0.0;
-    std::size_t counted = 0;
-    for (const double value : r) {
-      squares += value * value;
-      counted += value != 0.0 ? 1 : 0;
-    }
-    const double norm = normaliser(recording, options_.normalisation);
-    sum += squares / static_cast<double>(std::max<std::size_t>(counted, 1)) / (norm * norm);
-  }
-  return finished(fit.what, *fit.layout, fit.point, std::sqrt(sum / static_cast<double>(split_.fit.size())));
+  const Objective objective(*fit.layout, split_.fit, options_);
+  return finished(fit.what, *fit.layout, fit.point, objective.evaluate({fit.point, false}).cost[0]);
 }
 
 std::vector<Fit> Workbench::from_fit(const std::vector<Hypothesis>& what, const Fit& warm, int rounds) const {
@@ -254,13 +242,13 @@ std::vector<Fit> Workbench::polished(const std::vector<Fit>& fits, int rounds) c
   return result;
 }
 
-std::vector<double> Workbench::residual(const Fit& fit, const Recording& recording) const {
+Residual Workbench::residual(const Fit& fit, const Recording& recording) const {
   const Target target = make_target(recording, options_);
-  std::vector<double> r = predict(fit.layout->model(), fit.layout->held(), fit.terms, target);
-  for (std::size_t n = 0; n < r.size(); ++n) {
-    r[n] = n < target.run_in ? 0.0 : r[n] - recording.force[n];
+  Residual result{predict(fit.layout->model(), fit.layout->held(), fit.terms, target), target.run_in};
+  for (std::size_t n = 0; n < result.force.size(); ++n) {
+    result.force[n] = n < result.from ? 0.0 : result.force[n] - recording.force[n];
   }
-  return r;
+  return result;
 }
 
 }  // namespace hysteron

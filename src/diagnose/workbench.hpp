@@ -32,6 +32,15 @@ struct Fit {
   [[nodiscard]] std::size_t dimension() const { return point.size(); }
 };
 
+// Simulated - measured force in N at every sample; those before `from`, the run-in, are zero and do not count.
+struct Residual {
+  std::vector<double> force;
+  std::size_t from = 0;
+
+  // Mean square over the samples from `first` on that count.
+  [[nodiscard]] double mean_square(std::size_t first = 0) const;
+};
+
 class Workbench {
  public:
   // `scale` of the whole campaign, so that every workbench of it searches one box.
@@ -39,7 +48,6 @@ class Workbench {
 
   [[nodiscard]] const Split& split() const { return split_; }
   [[nodiscard]] const ObjectiveOptions& options() const { return options_; }
-  [[nodiscard]] std::size_t samples() const { return samples_; }
 
   // Many starts over the whole box.
   [[nodiscard]] Fit from_anywhere(const Hypothesis& what, std::size_t budget) const;
@@ -56,8 +64,8 @@ class Workbench {
   [[nodiscard]] std::vector<Fit> from_fit(const std::vector<Hypothesis>& what, const Fit& warm, int rounds) const;
   [[nodiscard]] std::vector<Fit> polished(const std::vector<Fit>& fits, int rounds) const;
 
-  // Residuals (simulated - measured, N) of a fit on a recording; zero where they do not count (run-in).
-  [[nodiscard]] std::vector<double> residual(const Fit& fit, const Recording& recording) const;
+  // Of a fit on a recording.
+  [[nodiscard]] Residual residual(const Fit& fit, const Recording& recording) const;
   [[nodiscard]] Layout layout(const Hypothesis& what) const;
 
  private:
@@ -70,7 +78,6 @@ class Workbench {
   LayoutOptions layout_;
   ObjectiveOptions options_;
   std::uint64_t seed_;
-  std::size_t samples_ = 0;
 };
 
 }  // namespace hysteron

@@ -195,23 +195,6 @@ double stiffness_bound(const CompositeModel& model, const double* p, double spee
   return bound;
 }
 
-// The recording with every stride-th sample.
-Recording thinned(const Recording& recording, std::size_t stride) {
-  Recording result = recording;
-  const auto thin = [&](std::vector<double>& channel) {
-    std::size_t kept = 0;
-    for (std::size_t n = 0; n < channel.size(); n += stride) {
-      channel[kept++] = channel[n];
-    }
-    channel.resize(kept);
-  };
-  for (std::vector<double>* channel :
-       {&result.time, &result.displacement, &result.velocity, &result.drive, &result.force}) {
-    thin(*channel);
-  }
-  return result;
-}
-
 // Samples a first look keeps: enough for the parameters, and for the shape of every period.
 constexpr std::size_t screening_samples = 200;
 constexpr double screening_samples_of_a_period = 100.0;
@@ -310,12 +293,14 @@ Target make_target(const Recording& recording, const ObjectiveOptions& options) 
   Target target;
   target.motion =
       make_motion(recording.time, recording.displacement, recording.velocity, recording.drive, options.tolerance);
+  if (options.comparing) {
+    target.motion = comparing_motion(std::move(target.motion));
+  }
   target.force = recording.force;
   target.frequency = dominant_frequency(recording);
   if (!recording.drive.empty()) {
     target.drive = mean_of(recording.drive);
-    const auto [low, high] = std::ranges::minmax(recording.drive);
-    target.drive_varies = high - low > 0.02 * std::max(std::fabs(low), std::fabs(high));
+    target.drive_varies = drive_varies(recording);
   }
   target.preroll = preroll_samples(recording, target.frequency);
   if (options.skip_run_in && target.preroll == 0) {
@@ -345,7 +330,7 @@ Objective::Objective(const Layout& layout, const std::vector<Recording>& recordi
   }
   for (std::size_t k = 0; k < recordings.size(); ++k) {
     const Target& full = targets_[k];
-    const Recording recording = thinned(recordings[k], screening_stride(recordings[k], full.frequency));
+    const Recording recording = every_kth(recordings[k], screening_stride(recordings[k], full.frequency));
     Target target = full;
     target.motion = screening_motion(
         make_motion(recording.time, recording.displacement, recording.velocity, recording.drive, options.tolerance));

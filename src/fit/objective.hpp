@@ -25,7 +25,8 @@ double normaliser(const Recording& recording, Normalisation normalisation);
 struct ObjectiveOptions {
   Normalisation normalisation = Normalisation::max_abs;
   Weighting weighting = Weighting::per_recording;
-  double tolerance = 1e-4;  // relative error of the integration; from 1e-2 on kinks between samples are not resolved
+  double tolerance = 1e-4;  // relative error of the integration
+  bool comparing = false;   // coarser than any tolerance: comparing_motion
   int threads = 0;  // 0: OpenMP's default
   // Leave out of the cost the run-in of recordings that begin in mid-motion and never come back to their start, so that
   // the initial hysteresis is neither known nor found by marching a period beforehand.

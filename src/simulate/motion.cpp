@@ -59,17 +59,6 @@ Motion make_motion(std::span<const double> time, std::span<const double> displac
   motion.v.assign(velocity.begin(), velocity.end());
   motion.drive.assign(drive.begin(), drive.end());
   motion.step_limit = 0.5 * std::min(2.0, std::pow(tolerance / 1e-4, 0.25));
-  if (tolerance >= 1e-2) {
-    motion.step_limit = 1.5;
-    motion.finer_at_reversals = 1.0;
-    motion.finer_when_long = 0.0;
-    // Elements relax within half a sampling interval: what is faster is not seen between samples.
-    const double interval = (time.back() - time.front()) / static_cast<double>(std::max<std::size_t>(time.size(), 2) - 1);
-    motion.balance_tolerance = 1e-4;
-    motion.balance_iterations = 8;
-    motion.element_rate_limit = 2.0 / interval;
-    motion.followed_rate_limit = 3.0 / interval;
-  }
   const std::vector<double> acceleration = slopes(time, velocity);
   motion.intervals.resize(time.empty() ? 0 : time.size() - 1);
   for (std::size_t n = 0; n < motion.intervals.size(); ++n) {
@@ -86,6 +75,20 @@ Motion make_motion(std::span<const double> time, std::span<const double> displac
                      4.0 / 27.0 * interval.length * (std::fabs(acceleration[n]) + std::fabs(acceleration[n + 1]));
     interval.reversal = velocity[n] * velocity[n + 1] < 0.0;
     interval.reversal_at = interval.reversal ? zero_crossing(interval.v) : 1.0;
+  }
+  return motion;
+}
+
+Motion comparing_motion(Motion motion) {
+  motion.step_limit = 1.5;
+  motion.finer_at_reversals = 1.0;
+  motion.finer_when_long = 0.0;
+  motion.balance_tolerance = 1e-4;
+  motion.balance_iterations = 8;
+  if (!motion.intervals.empty()) {
+    const double interval = motion.time.back() / static_cast<double>(motion.intervals.size());
+    motion.element_rate_limit = 2.0 / interval;
+    motion.followed_rate_limit = 3.0 / interval;
   }
   return motion;
 }

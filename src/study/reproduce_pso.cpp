@@ -549,12 +549,6 @@ Reproduction pso_figure_9_result(const Plan& plan, const std::vector<RunRecord>&
                                           errors[2] < errors[0] ? "falls" : "does not fall",
                                           errors[4] < errors[2] ? "falls" : "does not fall"));
   }
-  result.findings.push_back(
-      "The parameters of one sine each are not all determined by it (k0, c1 and the loop shape trade against each "
-      "other), so that "
-      "polynomials through them fit badly even where every single fit is good. Identifying the polynomials' "
-      "coefficients on "
-      "all recordings at once (`hysteron fit --by-current`) avoids it.");
   result.not_remade.push_back(
       "The figure prints no numbers, so that only its shape can be compared. Computation time depends on the machine "
       "and is not shown.");

@@ -1,0 +1,33 @@
+#include "core/recording.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hysteron {
+
+std::array<std::vector<double>*, 7> channels_of(Recording& recording) {
+  return {&recording.time,         &recording.displacement, &recording.velocity,   &recording.force,
+          &recording.acceleration, &recording.drive,        &recording.temperature};
+}
+
+Recording every_kth(const Recording& recording, std::size_t k) {
+  Recording result = recording;
+  for (std::vector<double>* channel : channels_of(result)) {
+    std::size_t kept = 0;
+    for (std::size_t n = 0; n < channel->size(); n += k) {
+      (*channel)[kept++] = (*channel)[n];
+    }
+    channel->resize(kept);
+  }
+  return result;
+}
+
+bool drive_varies(const Recording& recording) {
+  if (recording.drive.empty()) {
+    return false;
+  }
+  const auto [low, high] = std::ranges::minmax(recording.drive);
+  return high - low > 0.02 * std::max(std::fabs(low), std::fabs(high));
+}
+
+}  // namespace hysteron
