@@ -1,4 +1,5 @@
-// Levenberg-Marquardt from one start: the problem's, else the centre of the box. See support/descent.hpp for equations and sources.
+// Levenberg-Marquardt from one start: the problem's, else the centre of the box. See support/descent.hpp for equations
+// and sources.
 #include "algorithms/support/descent.hpp"
 #include "algorithms/support/settings.hpp"
 #include "fit/solver.hpp"

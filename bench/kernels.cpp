@@ -2,7 +2,6 @@
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
-
 #include <cmath>
 #include <numbers>
 #include <string>

@@ -18,8 +18,17 @@ struct Bingham {
       {"fc", "f_c", "N", "yield force", 0.0, 3.0e3, 5.0e2, Scale::linear, {1, 0, 0}, true},
       {"c0", "c0", "N s/m", "viscous damping", 0.0, 2.0e4, 5.0e2, Scale::linear, {1, 0, -1}, true},
       {"f0", "f0", "N", "offset force", -1.5e3, 1.5e3, 0.0, Scale::linear, {1, 0, 0}, true},
-      {"v_s", "v_s", "m/s", "speed at which the sign function is rounded", 1.0e-4, 1.0e-1, 1.0e-3, Scale::logarithmic,
-       {0, 0, 1}, false, true},
+      {"v_s",
+       "v_s",
+       "m/s",
+       "speed at which the sign function is rounded",
+       1.0e-4,
+       1.0e-1,
+       1.0e-3,
+       Scale::logarithmic,
+       {0, 0, 1},
+       false,
+       true},
   };
 
   template <class T>

@@ -14,13 +14,22 @@ namespace {
 struct BoucWen {
   static constexpr std::string_view id = "bouc-wen";
   static constexpr std::string_view title = "Bouc-Wen";
-  static constexpr std::string_view reference = "Wen, J. Eng. Mech. Div. 102 (1976) 249-263, doi 10.1061/JMCEA3.0002106";
+  static constexpr std::string_view reference =
+      "Wen, J. Eng. Mech. Div. 102 (1976) 249-263, doi 10.1061/JMCEA3.0002106";
   static constexpr std::string_view equations[] = {"F = c0 v + k0 x + alpha z + f0",
                                                    "z' = (v - |z|^n (share |v| sgn(z) + (1 - share) v)) / x_y"};
   static constexpr int states = 1;
   static constexpr Parameter parameters[] = {
-      {"alpha", "alpha", "N", "yield force: force of the saturated hysteresis", 0.0, 3.0e3, 5.0e2, Scale::linear,
-       {1, 0, 0}, true},
+      {"alpha",
+       "alpha",
+       "N",
+       "yield force: force of the saturated hysteresis",
+       0.0,
+       3.0e3,
+       5.0e2,
+       Scale::linear,
+       {1, 0, 0},
+       true},
       {"c0", "c0", "N s/m", "viscous damping", 0.0, 2.0e4, 5.0e2, Scale::linear, {1, 0, -1}, true},
       {"k0", "k0", "N/m", "stiffness", -2.0e4, 1.0e5, 0.0, Scale::linear, {1, -1, 0}, true},
       {"f0", "f0", "N", "offset force, -k0 x0", -1.5e3, 1.5e3, 0.0, Scale::linear, {1, 0, 0}, true},

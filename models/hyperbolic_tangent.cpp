@@ -2,9 +2,9 @@
 //   F = alpha tanh(h / v_y) + c0 v + k0 x + f0
 //   h' = (v - h) / tau
 // Kwok et al. write tanh(beta v + delta sgn(x)) for a sine about x = 0. A recording's absolute position carries no such
-// meaning, so the branch is carried by the lagged velocity h instead: for a sine of frequency w both open the loop by the
-// same shift of velocity at the reversals when tan(w tau) = delta / (beta v_max).
-// Source: Kwok, Ha, Nguyen, Li, Samali, Sens. Actuators A 132 (2006) 441-451, doi 10.1016/j.sna.2006.03.015.
+// meaning, so the branch is carried by the lagged velocity h instead: for a sine of frequency w both open the loop by
+// the same shift of velocity at the reversals when tan(w tau) = delta / (beta v_max). Source: Kwok, Ha, Nguyen, Li,
+// Samali, Sens. Actuators A 132 (2006) 441-451, doi 10.1016/j.sna.2006.03.015.
 #include "simulate/compile.hpp"
 
 namespace hysteron {

@@ -3,10 +3,10 @@
 //   y' = (alpha z + c0 v + k0 (x - y)) / (c0 + c1)
 //   z' = (u - |z|^n (share |u| sgn(z) + (1 - share) u)) / x_y,   u = v - y'
 // marched in e = x - y, e' = u = (c1 v - k0 e - alpha z) / (c0 + c1), which needs no absolute position; e starts at 0.
-// Normal form of z as in bouc-wen: Z = (A / (beta + gamma))^(1/n), alpha = alpha0 Z, x_y = Z / A and, in the notation of
-// the source, where gamma multiplies |u| z, share = gamma / (beta + gamma).
-// k0 < 0 lets e grow without bound, so the identification box starts at zero.
-// Source: Spencer, Dyke, Sain, Carlson, J. Eng. Mech. 123 (1997) 230-238, doi 10.1061/(ASCE)0733-9399(1997)123:3(230).
+// Normal form of z as in bouc-wen: Z = (A / (beta + gamma))^(1/n), alpha = alpha0 Z, x_y = Z / A and, in the notation
+// of the source, where gamma multiplies |u| z, share = gamma / (beta + gamma). k0 < 0 lets e grow without bound, so the
+// identification box starts at zero. Source: Spencer, Dyke, Sain, Carlson, J. Eng. Mech. 123 (1997) 230-238,
+// doi 10.1061/(ASCE)0733-9399(1997)123:3(230).
 #include "simulate/compile.hpp"
 
 namespace hysteron {
@@ -22,18 +22,41 @@ struct ModifiedBoucWen {
       "z' = (u - |z|^n (share |u| sgn(z) + (1 - share) u)) / x_y, u = v - y'"};
   static constexpr int states = 2;
   static constexpr Parameter parameters[] = {
-      {"alpha", "alpha", "N", "yield force: force of the saturated hysteresis", 0.0, 3.0e3, 5.0e2, Scale::linear,
+      {"alpha",
+       "alpha",
+       "N",
+       "yield force: force of the saturated hysteresis",
+       0.0,
+       3.0e3,
+       5.0e2,
+       Scale::linear,
        {1, 0, 0}},
       {"c0", "c0", "N s/m", "viscous damping at high speed", 0.0, 2.0e4, 5.0e2, Scale::linear, {1, 0, -1}},
-      {"c1", "c1", "N s/m", "series dashpot: roll-off at low speed", 2.0e3, 1.0e6, 2.0e4, Scale::logarithmic,
+      {"c1",
+       "c1",
+       "N s/m",
+       "series dashpot: roll-off at low speed",
+       2.0e3,
+       1.0e6,
+       2.0e4,
+       Scale::logarithmic,
        {1, 0, -1}},
       {"k0", "k0", "N/m", "stiffness at high speed", 0.0, 1.0e5, 1.0e3, Scale::linear, {1, -1, 0}},
       {"k1", "k1", "N/m", "accumulator stiffness", -2.0e4, 1.0e5, 0.0, Scale::linear, {1, -1, 0}, true},
       {"x_y", "x_y", "m", "yield displacement", 1.0e-4, 2.5e-2, 1.0e-3, Scale::logarithmic, {0, 1, 0}},
       {"share", "gamma/(beta+gamma)", "1", "share of the |u| z term: loop shape", 0.1, 1.5, 0.5},
       {"n", "n", "1", "sharpness of the knee", 1.0, 4.0, 1.5},
-      {"x0", "x0", "m", "initial deflection of the accumulator spring", -5.0e-2, 5.0e-2, 0.0, Scale::linear,
-       {0, 1, 0}, false, true},
+      {"x0",
+       "x0",
+       "m",
+       "initial deflection of the accumulator spring",
+       -5.0e-2,
+       5.0e-2,
+       0.0,
+       Scale::linear,
+       {0, 1, 0},
+       false,
+       true},
   };
 
   template <class T>
@@ -54,8 +77,7 @@ struct ModifiedBoucWen {
     const T steepest = max(T(1.0), abs(T(1.0) - T(2.0) * p[6]));
     const T series = p[1] + p[2];
     // One and a half times the bound: the slip changes sign between the reversals of v that steps land on.
-    return T(1.5) * ((abs(p[3]) + abs(p[0]) * (T(1.0) + steepest) / p[5]) / series +
-                     T(speed) * p[7] * steepest / p[5]);
+    return T(1.5) * ((abs(p[3]) + abs(p[0]) * (T(1.0) + steepest) / p[5]) / series + T(speed) * p[7] * steepest / p[5]);
   }
   template <class T>
   static T force(const std::array<T, 9>& p, const std::array<T, 2>& s, const Input<T>& in, const T& /*below*/) {

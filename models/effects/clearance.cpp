@@ -19,15 +19,7 @@ struct Clearance {
   static constexpr bool is_series = true;
   static constexpr Parameter parameters[] = {
       {"gap", "g", "m", "full width of the play", 0.0, 5.0e-3, 0.0, Scale::linear, {0, 1, 0}},
-      {"C_c",
-       "1/k_c",
-       "m/N",
-       "compliance of the closed contact",
-       0.0,
-       1.0e-6,
-       0.0,
-       Scale::linear,
-       {-1, 1, 0}},
+      {"C_c", "1/k_c", "m/N", "compliance of the closed contact", 0.0, 1.0e-6, 0.0, Scale::linear, {-1, 1, 0}},
       {"f_c",
        "f_c",
        "N",

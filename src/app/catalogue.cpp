@@ -48,9 +48,11 @@ std::vector<Row> rows_of(const std::string& kind) {
 }
 
 json card_json(const Parameter& card) {
-  return {{"name", card.name},   {"symbol", card.symbol}, {"unit", card.unit},       {"meaning", card.meaning},
-          {"lower", card.lower}, {"upper", card.upper},   {"default", card.initial},
-          {"scale", card.scale == Scale::linear ? "linear" : "log"}, {"fixed", card.fixed}};
+  return {{"name", card.name},       {"symbol", card.symbol},
+          {"unit", card.unit},       {"meaning", card.meaning},
+          {"lower", card.lower},     {"upper", card.upper},
+          {"default", card.initial}, {"scale", card.scale == Scale::linear ? "linear" : "log"},
+          {"fixed", card.fixed}};
 }
 
 std::string_view word_of(PresetDrive drive) {
@@ -104,10 +106,11 @@ void describe_preset(const Preset& preset, bool as_json) {
   std::vector<std::vector<std::string>> rows;
   for (const PresetQuantity& quantity : preset.quantities) {
     rows.push_back({std::string(quantity.name), std::string(quantity.unit),
-                    quantity.at != nullptr ? std::string(quantity.printed) : "not printed: --set " + std::string(quantity.name) + "=..."});
+                    quantity.at != nullptr ? std::string(quantity.printed)
+                                           : "not printed: --set " + std::string(quantity.name) + "=..."});
   }
-  fmt::print("{}\nUse it: hysteron simulate --preset {} RECORDING --out FILE\n", table({"quantity", "unit", "value"}, rows),
-             preset.id);
+  fmt::print("{}\nUse it: hysteron simulate --preset {} RECORDING --out FILE\n",
+             table({"quantity", "unit", "value"}, rows), preset.id);
 }
 
 void describe_part(const Part& part, const std::string& kind, bool as_json) {
@@ -144,7 +147,8 @@ void describe_part(const Part& part, const std::string& kind, bool as_json) {
   }
   fmt::print("{}", table({"parameter", "unit", "lower", "upper", "default", "meaning"}, rows));
   fmt::print(
-      "\nBounds are for a device of 1 kN, 25 mm half stroke and 0.3 m/s; an identification scales them to the recordings.\n");
+      "\nBounds are for a device of 1 kN, 25 mm half stroke and 0.3 m/s; an identification scales them to the "
+      "recordings.\n");
   rows.clear();
   for (const Preset* preset : presets_of(part.id)) {
     rows.push_back({std::string(preset->id), std::string(preset->title)});
@@ -165,17 +169,24 @@ void describe_solver(const SolverEntry& entry, bool as_json) {
   if (as_json) {
     json settings = json::array();
     for (const Setting& row : entry.settings) {
-      settings.push_back({{"name", row.name}, {"default", row.value}, {"lower", row.lower}, {"upper", row.upper},
+      settings.push_back({{"name", row.name},
+                          {"default", row.value},
+                          {"lower", row.lower},
+                          {"upper", row.upper},
                           {"meaning", row.meaning}});
     }
-    fmt::print("{}", json_text({{"kind", "solver"}, {"id", entry.id}, {"title", entry.title},
-                                {"reference", entry.reference}, {"description", entry.description},
+    fmt::print("{}", json_text({{"kind", "solver"},
+                                {"id", entry.id},
+                                {"title", entry.title},
+                                {"reference", entry.reference},
+                                {"description", entry.description},
                                 {"uses_derivatives", entry.uses_derivatives},
                                 {"family", family_of(entry)},
                                 {"settings", settings}}));
     return;
   }
-  fmt::print("{} ({}): {}\n\n{}\n\nSource: {}\n\n", entry.id, entry.members != nullptr ? "family of solvers" : "solver", entry.title, entry.description, entry.reference);
+  fmt::print("{} ({}): {}\n\n{}\n\nSource: {}\n\n", entry.id, entry.members != nullptr ? "family of solvers" : "solver",
+             entry.title, entry.description, entry.reference);
   std::vector<std::vector<std::string>> rows;
   for (const Setting& row : entry.settings) {
     rows.push_back({std::string(row.name), fmt::format("{:g}", row.value), fmt::format("{:g}", row.lower),
@@ -222,7 +233,8 @@ void add_catalogue(CLI::App& program) {
   });
 
   auto describe_options = std::make_shared<Options>();
-  CLI::App* describe = program.add_subcommand("describe", "one model, effect, solver, dataset or parameter set: equations, parameters, source");
+  CLI::App* describe = program.add_subcommand(
+      "describe", "one model, effect, solver, dataset or parameter set: equations, parameters, source");
   describe->add_option("NAME", describe_options->word, "an id of `hysteron list`")->required();
   describe->add_flag("--json", describe_options->json, "JSON on standard output");
   describe->footer("Example:\n  hysteron describe bouc-wen");
@@ -240,8 +252,11 @@ void add_catalogue(CLI::App& program) {
       describe_preset(*preset, describe_options->json);
     } else if (const DatasetEntry* dataset = find_dataset(id)) {
       if (describe_options->json) {
-        fmt::print("{}", json_text({{"kind", "dataset"}, {"id", dataset->id}, {"title", dataset->title},
-                                    {"reference", dataset->reference}, {"description", dataset->description}}));
+        fmt::print("{}", json_text({{"kind", "dataset"},
+                                    {"id", dataset->id},
+                                    {"title", dataset->title},
+                                    {"reference", dataset->reference},
+                                    {"description", dataset->description}}));
       } else {
         fmt::print("{} (dataset): {}\n\n{}\n\nSource: {}\nMake it: hysteron generate {} --out DIR\n", dataset->id,
                    dataset->title, dataset->description, dataset->reference, dataset->id);

@@ -18,16 +18,15 @@ namespace {
 volatile std::sig_atomic_t interrupt_seen = 0;
 std::string typed;
 
-double now() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
+double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 }  // namespace
 
 void add_data_options(CLI::App& command, DataOptions& options) {
   command.add_option("DATA", options.data, "CSV or MAT files, or folders of them with an optional campaign.toml")
       ->required();
-  command.add_option("--column", options.columns, "channel=NAME [UNIT] of a column, e.g. force=\"CH1 [kgf]\"; repeatable")
+  command
+      .add_option("--column", options.columns, "channel=NAME [UNIT] of a column, e.g. force=\"CH1 [kgf]\"; repeatable")
       ->allow_extra_args(false);
 }
 
@@ -52,9 +51,12 @@ void add_common_options(CLI::App& command, CommonOptions& options) {
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
   command.add_flag("--quiet", options.quiet, "no progress on standard error");
-  command.add_option("--normalisation", options.normalisation, "what RMSE is divided by: max-abs, range, std, mean-abs")
+  command
+      .add_option("--normalisation", options.normalisation, "what RMSE is divided by: max-abs, range, std, mean-abs")
       ->capture_default_str();
-  command.add_option("--weighting", options.weighting, "per-recording: each recording weighs the same; pooled: each sample")
+  command
+      .add_option("--weighting", options.weighting,
+                  "per-recording: each recording weighs the same; pooled: each sample")
       ->check(CLI::IsMember({"per-recording", "pooled"}))
       ->capture_default_str();
   command.add_option("--tolerance", options.tolerance, "relative force error allowed to the integration")

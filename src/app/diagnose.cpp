@@ -49,8 +49,8 @@ std::string explanation(const Diagnosis& diagnosis) {
   return "The model misses something, and no known effect explains it.";
 }
 
-Identification identification_of(const Diagnosis& diagnosis, const Campaign& campaign, const ObjectiveOptions& objective,
-                                 bool roles) {
+Identification identification_of(const Diagnosis& diagnosis, const Campaign& campaign,
+                                 const ObjectiveOptions& objective, bool roles) {
   const Fit& fit = diagnosis.final;
   Identification result{*fit.layout, fit.terms, {}, {}, 0, fit.cost, fit.heldout, {}, {}, roles, {}};
   std::vector<Recording> fitted;
@@ -74,10 +74,12 @@ Identification identification_of(const Diagnosis& diagnosis, const Campaign& cam
 void print_summary(const Diagnosis& diagnosis, const std::filesystem::path& out) {
   const Search& search = diagnosis.search;
   fmt::print("verdict: {}\n{}\n\n", diagnosis.verdict.word, explanation(diagnosis));
-  fmt::print("{}\n", table({"model", "NRMSE fit", "NRMSE held out"},
-                           {{search.base.what.model, format_number(search.base.cost, 4), format_number(search.base.heldout, 4)},
-                            {"augmented", format_number(search.augmented.cost, 4), format_number(search.augmented.heldout, 4)},
-                            {"noise floor (" + diagnosis.noise_floor_method + ")", format_number(diagnosis.noise_floor, 4), ""}}));
+  fmt::print(
+      "{}\n",
+      table({"model", "NRMSE fit", "NRMSE held out"},
+            {{search.base.what.model, format_number(search.base.cost, 4), format_number(search.base.heldout, 4)},
+             {"augmented", format_number(search.augmented.cost, 4), format_number(search.augmented.heldout, 4)},
+             {"noise floor (" + diagnosis.noise_floor_method + ")", format_number(diagnosis.noise_floor, 4), ""}}));
   for (std::size_t k = 0; k < diagnosis.sentences.size(); ++k) {
     fmt::print("- {} (confidence {:.0f} %)\n", diagnosis.sentences[k], 100.0 * diagnosis.verdict.effects[k].confidence);
   }
@@ -189,7 +191,8 @@ void run(const Options& options) {
                {"warnings", json::array()},
                {"solvers", json::array()},
                {"provenance", model_file["provenance"]}};
-  std::vector<std::string> equations(result.layout.model().law->equations.begin(), result.layout.model().law->equations.end());
+  std::vector<std::string> equations(result.layout.model().law->equations.begin(),
+                                     result.layout.model().law->equations.end());
   for (const Part* effect : result.layout.model().effects) {
     equations.insert(equations.end(), effect->equations.begin(), effect->equations.end());
   }
@@ -202,12 +205,15 @@ void run(const Options& options) {
     page["parameters"].push_back(estimate_json(row, result.layout));
   }
   const Search& search = diagnosis->search;
-  page["summary"] = json::array(
-      {{{"label", "Held-out NRMSE, base model"}, {"value", format_number(search.base.heldout, 3)}, {"note", search.base.what.model}},
-       {{"label", "Held-out NRMSE, augmented"},
-        {"value", format_number(search.augmented.heldout, 3)},
-        {"note", diagnosis->bench.split().how}},
-       {{"label", "Noise floor"}, {"value", format_number(diagnosis->noise_floor, 3)}, {"note", diagnosis->noise_floor_method}}});
+  page["summary"] = json::array({{{"label", "Held-out NRMSE, base model"},
+                                  {"value", format_number(search.base.heldout, 3)},
+                                  {"note", search.base.what.model}},
+                                 {{"label", "Held-out NRMSE, augmented"},
+                                  {"value", format_number(search.augmented.heldout, 3)},
+                                  {"note", diagnosis->bench.split().how}},
+                                 {{"label", "Noise floor"},
+                                  {"value", format_number(diagnosis->noise_floor, 3)},
+                                  {"note", diagnosis->noise_floor_method}}});
 
   const std::filesystem::path out(options.out);
   write_file_atomically(out / "diagnosis.json", json_text(diagnosis_file));
@@ -226,10 +232,12 @@ void run(const Options& options) {
 
 void add_diagnose(CLI::App& program) {
   auto options = std::make_shared<Options>();
-  CLI::App* command = program.add_subcommand("diagnose", "finds where recording and simulation differ and names the missing physics");
+  CLI::App* command =
+      program.add_subcommand("diagnose", "finds where recording and simulation differ and names the missing physics");
   add_data_options(*command, options->data);
   command->add_option("--model", options->model, "base damper law; default campaign.toml's, else bouc-wen");
-  command->add_option("--by-current", options->by_current, "parameters that are polynomials in the drive, e.g. alpha:1,c0:1");
+  command->add_option("--by-current", options->by_current,
+                      "parameters that are polynomials in the drive, e.g. alpha:1,c0:1");
   command->add_option("--by-frequency", options->by_frequency, "parameters that are polynomials in frequency");
   command->add_option("--effects", options->effects, "effects to consider; default all, see `hysteron list effects`")
       ->delimiter(',')
@@ -240,8 +248,7 @@ void add_diagnose(CLI::App& program) {
   command->add_flag("--json", options->json, "diagnosis.json on standard output too");
   command->add_option("--out", options->out, "folder for diagnosis.json, model.json, report.html")->required();
   add_common_options(*command, options->common);
-  command->footer(
-      "Example:\n  hysteron diagnose recordings/ --model bouc-wen --by-current alpha:1,c0:1 --out out");
+  command->footer("Example:\n  hysteron diagnose recordings/ --model bouc-wen --by-current alpha:1,c0:1 --out out");
   command->callback([options] { run(*options); });
 }
 

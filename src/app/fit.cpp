@@ -117,7 +117,7 @@ json final_json(const Identification& result) {
     return nullptr;
   }
   const RunResult& run = *result.final_run;
-  return {{"stage", result.final_stage}, {"solver", run.solver},     {"cost", run.cost},
+  return {{"stage", result.final_stage},    {"solver", run.solver}, {"cost", run.cost},
           {"evaluations", run.evaluations}, {"budget", run.budget}, {"stopped", run.stopped}};
 }
 
@@ -154,9 +154,7 @@ void run(const FitOptions& options) {
     prediction.score = score(prediction.force, recording, identify_with.objective.normalisation);
     predictions.push_back(std::move(prediction));
   }
-  const auto was_heldout = [&](std::size_t k) {
-    return std::ranges::find(result.heldout, k) != result.heldout.end();
-  };
+  const auto was_heldout = [&](std::size_t k) { return std::ranges::find(result.heldout, k) != result.heldout.end(); };
   const auto role = [&](std::size_t k) {
     return std::string(was_heldout(k) && result.roles_given ? "validate" : "fit");
   };
@@ -193,28 +191,31 @@ void run(const FitOptions& options) {
   for (const Estimate& estimate : result.estimates) {
     estimates.push_back(estimate_json(estimate, result.layout));
   }
-  const json fit_file = {{"schema", "hysteron.fit/1"},
-                         {"model", model_file["model"]},
-                         {"effects", model_file["effects"]},
-                         {"normalisation", normalisation},
-                         {"weighting", options.common.weighting},
-                         {"nrmse", model_file["nrmse"]},
-                         {"held_out", heldout_files},
-                         {"held_out_by", result.roles_given ? "campaign.toml" : "the program; final fit uses all recordings"},
-                         {"solvers", solvers},
-                         {"final", final_json(result)},
-                         {"parameters", estimates},
-                         {"recordings", rows},
-                         {"warnings", warnings},
-                         {"provenance", model_file["provenance"]}};
+  const json fit_file = {
+      {"schema", "hysteron.fit/1"},
+      {"model", model_file["model"]},
+      {"effects", model_file["effects"]},
+      {"normalisation", normalisation},
+      {"weighting", options.common.weighting},
+      {"nrmse", model_file["nrmse"]},
+      {"held_out", heldout_files},
+      {"held_out_by", result.roles_given ? "campaign.toml" : "the program; final fit uses all recordings"},
+      {"solvers", solvers},
+      {"final", final_json(result)},
+      {"parameters", estimates},
+      {"recordings", rows},
+      {"warnings", warnings},
+      {"provenance", model_file["provenance"]}};
 
   json page = fit_file;
   page["title"] = "Identification of " + std::string(result.layout.model().law->title);
-  page["subtitle"] = fmt::format("{} recordings, {} free parameters", campaign.recordings.size(), result.layout.dimension());
+  page["subtitle"] =
+      fmt::format("{} recordings, {} free parameters", campaign.recordings.size(), result.layout.dimension());
   page["version"] = HYSTERON_VERSION;
   page["command"] = command_line();
   page["seed"] = options.common.seed;
-  std::vector<std::string> equations(result.layout.model().law->equations.begin(), result.layout.model().law->equations.end());
+  std::vector<std::string> equations(result.layout.model().law->equations.begin(),
+                                     result.layout.model().law->equations.end());
   for (const Part* effect : result.layout.model().effects) {
     equations.insert(equations.end(), effect->equations.begin(), effect->equations.end());
   }
@@ -231,21 +232,23 @@ void run(const FitOptions& options) {
                                {"value", format_number(*result.nrmse_heldout, 3)},
                                {"note", "fitted without " + heldout_names}});
   }
-  page["summary"].push_back({{"label", "Evaluations"},
-                             {"value", std::to_string(result.solvers[result.chosen].run.evaluations)},
-                             {"note", result.solvers[result.chosen].run.solver + ": " + result.solvers[result.chosen].run.stopped +
-                                          (result.final_run ? fmt::format("; and {} in the {} by {}", result.final_run->evaluations,
-                                                                          result.final_stage, result.final_run->solver)
-                                                            : "")}});
+  page["summary"].push_back(
+      {{"label", "Evaluations"},
+       {"value", std::to_string(result.solvers[result.chosen].run.evaluations)},
+       {"note", result.solvers[result.chosen].run.solver + ": " + result.solvers[result.chosen].run.stopped +
+                    (result.final_run ? fmt::format("; and {} in the {} by {}", result.final_run->evaluations,
+                                                    result.final_stage, result.final_run->solver)
+                                      : "")}});
   page["recordings"] = json::array();
   for (std::size_t k = 0; k < predictions.size(); ++k) {
     page["recordings"].push_back(recording_json(campaign.recordings[k], predictions[k], role(k)));
   }
   page["data"] = data;
-  page["notes"] = {"Standard errors come from the curvature at the optimum with the effective sample size of the "
-                   "correlated residual; they do not cover what the model leaves out.",
-                   "Fit [%] = 100 (1 - RMSE / standard deviation of the measured force).",
-                   "A derivative evaluation is charged as 1 + number of free parameters evaluations."};
+  page["notes"] = {
+      "Standard errors come from the curvature at the optimum with the effective sample size of the "
+      "correlated residual; they do not cover what the model leaves out.",
+      "Fit [%] = 100 (1 - RMSE / standard deviation of the measured force).",
+      "A derivative evaluation is charged as 1 + number of free parameters evaluations."};
   page["diagnosis"] = nullptr;
 
   const std::filesystem::path out(options.out);
@@ -263,7 +266,8 @@ void run(const FitOptions& options) {
                           std::to_string(outcome.run.evaluations), std::to_string(outcome.run.diverged),
                           outcome.run.stopped});
   }
-  fmt::print("{}\n", table({"solver", "NRMSE fit", "NRMSE held out", "evaluations", "diverged", "stopped"}, table_rows));
+  fmt::print("{}\n",
+             table({"solver", "NRMSE fit", "NRMSE held out", "evaluations", "diverged", "stopped"}, table_rows));
   table_rows.clear();
   for (const Estimate& estimate : result.estimates) {
     std::string remark = estimate.at_bound ? "at " + *estimate.at_bound + " bound" : "";
@@ -317,7 +321,8 @@ void add_fit(CLI::App& program) {
   command->add_option("--budget", options->budget, "evaluations each solver may use")
       ->check(CLI::Range(std::size_t{1}, std::size_t{1000000000}))
       ->capture_default_str();
-  command->add_option("--by-current", options->by_current, "parameters that are polynomials in the drive, e.g. alpha:1,c0:1");
+  command->add_option("--by-current", options->by_current,
+                      "parameters that are polynomials in the drive, e.g. alpha:1,c0:1");
   command->add_option("--by-frequency", options->by_frequency, "parameters that are polynomials in frequency");
   command->add_option("--fix", options->fix, "PARAMETER=VALUE held, SI units; repeatable")->allow_extra_args(false);
   command->add_option("--bounds", options->bounds, "PARAMETER=LOWER:UPPER instead of the default box; repeatable")
@@ -327,7 +332,8 @@ void add_fit(CLI::App& program) {
   add_common_options(*command, options->common);
   command->footer(
       "Example:\n  hysteron fit recordings/ --model bouc-wen --by-current alpha:1,c0:1 --out out\n"
-      "  hysteron fit recordings/ --model modified-bouc-wen --effects offset-force --solver pso,ga,multistart-lm --out out");
+      "  hysteron fit recordings/ --model modified-bouc-wen --effects offset-force --solver pso,ga,multistart-lm --out "
+      "out");
   command->callback([options] { run(*options); });
 }
 

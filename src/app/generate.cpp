@@ -36,7 +36,9 @@ void add_generate(CLI::App& program) {
   command->add_option("DATASET", options->id, "an id of `hysteron list datasets`")->required();
   command->add_option("--out", options->out, "folder to write")->required();
   command->add_option("--only", options->only, "only recordings whose name contains this, e.g. 2.0Hz");
-  command->add_option("--seed", options->seed, "seed of the noise")->check(CLI::NonNegativeNumber)->capture_default_str();
+  command->add_option("--seed", options->seed, "seed of the noise")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
   command->footer("Example:\n  hysteron generate rd8040-twin --out twin --only 2.0Hz");
   command->callback([options] {
     const DatasetEntry* entry = find_dataset(options->id);

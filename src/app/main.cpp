@@ -28,11 +28,14 @@ int main(int count, char** arguments) {
   app::remember_command(count, arguments);
   app::catch_interrupts();
   CLI::App program{
-      "Hysteron identifies damper models from recordings, compares identification algorithms, and finds missing physics."};
+      "Hysteron identifies damper models from recordings, compares identification algorithms, and finds missing "
+      "physics."};
   program.set_version_flag("--version", "hysteron " HYSTERON_VERSION);
   program.require_subcommand(1);
   std::vector<std::string> plugins;
-  program.add_option("--plugin", plugins, "library with models, effects or solvers of your own, see docs/plugins.md; repeatable")
+  program
+      .add_option("--plugin", plugins,
+                  "library with models, effects or solvers of your own, see docs/plugins.md; repeatable")
       ->allow_extra_args(false);
   program.footer(
       "Examples:\n"

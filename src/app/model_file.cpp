@@ -26,7 +26,8 @@ json model_json(const Identification& result, const Campaign& campaign, const Id
                           {"identifiable", estimate.identifiable}});
   }
   for (std::size_t j = 0; j < result.layout.cards().size(); ++j) {
-    const bool searched = std::ranges::any_of(result.layout.laws(), [&](const ParameterLaw& law) { return law.parameter == j; });
+    const bool searched =
+        std::ranges::any_of(result.layout.laws(), [&](const ParameterLaw& law) { return law.parameter == j; });
     if (!searched) {
       parameters.push_back({{"name", result.layout.names()[j]},
                             {"parameter", result.layout.names()[j]},
@@ -71,7 +72,9 @@ StoredModel read_model(const std::string& path) {
   try {
     root = json::parse(text);
   } catch (const json::parse_error& error) {
-    const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(std::min(error.byte, text.size())), '\n');
+    const auto line =
+        1 +
+        std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(std::min(error.byte, text.size())), '\n');
     throw InputError(path, static_cast<int>(line), "not valid JSON, expected a model.json written by hysteron");
   } catch (const json::out_of_range&) {
     throw InputError(path, 0, "holds a number beyond the range of a double, expected a model.json written by hysteron");
@@ -85,8 +88,7 @@ StoredModel read_model(const std::string& path) {
   }
   StoredModel result;
   try {
-    result.model = make_model(root.at("model").get<std::string>(),
-                              root.value("effects", std::vector<std::string>{}));
+    result.model = make_model(root.at("model").get<std::string>(), root.value("effects", std::vector<std::string>{}));
     const std::vector<std::string> names = result.model.parameter_names();
     for (const Parameter& card : result.model.parameters()) {
       result.held.push_back(card.initial);
@@ -110,7 +112,8 @@ StoredModel read_model(const std::string& path) {
         throw wrong("parameter '" + name + "' has a power outside 0 to 9");
       }
       if (std::ranges::any_of(result.terms, [&](const Term& term) {
-            return term.parameter == index && term.drive_power == drive_power && term.frequency_power == frequency_power;
+            return term.parameter == index && term.drive_power == drive_power &&
+                   term.frequency_power == frequency_power;
           })) {
         throw wrong("parameter '" + term_name(name, drive_power, frequency_power) + "' is given twice");
       }

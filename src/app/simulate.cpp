@@ -47,7 +47,8 @@ std::vector<double> given_quantities(const Preset& preset, const std::vector<std
     const std::string number = equals == std::string::npos ? "" : word.substr(equals + 1);
     const double value = std::strtod(number.c_str(), &end);
     if (found == preset.quantities.end() || number.empty() || *end != '\0' || !std::isfinite(value)) {
-      throw InputError("--set: '" + word + "' is not QUANTITY=NUMBER with a quantity of the preset, see `hysteron describe " +
+      throw InputError("--set: '" + word +
+                       "' is not QUANTITY=NUMBER with a quantity of the preset, see `hysteron describe " +
                        std::string(preset.id) + "`");
     }
     given[static_cast<std::size_t>(found - preset.quantities.begin())] = value;
@@ -59,7 +60,8 @@ std::vector<double> given_quantities(const Preset& preset, const std::vector<std
     }
   }
   if (!missing.empty()) {
-    throw InputError("preset " + std::string(preset.id) + ": its source does not print every quantity, expected" + missing);
+    throw InputError("preset " + std::string(preset.id) + ": its source does not print every quantity, expected" +
+                     missing);
   }
   return given;
 }
@@ -82,8 +84,8 @@ std::vector<double> force_of_preset(const Preset& preset, const Options& options
   const auto outside = std::ranges::count_if(
       recording.drive, [&](double drive) { return drive < preset.drive_low || drive > preset.drive_high; });
   if (preset.drive != PresetDrive::none && outside > 0) {
-    fmt::print(stderr, "warning: {}: {} samples have a drive outside {} to {}, the range of preset {}\n", recording.file,
-               outside, preset.drive_low, preset.drive_high, preset.id);
+    fmt::print(stderr, "warning: {}: {} samples have a drive outside {} to {}, the range of preset {}\n",
+               recording.file, outside, preset.drive_low, preset.drive_high, preset.id);
   }
   const double frequency = preset.by_frequency ? dominant_frequency(recording) : 0.0;
   const auto parameters = [&](double drive) {
@@ -121,16 +123,19 @@ void add_simulate(CLI::App& program) {
   auto options = std::make_shared<Options>();
   CLI::App* command = program.add_subcommand(
       "simulate", "predicted force of a fitted model or a published parameter set on the motion of a recording");
-  command->add_option("MODEL RECORDING", options->words,
-                      "model.json written by fit or diagnose, then one CSV or MAT file; its force may be missing. With "
-                      "--preset the recording alone")
+  command
+      ->add_option("MODEL RECORDING", options->words,
+                   "model.json written by fit or diagnose, then one CSV or MAT file; its force may be missing. With "
+                   "--preset the recording alone")
       ->required()
       ->expected(1, 2);
   command->add_option("--preset", options->preset, "published parameter set, see `hysteron describe MODEL`");
   command->add_option("--set", options->set, "QUANTITY=NUMBER of the preset, in its printed unit; repeatable")
       ->allow_extra_args(false);
-  command->add_option("--drive", options->drive, "constant current or voltage for the preset, instead of the recording's");
-  command->add_option("--column", options->data.columns, "channel=NAME [UNIT] of a column; repeatable")->allow_extra_args(false);
+  command->add_option("--drive", options->drive,
+                      "constant current or voltage for the preset, instead of the recording's");
+  command->add_option("--column", options->data.columns, "channel=NAME [UNIT] of a column; repeatable")
+      ->allow_extra_args(false);
   command->add_option("--out", options->out, "CSV to write: time [s],force [N]")->required();
   command->add_option("--tolerance", options->tolerance, "relative force error allowed to the integration")
       ->check(CLI::Range(1e-10, 1e-2))
@@ -142,7 +147,8 @@ void add_simulate(CLI::App& program) {
   command->callback([options] {
     const bool preset = !options->preset.empty();
     if (options->words.size() != (preset ? 1U : 2U)) {
-      throw InputError(preset ? "simulate --preset: expected RECORDING alone" : "simulate: expected MODEL and RECORDING");
+      throw InputError(preset ? "simulate --preset: expected RECORDING alone"
+                              : "simulate: expected MODEL and RECORDING");
     }
     if (!preset && (!options->set.empty() || !std::isnan(options->drive))) {
       throw InputError("simulate: --set and --drive belong to --preset");

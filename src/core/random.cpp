@@ -23,8 +23,7 @@ struct Words {
 
 Words philox(std::uint64_t key, std::uint64_t a, std::uint32_t b, std::uint32_t c) {
   r123::Philox4x32 generator;
-  const r123::Philox4x32::key_type k = {
-      {static_cast<std::uint32_t>(key), static_cast<std::uint32_t>(key >> 32U)}};
+  const r123::Philox4x32::key_type k = {{static_cast<std::uint32_t>(key), static_cast<std::uint32_t>(key >> 32U)}};
   const r123::Philox4x32::ctr_type counter = {
       {static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(a >> 32U), b, c}};
   const auto out = generator(counter, k);

@@ -53,7 +53,8 @@ std::string join(const std::vector<std::string>& words, const std::string& last)
   return result;
 }
 
-std::string sentence_of(const Diagnosis& diagnosis, const Named& named, const std::vector<ParameterInterval>& parameters) {
+std::string sentence_of(const Diagnosis& diagnosis, const Named& named,
+                        const std::vector<ParameterInterval>& parameters) {
   std::vector<std::string> values;
   for (const ParameterInterval& p : parameters) {
     std::string text = fmt::format("{} = {:.3g}{}", p.name, p.value, p.unit == "1" ? "" : " " + p.unit);
@@ -66,8 +67,8 @@ std::string sentence_of(const Diagnosis& diagnosis, const Named& named, const st
   if (!values.empty()) {
     text += ", " + join(values, " and ");
   }
-  text += fmt::format(", which takes the held-out NRMSE from {:.3g} to {:.3g} (noise floor {:.2g})", named.without->heldout,
-                      named.fit->heldout, diagnosis.noise_floor);
+  text += fmt::format(", which takes the held-out NRMSE from {:.3g} to {:.3g} (noise floor {:.2g})",
+                      named.without->heldout, named.fit->heldout, diagnosis.noise_floor);
   if (!named.indistinguishable_from.empty()) {
     std::vector<std::string> others;
     for (const std::string& id : named.indistinguishable_from) {
@@ -85,7 +86,8 @@ std::string sentence_of(const Diagnosis& diagnosis, const Named& named, const st
     std::vector<std::string> beaten;
     for (const Rival& rival : found.rivals) {
       if (beaten.size() < 2 && find_effect(rival.id) != nullptr && rival.share > 0.05) {
-        beaten.push_back(fmt::format("{} ({:.0f} % of its gain)", title_of(rival.id), 100.0 * std::min(rival.share, 1.0)));
+        beaten.push_back(
+            fmt::format("{} ({:.0f} % of its gain)", title_of(rival.id), 100.0 * std::min(rival.share, 1.0)));
       }
     }
     if (!beaten.empty()) {
@@ -158,7 +160,8 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const DiagnoseOpti
     }
   }
   const Hypothesis base{options.model, {}, {}};
-  auto result = std::make_unique<Diagnosis>(Diagnosis{std::move(bench), {}, {}, 0.0, {}, {}, {}, {}, {}, {}, {}, {}, notes});
+  auto result =
+      std::make_unique<Diagnosis>(Diagnosis{std::move(bench), {}, {}, 0.0, {}, {}, {}, {}, {}, {}, {}, {}, notes});
   Diagnosis& diagnosis = *result;
   Split fewer = diagnosis.bench.split();
   Split some = fewer;
@@ -230,15 +233,19 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const DiagnoseOpti
     Rejected row;
     row.id = tried.id;
     row.p = boost::math::gamma_q(0.5 * more, 0.5 * statistic);
-    const double share = std::max(0.0, tried.gain) /
-                         std::max(before.cost * before.cost - diagnosis.search.quick_augmented.cost * diagnosis.search.quick_augmented.cost, 1e-300);
+    const double share =
+        std::max(0.0, tried.gain) / std::max(before.cost * before.cost - diagnosis.search.quick_augmented.cost *
+                                                                             diagnosis.search.quick_augmented.cost,
+                                             1e-300);
     if (tried.evidence < 0.0) {
       row.reason = "alone it explains no more than chance";
     } else if (!diagnosis.search.found.empty()) {
-      row.reason = fmt::format("alone it explains {:.0f} % of what the augmented model explains", 100.0 * std::min(share, 1.0));
+      row.reason =
+          fmt::format("alone it explains {:.0f} % of what the augmented model explains", 100.0 * std::min(share, 1.0));
     } else {
-      row.reason = fmt::format("alone it takes {:.2g} % off the squared error: too little, or not on the held-out recordings",
-                               100.0 * tried.gain / (before.cost * before.cost));
+      row.reason =
+          fmt::format("alone it takes {:.2g} % off the squared error: too little, or not on the held-out recordings",
+                      100.0 * tried.gain / (before.cost * before.cost));
     }
     diagnosis.rejected.push_back(std::move(row));
   }
@@ -254,7 +261,8 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const DiagnoseOpti
   } else if (diagnosis.verdict.word == "missing-physics") {
     diagnosis.next_experiment = "to confirm: " + next_experiment(candidates);
   } else {
-    diagnosis.next_experiment = "none is needed for this model; effects listed as not observable need their own recordings";
+    diagnosis.next_experiment =
+        "none is needed for this model; effects listed as not observable need their own recordings";
   }
   if (!diagnosis.verdict.reason.empty()) {
     diagnosis.notes.push_back(diagnosis.verdict.reason);

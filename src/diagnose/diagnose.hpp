@@ -11,7 +11,7 @@ namespace hysteron {
 
 struct DiagnoseOptions {
   std::string model;
-  LayoutOptions layout;        // laws of the base model; none given and a drive that varies: see base_laws
+  LayoutOptions layout;  // laws of the base model; none given and a drive that varies: see base_laws
   ObjectiveOptions objective;
   std::uint64_t seed = 1;
   int most_effects = 3;
@@ -35,7 +35,7 @@ struct Diagnosis {
   Workbench bench;
   Search search;
   Verdict verdict;
-  double noise_floor = 0.0;        // NRMSE over the fitted recordings
+  double noise_floor = 0.0;  // NRMSE over the fitted recordings
   std::string noise_floor_method;
   std::vector<Location> locations;
   std::vector<std::vector<ParameterInterval>> parameters;  // of verdict.effects
@@ -43,7 +43,7 @@ struct Diagnosis {
   std::vector<Rejected> rejected;
   std::vector<Unobservable> not_observable;
   std::string next_experiment;
-  Fit final;                       // the augmented model fitted to everything that may be fitted
+  Fit final;  // the augmented model fitted to everything that may be fitted
   std::vector<std::string> notes;
 };
 

@@ -29,9 +29,12 @@ struct Variable {
 
 const std::vector<Variable>& variables() {
   static const std::vector<Variable> list = {
-      {"speed", "m/s", 1e3, "mm/s", [](const Recording& r, const Features&, std::size_t n) { return std::fabs(r.velocity[n]); }},
-      {"velocity", "m/s", 1e3, "mm/s", [](const Recording& r, const Features&, std::size_t n) { return r.velocity[n]; }},
-      {"displacement", "m", 1e3, "mm", [](const Recording& r, const Features&, std::size_t n) { return r.displacement[n]; }},
+      {"speed", "m/s", 1e3, "mm/s",
+       [](const Recording& r, const Features&, std::size_t n) { return std::fabs(r.velocity[n]); }},
+      {"velocity", "m/s", 1e3, "mm/s",
+       [](const Recording& r, const Features&, std::size_t n) { return r.velocity[n]; }},
+      {"displacement", "m", 1e3, "mm",
+       [](const Recording& r, const Features&, std::size_t n) { return r.displacement[n]; }},
       {"distance from mid-stroke", "m", 1e3, "mm",
        [](const Recording& r, const Features& f, std::size_t n) { return std::fabs(r.displacement[n] - f.centre); }},
       {"displacement since reversal", "m", 1e3, "mm",

@@ -17,7 +17,7 @@ struct Location {
   std::string unit;
   double share_of_misfit = 0.0;
   double share_of_samples = 0.0;
-  double lowest_ratio = 0.0;  // 5 % quantile of misfit share over sample share, over resampled stretches
+  double lowest_ratio = 0.0;            // 5 % quantile of misfit share over sample share, over resampled stretches
   std::vector<std::string> recordings;  // those that hold most of it
 };
 

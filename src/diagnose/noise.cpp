@@ -24,7 +24,8 @@ Interpolated interpolate(const std::vector<double>& t, const std::vector<double>
     double weight = 1.0;
     for (std::ptrdiff_t m = first; m < first + 4; ++m) {
       if (m != k) {
-        weight *= (at - t[static_cast<std::size_t>(m)]) / (t[static_cast<std::size_t>(k)] - t[static_cast<std::size_t>(m)]);
+        weight *=
+            (at - t[static_cast<std::size_t>(m)]) / (t[static_cast<std::size_t>(k)] - t[static_cast<std::size_t>(m)]);
       }
     }
     result.value += weight * y[static_cast<std::size_t>(k)];

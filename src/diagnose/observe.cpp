@@ -71,7 +71,8 @@ std::optional<ChannelLag> velocity_channel_lag(const std::vector<Recording>& rec
     for (const double v : slope) {
       peak = std::max(peak, std::fabs(v));
     }
-    // d(slope)/dt times -lag is the first-order difference of a lagged channel; normalised so that recordings count alike.
+    // d(slope)/dt times -lag is the first-order difference of a lagged channel; normalised so that recordings count
+    // alike.
     double before = 0.0;
     for (std::size_t n = 1; n + 1 < slope.size(); ++n) {
       const double acceleration =

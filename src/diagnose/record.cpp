@@ -11,11 +11,11 @@ json diagnosis_json(const Diagnosis& diagnosis) {
     const Named& named = diagnosis.verdict.effects[k];
     json parameters = json::array();
     for (const ParameterInterval& p : diagnosis.parameters[k]) {
-      parameters.push_back({{"name", p.name},
-                            {"value", p.value},
-                            {"unit", p.unit},
-                            {"ci95", p.std_error ? json{p.value - 1.96 * *p.std_error, p.value + 1.96 * *p.std_error}
-                                                 : json(nullptr)}});
+      parameters.push_back(
+          {{"name", p.name},
+           {"value", p.value},
+           {"unit", p.unit},
+           {"ci95", p.std_error ? json{p.value - 1.96 * *p.std_error, p.value + 1.96 * *p.std_error} : json(nullptr)}});
     }
     effects.push_back({{"id", named.id},
                        {"confidence", named.confidence},

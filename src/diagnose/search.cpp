@@ -209,7 +209,8 @@ Search search(const Workbench& bench, const Workbench& fine, const Hypothesis& b
   double effective = misfit_of(bench, current).effective;
   std::vector<std::vector<Tried>> stages;
   for (int depth = 0; depth < options.most_effects; ++depth) {
-    progress(0.1 + 0.6 * depth / options.most_effects, "trying " + std::to_string(candidates.size()) + " hypotheses behind " +
+    progress(0.1 + 0.6 * depth / options.most_effects, "trying " + std::to_string(candidates.size()) +
+                                                           " hypotheses behind " +
                                                            std::to_string(current.what.effects.size()) + " effects");
     std::vector<Tried> tried = stage(bench, current, candidates, effective);
     // What a good model leaves tells the independent samples better than what a bad one does.
@@ -244,9 +245,9 @@ Search search(const Workbench& bench, const Workbench& fine, const Hypothesis& b
       found.id = id;
       found.without = less == base ? result.quick_base : bench.from_fit(less, current, fitting_rounds);
       found.gain = squared(found.without.cost) - squared(current.cost);
-      found.evidence = evidence(squared(found.without.cost), squared(current.cost),
-                                static_cast<double>(current.dimension()) - static_cast<double>(found.without.dimension()),
-                                effective);
+      found.evidence = evidence(
+          squared(found.without.cost), squared(current.cost),
+          static_cast<double>(current.dimension()) - static_cast<double>(found.without.dimension()), effective);
       if (found.evidence < least_evidence || found.gain < least_gain * squared(found.without.cost)) {
         current = found.without;
         changed = true;
@@ -258,8 +259,9 @@ Search search(const Workbench& bench, const Workbench& fine, const Hypothesis& b
           others.push_back(other);
         }
       }
-      const std::vector<Tried> rivals =
-          less == base && !result.first_stage.empty() ? result.first_stage : stage(bench, found.without, others, effective);
+      const std::vector<Tried> rivals = less == base && !result.first_stage.empty()
+                                            ? result.first_stage
+                                            : stage(bench, found.without, others, effective);
       const Tried* better = nullptr;
       for (const Tried& rival : rivals) {
         if (rival.id == id) {
@@ -269,9 +271,9 @@ Search search(const Workbench& bench, const Workbench& fine, const Hypothesis& b
         row.id = rival.id;
         row.share = rival.gain / found.gain;
         row.fit = rival.fit;
-        row.evidence = evidence(squared(rival.fit.cost), squared(current.cost),
-                                static_cast<double>(current.dimension()) - static_cast<double>(rival.fit.dimension()),
-                                effective);
+        row.evidence =
+            evidence(squared(rival.fit.cost), squared(current.cost),
+                     static_cast<double>(current.dimension()) - static_cast<double>(rival.fit.dimension()), effective);
         if (row.evidence < -least_evidence && (better == nullptr || rival.fit.cost < better->fit.cost)) {
           better = &rival;
         }
@@ -302,7 +304,8 @@ Search search(const Workbench& bench, const Workbench& fine, const Hypothesis& b
   }
   for (Found& found : result.found) {
     found.share_of_misfit = std::clamp(
-        found.gain / std::max(result.base_misfit.squares - result.misfit.squares + result.misfit.structure, 1e-300), 0.0, 1.0);
+        found.gain / std::max(result.base_misfit.squares - result.misfit.squares + result.misfit.structure, 1e-300),
+        0.0, 1.0);
   }
   std::erase_if(result.found, [&](const Found& found) {
     if (is_law(found.id)) {

@@ -1,5 +1,5 @@
-// Which physics was left out: effects tried one by one behind the base model, refitted jointly, added while the data ask
-// for it, dropped when they stop helping, and set against every rival that explains as much.
+// Which physics was left out: effects tried one by one behind the base model, refitted jointly, added while the data
+// ask for it, dropped when they stop helping, and set against every rival that explains as much.
 #pragma once
 
 #include <functional>
@@ -13,21 +13,21 @@ namespace hysteron {
 
 // Sums of squares are of NRMSE: cost^2 over the fitted recordings.
 struct Misfit {
-  double squares = 0.0;         // cost^2
-  double structure = 0.0;       // the part that is not noise
-  double noise = 0.0;           // squares - structure
-  double white = 0.0;           // squares of the noise by fourth differences: a lower bound of the noise
-  double predictable = 0.0;     // share that repeats with the motion (structure.hpp)
-  double correlation = 0.0;     // lag-one correlation of the residual
-  double effective = 0.0;       // samples worth of independent information
+  double squares = 0.0;      // cost^2
+  double structure = 0.0;    // the part that is not noise
+  double noise = 0.0;        // squares - structure
+  double white = 0.0;        // squares of the noise by fourth differences: a lower bound of the noise
+  double predictable = 0.0;  // share that repeats with the motion (structure.hpp)
+  double correlation = 0.0;  // lag-one correlation of the residual
+  double effective = 0.0;    // samples worth of independent information
 };
 
 // A hypothesis tried at one stage, against what stood before it.
 struct Tried {
-  std::string id;          // effect, or "law:PARAMETER" for a richer parameter law
+  std::string id;  // effect, or "law:PARAMETER" for a richer parameter law
   Fit fit;
-  double evidence = 0.0;   // gain of the Bayesian information criterion with the effective samples, > 0 is for it
-  double gain = 0.0;       // squares before - squares after
+  double evidence = 0.0;      // gain of the Bayesian information criterion with the effective samples, > 0 is for it
+  double gain = 0.0;          // squares before - squares after
   double heldout_gain = 0.0;  // likewise on the judged recordings
 };
 
@@ -40,8 +40,8 @@ struct Rival {
 
 struct Found {
   std::string id;
-  Fit without;                // the final hypothesis less this effect, refitted
-  double gain = 0.0;          // squares without - squares with
+  Fit without;        // the final hypothesis less this effect, refitted
+  double gain = 0.0;  // squares without - squares with
   double evidence = 0.0;
   double share_of_misfit = 0.0;  // of the base's structure
   std::vector<Rival> rivals;     // all that were refitted in its place, best first
@@ -52,13 +52,13 @@ struct Search {
   Misfit base_misfit;
   Fit augmented;  // the base itself when nothing was found
   Misfit misfit;
-  std::vector<Found> found;              // effects of the augmented model, strongest first
-  std::vector<std::string> richer;       // parameter laws that were made richer
+  std::vector<Found> found;         // effects of the augmented model, strongest first
+  std::vector<std::string> richer;  // parameter laws that were made richer
   // As the comparison saw them, on the quick workbench.
   Fit quick_base;
   Fit quick_augmented;
-  double effective = 0.0;                // samples worth of independent information there
-  std::vector<Tried> first_stage;        // every single hypothesis against the base, best first
+  double effective = 0.0;                                  // samples worth of independent information there
+  std::vector<Tried> first_stage;                          // every single hypothesis against the base, best first
   std::vector<std::pair<std::string, double>> other_laws;  // other base laws without effects: id, squares
 };
 

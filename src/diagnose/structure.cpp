@@ -21,9 +21,7 @@ constexpr std::size_t active_features = 4;
 constexpr int stretches = 6;
 constexpr double ridge = 4.0;
 
-int bin_of(double position, int count) {
-  return std::clamp(static_cast<int>(position * count), 0, count - 1);
-}
+int bin_of(double position, int count) { return std::clamp(static_cast<int>(position * count), 0, count - 1); }
 
 using Active = std::array<int, active_features>;
 

@@ -103,8 +103,9 @@ Verdict verdict_of(const Search& search) {
     const bool alone = named.indistinguishable_from.empty() && named.laws_as_good.empty();
     const double clear = (1.0 - best_share) / margin;
     const bool better = search.augmented.heldout < named.without->heldout;
-    named.confidence = alone ? std::min(0.99, 1.0 - 0.3 / std::max(clear, 1.0)) * (better ? 1.0 : 0.8)
-                             : 1.0 / static_cast<double>(1 + named.indistinguishable_from.size() + named.laws_as_good.size());
+    named.confidence =
+        alone ? std::min(0.99, 1.0 - 0.3 / std::max(clear, 1.0)) * (better ? 1.0 : 0.8)
+              : 1.0 / static_cast<double>(1 + named.indistinguishable_from.size() + named.laws_as_good.size());
     verdict.effects.push_back(named);
     if (!alone && verdict.effects.size() == 1) {
       // The strongest cannot be told from its rivals: the answer is the set.
@@ -125,7 +126,8 @@ Verdict verdict_of(const Search& search) {
     const bool quiet = !structured(search.base_misfit);
     verdict.word = quiet ? "complete" : "unattributed";
     verdict.reason = quiet ? "the best known effect explains too little to be more than the colour of the noise"
-                           : "the best known effect explains less of the misfit than stays unexplained, or not on the held-out recordings";
+                           : "the best known effect explains less of the misfit than stays unexplained, or not on the "
+                             "held-out recordings";
     return verdict;
   }
   verdict.word = "missing-physics";
@@ -134,19 +136,29 @@ Verdict verdict_of(const Search& search) {
 
 std::string next_experiment(const std::vector<std::string>& candidates) {
   static const std::map<std::string, std::string> separating = {
-      {"clearance", "two strokes at the same speed, one about as small as the suspected gap, at two currents: a gap keeps its width in mm, a compliance grows with the force"},
-      {"compliance", "current steps while the damper is held, and the same stroke at three currents: the deflection of a compliance grows with the force"},
+      {"clearance",
+       "two strokes at the same speed, one about as small as the suspected gap, at two currents: a gap keeps its width "
+       "in mm, a compliance grows with the force"},
+      {"compliance",
+       "current steps while the damper is held, and the same stroke at three currents: the deflection of a compliance "
+       "grows with the force"},
       {"entrapped-gas", "the same run at two charge pressures or after a long rest: only entrapped gas changes"},
-      {"inertia", "the same amplitude at frequencies an octave apart, and a run with the damper disconnected for the mass of the fixture"},
-      {"sensor-delay", "a current step at constant velocity and sines at frequencies an octave apart: a delay stays constant in ms"},
-      {"velocity-lag", "a sine at each of three frequencies with displacement and velocity recorded: the slope of the displacement shows the lag of the velocity channel"},
+      {"inertia",
+       "the same amplitude at frequencies an octave apart, and a run with the damper disconnected for the mass of the "
+       "fixture"},
+      {"sensor-delay",
+       "a current step at constant velocity and sines at frequencies an octave apart: a delay stays constant in ms"},
+      {"velocity-lag",
+       "a sine at each of three frequencies with displacement and velocity recorded: the slope of the displacement "
+       "shows the lag of the velocity channel"},
       {"shear-thinning", "constant-velocity runs over at least a decade of speed"},
       {"quadratic-damping", "constant-velocity runs over at least a decade of speed"},
       {"series-dashpot", "slow triangles from 1 to 20 mm/s, and a hold after a fast stroke to see the force relax"},
       {"seal-friction", "a slow triangle without current at several speeds below 20 mm/s"},
       {"coulomb-friction", "a slow triangle without current at several speeds below 20 mm/s"},
       {"gas-spring", "a slow full stroke around two mid-positions"},
-      {"asymmetry", "the same sine around two mid-positions: asymmetry follows the velocity, a gas spring the position"},
+      {"asymmetry",
+       "the same sine around two mid-positions: asymmetry follows the velocity, a gas spring the position"},
       {"cavitation", "the same run at two gas pressures and at rising speed"},
       {"end-stop", "a slow stroke to both ends"},
       {"cubic-stiffness", "a slow full stroke around two mid-positions"},

@@ -69,8 +69,10 @@ Layout Workbench::layout(const Hypothesis& what) const {
   const CompositeModel model = make_model(what.model, what.effects);
   const std::vector<std::string> names = model.parameter_names();
   // Another base law need not have the parameters of the first.
-  std::erase_if(options.by_current, [&](const auto& law) { return std::ranges::find(names, law.first) == names.end(); });
-  std::erase_if(options.by_frequency, [&](const auto& law) { return std::ranges::find(names, law.first) == names.end(); });
+  std::erase_if(options.by_current,
+                [&](const auto& law) { return std::ranges::find(names, law.first) == names.end(); });
+  std::erase_if(options.by_frequency,
+                [&](const auto& law) { return std::ranges::find(names, law.first) == names.end(); });
   std::erase_if(options.fix, [&](const auto& law) { return std::ranges::find(names, law.first) == names.end(); });
   std::erase_if(options.bounds, [&](const auto& law) { return std::ranges::find(names, law.first) == names.end(); });
   for (const std::string& name : what.richer) {
@@ -187,7 +189,8 @@ Fit Workbench::from_fit(const Hypothesis& what, const Fit& warm, int rounds) con
       const double neutral = start[c];
       if (first_of_part || layout.coordinates()[c].linear) {
         // The size of the effect: away from nothing, to either side where there is one.
-        const double push = neutral < 0.02 ? std::fabs(pushes[k]) : (neutral > 0.98 ? -std::fabs(pushes[k]) : pushes[k]);
+        const double push =
+            neutral < 0.02 ? std::fabs(pushes[k]) : (neutral > 0.98 ? -std::fabs(pushes[k]) : pushes[k]);
         start[c] = std::clamp(neutral + push, 0.0, 1.0);
       } else if (k > 1) {
         start[c] = 0.05 + 0.9 * halton(k, bases[std::min<std::size_t>(part - 1, bases.size() - 1)]);

@@ -69,7 +69,8 @@ class Workbench {
   [[nodiscard]] Layout layout(const Hypothesis& what) const;
 
  private:
-  [[nodiscard]] Fit finished(const Hypothesis& what, const Layout& layout, std::vector<double> point, double cost) const;
+  [[nodiscard]] Fit finished(const Hypothesis& what, const Layout& layout, std::vector<double> point,
+                             double cost) const;
   [[nodiscard]] Fit descended(const Hypothesis& what, const Layout& layout, const Objective& objective,
                               const std::vector<std::vector<double>>& starts, int rounds) const;
 

@@ -27,7 +27,7 @@ struct Estimate {
   std::string name;
   std::string unit;
   std::string meaning;
-  std::optional<double> std_error;    // absent when the data do not determine it
+  std::optional<double> std_error;      // absent when the data do not determine it
   std::optional<std::string> at_bound;  // "lower" or "upper": the node value that sits on the box
   bool identifiable = true;
   double lower;
@@ -45,11 +45,11 @@ struct Identification {
   std::vector<Estimate> estimates;
   std::vector<SolverOutcome> solvers;  // in the order asked
   std::size_t chosen = 0;
-  double cost = 0.0;                   // overall NRMSE over the fitted recordings
+  double cost = 0.0;  // overall NRMSE over the fitted recordings
   std::optional<double> nrmse_heldout;
   std::vector<std::size_t> fitted;
   std::vector<std::size_t> heldout;
-  bool roles_given = false;            // else held-out recordings were chosen here, and the final fit uses all
+  bool roles_given = false;  // else held-out recordings were chosen here, and the final fit uses all
   // What followed the solvers compared, from the best point of the chosen one: a fit on all recordings where some were
   // held out by the program, else a descent where the chosen solver does not descend by itself. Its evaluations are
   // its own, outside the budget of the solvers compared.

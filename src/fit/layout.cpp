@@ -194,8 +194,7 @@ Layout::Layout(CompositeModel model, const DataScale& scale, const LayoutOptions
                      nodes(scale.frequency_low, scale.frequency_high, frequency_order), coordinates_.size()};
     const std::size_t count = law.drive_nodes.size() * law.frequency_nodes.size();
     for (std::size_t node = 0; node < count; ++node) {
-      coordinates_.push_back({j, node, card.scale, card.lower, card.upper,
-                              card.linear && card.scale == Scale::linear});
+      coordinates_.push_back({j, node, card.scale, card.lower, card.upper, card.linear && card.scale == Scale::linear});
     }
     laws_.push_back(std::move(law));
   }
@@ -224,9 +223,8 @@ double Layout::slope(std::size_t c, double u) const {
 
 double Layout::unit(std::size_t c, double value) const {
   const Coordinate& k = coordinates_[c];
-  const double u = k.scale == Scale::logarithmic
-                       ? log(std::max(value, k.lower) / k.lower) / log(k.upper / k.lower)
-                       : (value - k.lower) / (k.upper - k.lower);
+  const double u = k.scale == Scale::logarithmic ? log(std::max(value, k.lower) / k.lower) / log(k.upper / k.lower)
+                                                 : (value - k.lower) / (k.upper - k.lower);
   return std::clamp(u, 0.0, 1.0);
 }
 

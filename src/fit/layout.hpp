@@ -30,8 +30,8 @@ double dominant_frequency(const Recording& recording);
 struct LayoutOptions {
   std::map<std::string, int> by_current;
   std::map<std::string, int> by_frequency;
-  std::map<std::string, double> fix;                          // parameter -> value held
-  std::map<std::string, std::pair<double, double>> bounds;    // parameter -> box
+  std::map<std::string, double> fix;                        // parameter -> value held
+  std::map<std::string, std::pair<double, double>> bounds;  // parameter -> box
 };
 
 // A coordinate of the search: one parameter, or its value at one node of its law.
@@ -48,9 +48,9 @@ struct Coordinate {
 // value lies in the parameter's box.
 struct ParameterLaw {
   std::size_t parameter;
-  std::vector<double> drive_nodes;      // one node: constant
+  std::vector<double> drive_nodes;  // one node: constant
   std::vector<double> frequency_nodes;
-  std::size_t first;                    // index of its first coordinate; nodes run drive-fastest
+  std::size_t first;  // index of its first coordinate; nodes run drive-fastest
 };
 
 // One term of a law in the power basis: value * drive^drive_power * frequency^frequency_power.

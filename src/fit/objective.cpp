@@ -51,8 +51,7 @@ Lanes lanes_of(const std::vector<double>& points, Rows rows, const Layout& layou
 // Parameters of a pack at one drive level: nodes weighted by the law. For duals, the directions of this sweep are the
 // coordinates [sweep, sweep + sweep_directions).
 template <class T, class Drive>
-void parameters_of_pack(const Layout& layout, const std::vector<T>& nodes, const Drive& drive, double frequency,
-                        T* p) {
+void parameters_of_pack(const Layout& layout, const std::vector<T>& nodes, const Drive& drive, double frequency, T* p) {
   for (std::size_t j = 0; j < layout.cards().size(); ++j) {
     p[j] = T(layout.held()[j]);
   }
@@ -324,8 +323,8 @@ Objective::Objective(const Layout& layout, const std::vector<Recording>& recordi
     if (options.weighting == Weighting::pooled) {
       target.weight = 1.0 / (total * pooled_normaliser * pooled_normaliser);
     } else {
-      target.weight = 1.0 / (static_cast<double>(target.force.size() - target.run_in) * static_cast<double>(targets_.size()) *
-                             target.normaliser * target.normaliser);
+      target.weight = 1.0 / (static_cast<double>(target.force.size() - target.run_in) *
+                             static_cast<double>(targets_.size()) * target.normaliser * target.normaliser);
     }
   }
   for (std::size_t k = 0; k < recordings.size(); ++k) {
@@ -336,8 +335,8 @@ Objective::Objective(const Layout& layout, const std::vector<Recording>& recordi
         make_motion(recording.time, recording.displacement, recording.velocity, recording.drive, options.tolerance));
     target.force = recording.force;
     target.run_in = full.run_in * target.force.size() / full.force.size();
-    target.weight *= static_cast<double>(full.force.size() - full.run_in) /
-                     static_cast<double>(target.force.size() - target.run_in);
+    target.weight *=
+        static_cast<double>(full.force.size() - full.run_in) / static_cast<double>(target.force.size() - target.run_in);
     target.preroll = full.preroll > 0 ? preroll_samples(recording, full.frequency) : 0;
     screening_targets_.push_back(std::move(target));
   }

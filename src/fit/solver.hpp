@@ -77,7 +77,7 @@ struct Setting {
 
 // A catalogue row. The file algorithms/NAME_WITH_UNDERSCORES.cpp defines `extern const SolverEntry solver_NAME...`.
 struct SolverEntry {
-  std::string_view id;           // as in the contract
+  std::string_view id;  // as in the contract
   std::string_view title;
   std::string_view reference;    // source with DOI where known
   std::string_view description;  // a few lines: operators, deviations from the source

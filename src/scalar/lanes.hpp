@@ -34,7 +34,8 @@ template <int N, class F>
 [[gnu::always_inline]] inline void repeat(F&& f) {
   [&]<int... I>(std::integer_sequence<int, I...>) __attribute__((always_inline)) {
     (f(std::integral_constant<int, I>{}), ...);
-  }(std::make_integer_sequence<int, N>{});
+  }
+  (std::make_integer_sequence<int, N>{});
 }
 
 struct LaneMask {
@@ -47,21 +48,15 @@ struct Lanes {
   [[gnu::always_inline]] Lanes() : Lanes(0.0) {}
   // NOLINTNEXTLINE(google-explicit-constructor): constants mix freely in model equations
   [[gnu::always_inline]] Lanes(double value) {
-    repeat<vectors_per_pack>([&](auto i) __attribute__((always_inline)) {
-      v[i] = value - VectorDouble{};
-    });
+    repeat<vectors_per_pack>([&](auto i) __attribute__((always_inline)) { v[i] = value - VectorDouble{}; });
   }
   // Copies go vector by vector: GCC would move the aggregate in 16-byte pieces, and reading those back as one vector
   // stalls on store forwarding.
   [[gnu::always_inline]] Lanes(const Lanes& o) {
-    repeat<vectors_per_pack>([&](auto i) __attribute__((always_inline)) {
-      v[i] = o.v[i];
-    });
+    repeat<vectors_per_pack>([&](auto i) __attribute__((always_inline)) { v[i] = o.v[i]; });
   }
   [[gnu::always_inline]] Lanes& operator=(const Lanes& o) {
-    repeat<vectors_per_pack>([&](auto i) __attribute__((always_inline)) {
-      v[i] = o.v[i];
-    });
+    repeat<vectors_per_pack>([&](auto i) __attribute__((always_inline)) { v[i] = o.v[i]; });
     return *this;
   }
   [[nodiscard]] double lane(int index) const {
@@ -78,62 +73,44 @@ struct Lanes {
   [[gnu::always_inline]] Lanes& operator*=(const Lanes& o) { return *this = *this * o; }
 
   [[gnu::always_inline]] friend Lanes operator+(Lanes a, const Lanes& b) {
-    repeat<vectors_per_pack>([&](auto i) __attribute__((always_inline)) {
-      a.v[i] = a.v[i] + b.v[i];
-    });
+    repeat<vectors_per_pack>([&](auto i) __attribute__((always_inline)) { a.v[i] = a.v[i] + b.v[i]; });
     return a;
   }
   [[gnu::always_inline]] friend Lanes operator-(Lanes a, const Lanes& b) {
-    repeat<vectors_per_pack>([&](auto i) __attribute__((always_inline)) {
-      a.v[i] = a.v[i] - b.v[i];
-    });
+    repeat<vectors_per_pack>([&](auto i) __attribute__((always_inline)) { a.v[i] = a.v[i] - b.v[i]; });
     return a;
   }
   [[gnu::always_inline]] friend Lanes operator*(Lanes a, const Lanes& b) {
-    repeat<vectors_per_pack>([&](auto i) __attribute__((always_inline)) {
-      a.v[i] = a.v[i] * b.v[i];
-    });
+    repeat<vectors_per_pack>([&](auto i) __attribute__((always_inline)) { a.v[i] = a.v[i] * b.v[i]; });
     return a;
   }
   [[gnu::always_inline]] friend Lanes operator/(Lanes a, const Lanes& b) {
-    repeat<vectors_per_pack>([&](auto i) __attribute__((always_inline)) {
-      a.v[i] = a.v[i] / b.v[i];
-    });
+    repeat<vectors_per_pack>([&](auto i) __attribute__((always_inline)) { a.v[i] = a.v[i] / b.v[i]; });
     return a;
   }
   [[gnu::always_inline]] friend Lanes operator-(Lanes a) {
-    repeat<vectors_per_pack>([&](auto i) __attribute__((always_inline)) {
-      a.v[i] = -a.v[i];
-    });
+    repeat<vectors_per_pack>([&](auto i) __attribute__((always_inline)) { a.v[i] = -a.v[i]; });
     return a;
   }
   [[gnu::always_inline]] friend LaneMask operator<(const Lanes& a, const Lanes& b) {
     LaneMask r;
-    repeat<vectors_per_pack>([&](auto i) __attribute__((always_inline)) {
-      r.m[i] = a.v[i] < b.v[i];
-    });
+    repeat<vectors_per_pack>([&](auto i) __attribute__((always_inline)) { r.m[i] = a.v[i] < b.v[i]; });
     return r;
   }
   [[gnu::always_inline]] friend LaneMask operator>(const Lanes& a, const Lanes& b) { return b < a; }
 };
 
 [[gnu::always_inline]] inline LaneMask operator&(LaneMask a, const LaneMask& b) {
-  repeat<vectors_per_pack>([&](auto i) __attribute__((always_inline)) {
-    a.m[i] &= b.m[i];
-  });
+  repeat<vectors_per_pack>([&](auto i) __attribute__((always_inline)) { a.m[i] &= b.m[i]; });
   return a;
 }
 [[gnu::always_inline]] inline LaneMask operator|(LaneMask a, const LaneMask& b) {
-  repeat<vectors_per_pack>([&](auto i) __attribute__((always_inline)) {
-    a.m[i] |= b.m[i];
-  });
+  repeat<vectors_per_pack>([&](auto i) __attribute__((always_inline)) { a.m[i] |= b.m[i]; });
   return a;
 }
 
 [[gnu::always_inline]] inline Lanes select(const LaneMask& mask, Lanes yes, const Lanes& no) {
-  repeat<vectors_per_pack>([&](auto i) __attribute__((always_inline)) {
-    yes.v[i] = mask.m[i] ? yes.v[i] : no.v[i];
-  });
+  repeat<vectors_per_pack>([&](auto i) __attribute__((always_inline)) { yes.v[i] = mask.m[i] ? yes.v[i] : no.v[i]; });
   return yes;
 }
 [[gnu::always_inline]] inline double select(bool mask, double yes, double no) { return mask ? yes : no; }

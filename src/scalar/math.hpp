@@ -169,9 +169,8 @@ template <class T>
     const S by_exponent = select(zero, S(0.0), value * logarithm);
     T r;
     r.v = value;
-    repeat<T::directions>([&](auto i) __attribute__((always_inline)) {
-      r.d[i] = fma(by_base, a.d[i], by_exponent * n.d[i]);
-    });
+    repeat<T::directions>([&](auto i)
+                              __attribute__((always_inline)) { r.d[i] = fma(by_base, a.d[i], by_exponent * n.d[i]); });
     return r;
   }
 }
@@ -216,9 +215,7 @@ template <class T>
         r.d[i] = fma(by_base, a.d[i], by_exponent * n.d[i]);
       });
     } else {
-      repeat<T::directions>([&](auto i) __attribute__((always_inline)) {
-        r.d[i] = by_base * a.d[i];
-      });
+      repeat<T::directions>([&](auto i) __attribute__((always_inline)) { r.d[i] = by_base * a.d[i]; });
     }
     return r;
   }

@@ -272,7 +272,8 @@ class Assembly {
         const Value resistance = relief.resistance[i];
         const Value gain = yield.gain / fma(yield.gain * yield.slope, resistance, Value(1.0));
         const Value lambda = gain * (yield.hold + yield.slope * stiffness);
-        relief.factor[i] = select(lambda > Value(motion_.element_rate_limit), Value(motion_.element_rate_limit) / lambda, Value(1.0));
+        relief.factor[i] =
+            select(lambda > Value(motion_.element_rate_limit), Value(motion_.element_rate_limit) / lambda, Value(1.0));
         // The step must not pass over the knee of the deflection, be it on the way now or about to be pushed there by
         // the motion: u' = push.
         const auto bent = yield.width > Value(0.0);

@@ -12,7 +12,8 @@
 //   lambda = gain (hold + D' K) / (1 + gain D' dF/dv), and while D bends by gain |D'' u| dF/dv / (1 + ...) more,
 // K being the instantaneous stiffness of the links below: the slope of their force when they are moved with their
 // states following. K and dF/dv are probed at the start of every step, K in both directions of motion. Where lambda
-// would pass the motion's element_rate_limit the element is slowed down by a smaller gain, which is more damping of its own.
+// would pass the motion's element_rate_limit the element is slowed down by a smaller gain, which is more damping of its
+// own.
 #pragma once
 
 #include <cstddef>

@@ -28,9 +28,7 @@ struct Fused {
   [[gnu::always_inline]] static void rate(const T* p, const T* s, const Input<T>& in, T* rates) {
     if constexpr (M::states > 0) {
       const auto result = M::rate(as_array<T, parameter_count<M>>(p), as_array<T, M::states>(s), in);
-      repeat<M::states>([&](auto i) __attribute__((always_inline)) {
-        rates[i] = result[i];
-      });
+      repeat<M::states>([&](auto i) __attribute__((always_inline)) { rates[i] = result[i]; });
     }
   }
   template <class T>
@@ -41,9 +39,8 @@ struct Fused {
   [[gnu::always_inline]] static value_t<T> stiffness(const T* p, double speed) {
     if constexpr (M::states > 0) {
       std::array<value_t<T>, parameter_count<M>> values;  // the bound needs no derivatives
-      repeat<static_cast<int>(parameter_count<M>)>([&](auto i) __attribute__((always_inline)) {
-        values[i] = value_of(p[i]);
-      });
+      repeat<static_cast<int>(parameter_count<M>)>([&](auto i)
+                                                       __attribute__((always_inline)) { values[i] = value_of(p[i]); });
       return M::stiffness(values, speed);
     } else {
       return value_t<T>(0.0);
@@ -81,8 +78,8 @@ constexpr PartOperations<T> operations() {
   PartOperations<T> result;
   if constexpr (HasExcite<M>) {
     result.excite = [](const T* p, T* memory, double elapsed, T& drive) {
-      drive = M::excite(as_array<T, parameter_count<M>>(p), *reinterpret_cast<std::array<T, excitation_memory>*>(memory),
-                        elapsed, drive);
+      drive = M::excite(as_array<T, parameter_count<M>>(p),
+                        *reinterpret_cast<std::array<T, excitation_memory>*>(memory), elapsed, drive);
     };
   }
   if constexpr (HasDrive<M>) {

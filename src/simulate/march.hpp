@@ -41,9 +41,7 @@ template <class T>
   } else {
     T r;
     r.v = fma(a, b.v, c.v);
-    repeat<T::directions>([&](auto i) __attribute__((always_inline)) {
-      r.d[i] = fma(a, b.d[i], c.d[i]);
-    });
+    repeat<T::directions>([&](auto i) __attribute__((always_inline)) { r.d[i] = fma(a, b.d[i], c.d[i]); });
     return r;
   }
 }
@@ -52,8 +50,7 @@ template <class T, class V>
 [[gnu::always_inline]] inline Input<T> input_at(const Motion& motion, std::size_t n, const V& theta) {
   const MotionInterval& interval = motion.intervals[n];
   return {T(cubic(interval.x, theta)), T(cubic(interval.v, theta)),
-          motion.drive.empty() ? T(0.0)
-                               : T(fma(V(motion.drive[n + 1] - motion.drive[n]), theta, V(motion.drive[n]))),
+          motion.drive.empty() ? T(0.0) : T(fma(V(motion.drive[n + 1] - motion.drive[n]), theta, V(motion.drive[n]))),
           T(fma(V(interval.length), theta, V(motion.time[n])))};
 }
 
@@ -108,9 +105,7 @@ class Parameters {
  public:
   [[gnu::always_inline]] explicit Parameters(const T* p) {
     if constexpr (FixedChain<Chain>) {
-      repeat<static_cast<int>(Chain::parameters())>([&](auto i) __attribute__((always_inline)) {
-        copy_[i] = p[i];
-      });
+      repeat<static_cast<int>(Chain::parameters())>([&](auto i) __attribute__((always_inline)) { copy_[i] = p[i]; });
     } else {
       copy_ = p;
     }
@@ -146,9 +141,8 @@ inline double coarseness(const Motion& motion, double length) {
 // One step of length h from `state` into `next`.
 template <int N, class T, class Chain>
 [[gnu::always_inline]] inline void advance(const Chain& system, int states, const T* p, const value_t<T>& h,
-                                           const Input<T>& at_start, const Input<T>& at_middle,
-                                           const Input<T>& at_end, const StateArray<T, N>& state,
-                                           StateArray<T, N>& next) {
+                                           const Input<T>& at_start, const Input<T>& at_middle, const Input<T>& at_end,
+                                           const StateArray<T, N>& state, StateArray<T, N>& next) {
   using Value = value_t<T>;
   const Value half = Value(0.5) * h;
   const Value sixth = Value(1.0 / 6.0) * h;
@@ -158,9 +152,8 @@ template <int N, class T, class Chain>
   StateArray<T, N> k4;
   StateArray<T, N> trial;
   const auto shift = [&](const Value& step, const StateArray<T, N>& k) __attribute__((always_inline)) {
-    for_states<N>(states, [&](auto i) __attribute__((always_inline)) {
-      trial[i] = scaled_sum(step, k[i], state[i]);
-    });
+    for_states<N>(
+        states, [&](auto i) __attribute__((always_inline)) { trial[i] = scaled_sum(step, k[i], state[i]); });
   };
   system.rate(p, state.data(), at_start, k1.data());
   shift(half, k1);
@@ -169,9 +162,10 @@ template <int N, class T, class Chain>
   system.rate(p, trial.data(), at_middle, k3.data());
   shift(h, k3);
   system.rate(p, trial.data(), at_end, k4.data());
-  for_states<N>(states, [&](auto i) __attribute__((always_inline)) {
-    next[i] = scaled_sum(sixth, scaled_sum(Value(2.0), k2[i] + k3[i], k1[i] + k4[i]), state[i]);
-  });
+  for_states<N>(
+      states, [&](auto i) __attribute__((always_inline)) {
+        next[i] = scaled_sum(sixth, scaled_sum(Value(2.0), k2[i] + k3[i], k1[i] + k4[i]), state[i]);
+      });
 }
 
 // Advances the state over the part [from, to] of interval n, in sub-steps. The sub-steps are counted so that a lane
@@ -188,7 +182,8 @@ template <class T, class Chain>
   const double span = to - from;
   const double length = motion.intervals[n].length * span;
   const double coarse = coarseness(motion, motion.intervals[n].length);
-  const double limit = motion.step_limit / (near_reversal(motion, n) ? std::max(motion.finer_at_reversals, coarse) : coarse);
+  const double limit =
+      motion.step_limit / (near_reversal(motion, n) ? std::max(motion.finer_at_reversals, coarse) : coarse);
   const Value bound = system.stiffness(p, motion.intervals[n].speed) * Value(length / limit);
   const Value count = select(bound > Value(1.0), min(ceil_value(bound), Value(motion.most_substeps)), Value(1.0));
   const double most = largest(count);
@@ -196,9 +191,8 @@ template <class T, class Chain>
   const Value h = Value(length) * inverse;
   StateArray<T, N> state;
   StateArray<T, N> next;
-  for_states<N>(states, [&](auto i) __attribute__((always_inline)) {
-    state[i] = result[i];
-  });
+  for_states<N>(
+      states, [&](auto i) __attribute__((always_inline)) { state[i] = result[i]; });
   Value theta(from);
   for (double step = 0.0; step < most; step += 1.0) {
     const Value middle = fma(Value(span * (step + 0.5)), inverse, Value(from));
@@ -206,14 +200,12 @@ template <class T, class Chain>
     advance<N, T>(system, states, p, h, input_at<T>(motion, n, theta), input_at<T>(motion, n, middle),
                   input_at<T>(motion, n, end), state, next);
     const auto active = Value(step) < count;
-    for_states<N>(states, [&](auto i) __attribute__((always_inline)) {
-      state[i] = select(active, next[i], state[i]);
-    });
+    for_states<N>(
+        states, [&](auto i) __attribute__((always_inline)) { state[i] = select(active, next[i], state[i]); });
     theta = end;
   }
-  for_states<N>(states, [&](auto i) __attribute__((always_inline)) {
-    result[i] = state[i];
-  });
+  for_states<N>(
+      states, [&](auto i) __attribute__((always_inline)) { result[i] = state[i]; });
 }
 
 // Intervals checked at once for needing a single step.
@@ -231,14 +223,12 @@ template <class T, class Chain>
   const T* p = copy.data();
   StateArray<T, N> state;
   const auto load = [&]() __attribute__((always_inline)) {
-    for_states<N>(states, [&](auto i) __attribute__((always_inline)) {
-      state[i] = result[i];
-    });
+    for_states<N>(
+        states, [&](auto i) __attribute__((always_inline)) { state[i] = result[i]; });
   };
   const auto store = [&]() __attribute__((always_inline)) {
-    for_states<N>(states, [&](auto i) __attribute__((always_inline)) {
-      result[i] = state[i];
-    });
+    for_states<N>(
+        states, [&](auto i) __attribute__((always_inline)) { result[i] = state[i]; });
   };
   load();
   const std::size_t intervals = states == 0 ? 0 : motion.intervals.size();
@@ -254,7 +244,8 @@ template <class T, class Chain>
         speed = std::max(speed, motion.intervals[n].speed);
         length = std::max(length, motion.intervals[n].length);
       }
-      single = !any(system.stiffness(p, speed) * Value(length * coarseness(motion, length) / motion.step_limit) > Value(1.0));
+      single = !any(system.stiffness(p, speed) * Value(length * coarseness(motion, length) / motion.step_limit) >
+                    Value(1.0));
     }
     for (std::size_t n = first; n < last; ++n) {
       const Input<T> start = input_of_sample<T>(motion, n);
@@ -268,9 +259,8 @@ template <class T, class Chain>
         advance<N, T>(system, states, p, Value(interval.length), start,
                       input_stored<T>(motion, n, 0.5, interval.middle), input_stored<T>(motion, n, 1.0, interval.end),
                       state, next);
-        for_states<N>(states, [&](auto i) __attribute__((always_inline)) {
-          state[i] = next[i];
-        });
+        for_states<N>(
+            states, [&](auto i) __attribute__((always_inline)) { state[i] = next[i]; });
         continue;
       }
       store();

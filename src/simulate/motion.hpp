@@ -17,13 +17,13 @@ V cubic(const double* c, const V& theta) {
 
 // Polynomials in theta in [0, 1] over the interval from sample n to n + 1.
 struct MotionInterval {
-  double length;    // s
-  double x[4];      // Hermite cubic through both displacements with the velocities as slopes
-  double v[4];      // cubic through four velocity samples (quadratic slopes at the ends)
-  double middle[2];  // x and v at theta = 1/2
-  double end[2];     // x and v at theta = 1, as the polynomials round
-  double speed;     // bound of |v| on the interval
-  bool reversal;    // velocity changes sign
+  double length;       // s
+  double x[4];         // Hermite cubic through both displacements with the velocities as slopes
+  double v[4];         // cubic through four velocity samples (quadratic slopes at the ends)
+  double middle[2];    // x and v at theta = 1/2
+  double end[2];       // x and v at theta = 1, as the polynomials round
+  double speed;        // bound of |v| on the interval
+  bool reversal;       // velocity changes sign
   double reversal_at;  // theta of the change
 };
 
@@ -51,8 +51,8 @@ struct Motion {
 };
 
 // Arrays of equal length; time strictly increasing (s), displacement (m), velocity (m/s), drive (A or V, may be empty).
-Motion make_motion(std::span<const double> time, std::span<const double> displacement,
-                   std::span<const double> velocity, std::span<const double> drive, double tolerance = 1e-4);
+Motion make_motion(std::span<const double> time, std::span<const double> displacement, std::span<const double> velocity,
+                   std::span<const double> drive, double tolerance = 1e-4);
 
 // For comparing hypotheses with each other, not for forces: kinks between samples are not resolved, and series elements
 // relax within half a sampling interval, since what is faster is not seen between samples.

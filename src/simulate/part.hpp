@@ -5,10 +5,10 @@
 //   states                                number of own state variables
 //   template <class T> force(p, s, in, below) -> T      force so far (0 for a law's incoming force) -> force
 //   template <class T> rate(p, s, in)      -> array<T, states>   time derivatives of its states (if states > 0)
-//   template <class T> stiffness(p, speed) -> T     bound of |d rate / d state| in 1/s at |velocity| <= speed (likewise)
-//   template <class T> drive(p, s, in)     -> Input<T>   what the parts below see (optional)
-// A rate that needs the force below has `loaded_rate(p, s, in, below)` in place of `rate`. A series element, behind which
-// everything nearer to the law is deflected, has one state q and in place of rate, stiffness and force
+//   template <class T> stiffness(p, speed) -> T     bound of |d rate / d state| in 1/s at |velocity| <= speed
+//   (likewise) template <class T> drive(p, s, in)     -> Input<T>   what the parts below see (optional)
+// A rate that needs the force below has `loaded_rate(p, s, in, below)` in place of `rate`. A series element, behind
+// which everything nearer to the law is deflected, has one state q and in place of rate, stiffness and force
 //   template <class T> yield(p, q)         -> Yield<T>
 // A part that changes the drive before the laws of the parameters are evaluated has
 //   template <class T> excite(p, memory, elapsed, drive) -> T    (array<T, 2> memory, see below)

@@ -12,17 +12,19 @@ namespace {
 constexpr std::uint64_t seed = 5;
 
 // Six sines of one damper, two amplitudes at three frequencies.
-Campaign campaign_with(const std::vector<std::string>& effects, const std::map<std::string, double>& values, double noise) {
+Campaign campaign_with(const std::vector<std::string>& effects, const std::map<std::string, double>& values,
+                       double noise) {
   LayoutOptions made;
-  made.fix = {{"alpha", 600.0}, {"c0", 1500.0}, {"k0", 2000.0}, {"f0", 20.0}, {"x_y", 8e-4}, {"share", 0.6}, {"n", 1.5}};
+  made.fix = {{"alpha", 600.0}, {"c0", 1500.0}, {"k0", 2000.0}, {"f0", 20.0},
+              {"x_y", 8e-4},    {"share", 0.6}, {"n", 1.5}};
   made.fix.insert(values.begin(), values.end());
   const Layout layout(make_model("bouc-wen", effects), DataScale{}, made);
   Campaign campaign;
   int index = 0;
   for (const double frequency : {0.5, 1.3, 3.0}) {
     for (const double amplitude : {0.004, 0.012}) {
-      Recording recording =
-          testing::motion("r" + std::to_string(index) + ".csv", {{amplitude, frequency}}, 3.0 / frequency, 400, 0.2 / frequency);
+      Recording recording = testing::motion("r" + std::to_string(index) + ".csv", {{amplitude, frequency}},
+                                            3.0 / frequency, 400, 0.2 / frequency);
       testing::set_force(recording, layout, layout.terms(layout.initial()), {}, noise,
                          Stream(seed).child(static_cast<std::uint64_t>(index)));
       campaign.recordings.push_back(recording);
@@ -92,14 +94,16 @@ TEST(Diagnosis, TellsTheLagOfTheVelocityChannelWithoutAModel) {
 }
 
 TEST(Diagnosis, RecordHoldsWhatTheContractNames) {
-  const auto diagnosis = diagnosis_of(campaign_with({"inertia"}, {{"inertia.m", 8.0}}, 0.01), {"inertia", "force-drift"});
+  const auto diagnosis =
+      diagnosis_of(campaign_with({"inertia"}, {{"inertia.m", 8.0}}, 0.01), {"inertia", "force-drift"});
   const nlohmann::json record = diagnosis_json(*diagnosis);
   EXPECT_EQ(record["schema"], "hysteron.diagnosis/1");
-  for (const char* key : {"baseline", "verdict", "effects", "locations", "rejected", "not_observable", "augmented", "next_experiment"}) {
+  for (const char* key :
+       {"baseline", "verdict", "effects", "locations", "rejected", "not_observable", "augmented", "next_experiment"}) {
     EXPECT_TRUE(record.contains(key)) << key;
   }
-  for (const char* key : {"id", "confidence", "indistinguishable_from", "sentence", "parameters", "nrmse_heldout_before",
-                          "nrmse_heldout_after", "share_of_misfit"}) {
+  for (const char* key : {"id", "confidence", "indistinguishable_from", "sentence", "parameters",
+                          "nrmse_heldout_before", "nrmse_heldout_after", "share_of_misfit"}) {
     EXPECT_TRUE(record["effects"].at(0).contains(key)) << key;
   }
 }

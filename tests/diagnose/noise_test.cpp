@@ -60,7 +60,8 @@ TEST(Structure, NoiseOfAnyColourCannotBePredicted) {
       const Recording recording = noisy(0.0, 10.0, correlation, draw);
       std::vector<double> residual(recording.size());
       for (std::size_t n = 0; n < recording.size(); ++n) {
-        residual[n] = recording.force[n] - 800.0 * std::tanh(recording.velocity[n] / 0.02) - 2000.0 * recording.velocity[n];
+        residual[n] =
+            recording.force[n] - 800.0 * std::tanh(recording.velocity[n] / 0.02) - 2000.0 * recording.velocity[n];
       }
       const double share = predictable_share(recording, residual);
       sum += share;
@@ -76,7 +77,8 @@ TEST(Structure, WhatIsLockedToTheMotionIsPredicted) {
   const Stream stream = Stream(seed);
   std::vector<double> residual(recording.size());
   for (std::size_t n = 0; n < recording.size(); ++n) {
-    residual[n] = 5.0 * std::copysign(1.0, recording.velocity[n]) * recording.displacement[n] / 0.01 + 2.0 * stream.normal(n);
+    residual[n] =
+        5.0 * std::copysign(1.0, recording.velocity[n]) * recording.displacement[n] / 0.01 + 2.0 * stream.normal(n);
   }
   // Of 25/2 + 4 the first part repeats.
   EXPECT_NEAR(predictable_share(recording, residual), 12.5 / 16.5, 0.1);

@@ -202,10 +202,11 @@ TEST(Budget, IsSpentToTheLastEvaluationAndNotPassed) {
     options.solvers = {"pso"};
     options.budget = budget;
     std::size_t last = 0;
-    const Identification result = identify(campaign, "viscous", options, [&](const std::string& stage, const RunResult& run) {
-      last = stage.starts_with("pso") ? run.evaluations : last;
-      return true;
-    });
+    const Identification result =
+        identify(campaign, "viscous", options, [&](const std::string& stage, const RunResult& run) {
+          last = stage.starts_with("pso") ? run.evaluations : last;
+          return true;
+        });
     EXPECT_EQ(result.solvers.at(0).run.evaluations, budget);
     EXPECT_EQ(result.solvers.at(0).run.stopped, "budget");
     EXPECT_EQ(last, budget);
