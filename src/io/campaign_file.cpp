@@ -1,28 +1,23 @@
 #include "io/campaign_file.hpp"
 
-#include <toml++/toml.h>
-
-#include <algorithm>
-#include <initializer_list>
 #include <set>
 #include <string_view>
 
-#include "core/error.hpp"
 #include "io/file.hpp"
 #include "io/text.hpp"
+#include "io/toml_reader.hpp"
 
 namespace hysteron {
 namespace {
 
 constexpr std::string_view schema = "hysteron.campaign/1";
 
-class CampaignParser {
+class CampaignParser : private TomlReader {
  public:
-  explicit CampaignParser(const std::filesystem::path& path) : file_(path.string()) {}
+  using TomlReader::TomlReader;
 
   CampaignFile run(const std::string& text) {
-    const toml::table root = parse(text);
-    check_schema(root);
+    const toml::table root = parse(text, schema);
     check_keys(root, {"schema", "model", "by_current", "by_frequency", "recording"}, "");
     CampaignFile result;
     if (const auto* node = root.get("model")) {
@@ -36,44 +31,6 @@ class CampaignParser {
   }
 
  private:
-  [[noreturn]] void fail_at(int line, const std::string& message) const { throw InputError(file_, line, message); }
-  [[noreturn]] void fail(const toml::node& node, const std::string& message) const { fail_at(line_of(node), message); }
-
-  static int line_of(const toml::node& node) { return static_cast<int>(node.source().begin.line); }
-
-  [[nodiscard]] toml::table parse(const std::string& text) const {
-    try {
-      return toml::parse(text);
-    } catch (const toml::parse_error& error) {
-      std::string reason(error.description());
-      std::ranges::replace(reason, '\n', ' ');
-      fail_at(static_cast<int>(error.source().begin.line), "not valid TOML (" + reason + "), expected TOML 1.0");
-    }
-  }
-
-  void check_schema(const toml::table& root) const {
-    const auto* node = root.get("schema");
-    if (node == nullptr) fail_at(1, "no 'schema', expected schema = \"" + std::string(schema) + "\"");
-    const auto value = text_of(*node, "schema");
-    if (value != schema) fail(*node, "unknown schema " + in_quotes(value) + ", expected '" + std::string(schema) + "'");
-  }
-
-  void check_keys(const toml::table& table, std::initializer_list<std::string_view> known,
-                  const std::string& of) const {
-    for (const auto& [key, node] : table) {
-      if (std::ranges::find(known, key.str()) != known.end()) continue;
-      std::string expected;
-      for (const auto name : known) expected += (expected.empty() ? "" : ", ") + std::string(name);
-      fail_at(static_cast<int>(key.source().begin.line),
-              "unknown key " + in_quotes(key.str()) + of + ", expected one of " + expected);
-    }
-  }
-
-  [[nodiscard]] std::string text_of(const toml::node& node, const std::string& name) const {
-    if (const auto* text = node.as_string()) return text->get();
-    fail(node, "'" + name + "' is not text, expected a string in double quotes");
-  }
-
   [[nodiscard]] std::map<std::string, int> orders_of(const toml::node& node, const std::string& name) const {
     const auto* table = node.as_table();
     if (table == nullptr) fail(node, "'" + name + "' is not a table, expected [" + name + "] with PARAMETER = ORDER");
@@ -122,8 +79,6 @@ class CampaignParser {
     if (role == "validate") return Role::validate;
     fail(node, "unknown role " + in_quotes(role) + ", expected 'fit' or 'validate'");
   }
-
-  std::string file_;
 };
 
 }  // namespace

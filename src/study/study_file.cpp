@@ -1,10 +1,7 @@
 #include "study/study_file.hpp"
 
-#include <toml++/toml.h>
-
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
 #include <set>
 #include <string_view>
 
@@ -12,8 +9,10 @@
 #include "core/suggest.hpp"
 #include "datasets/dataset.hpp"
 #include "fit/solver.hpp"
+#include "io/campaign_file.hpp"
 #include "io/file.hpp"
 #include "io/text.hpp"
+#include "io/toml_reader.hpp"
 #include "simulate/composite.hpp"
 
 namespace hysteron {
@@ -32,25 +31,20 @@ std::vector<std::string> ids_of(const Catalogue& catalogue) {
   return ids;
 }
 
-class Parser {
+class Parser : private TomlReader {
  public:
-  explicit Parser(const fs::path& path) : path_(path), file_(path.string()) {}
+  explicit Parser(const fs::path& path) : TomlReader(path), path_(path) {}
 
   Study run(const std::string& text) {
-    const toml::table root = parse(text);
-    const auto* stated = root.get("schema");
-    if (stated == nullptr) fail_at(1, "no 'schema', expected schema = \"" + std::string(schema) + "\"");
-    if (text_of(*stated, "schema") != schema) {
-      fail(*stated, "unknown schema " + in_quotes(text_of(*stated, "schema")) + ", expected " + in_quotes(schema));
-    }
+    const toml::table root = parse(text, schema);
     check_keys(root,
                {"schema", "title", "models", "model", "data", "solvers", "solver", "budgets", "seeds", "targets",
                 "target_nrmse", "tie", "start", "normalisation", "weighting", "tolerance"},
                "");
     Study study;
-    study.file = file_;
+    study.file = file();
     study.title = path_.stem().string();
-    if (const auto* node = root.get("title")) study.title = text_of(*node, "title");
+    if (const auto* node = root.get("title")) study.title = word_of(*node, "title");
     read_models(root, study);
     read_data(root, study);
     read_solvers(root, study);
@@ -62,21 +56,21 @@ class Parser {
     if (const auto* node = root.get("tolerance"))
       study.objective.tolerance = number_of(*node, "tolerance", 1e-10, 1e-2);
     if (const auto* node = root.get("start")) {
-      const std::string word = text_of(*node, "start");
+      const std::string word = word_of(*node, "start");
       if (word != "random" && word != "card")
         fail(*node, "unknown start " + in_quotes(word) + ", expected 'random' or 'card'");
       study.start = word == "card" ? StartPoint::card : StartPoint::random;
     }
     if (const auto* node = root.get("normalisation")) {
       try {
-        study.objective.normalisation = normalisation_of(text_of(*node, "normalisation"));
+        study.objective.normalisation = normalisation_of(word_of(*node, "normalisation"));
       } catch (const InputError&) {
-        fail(*node, "unknown normalisation " + in_quotes(text_of(*node, "normalisation")) +
+        fail(*node, "unknown normalisation " + in_quotes(word_of(*node, "normalisation")) +
                         ", expected max-abs, range, std or mean-abs");
       }
     }
     if (const auto* node = root.get("weighting")) {
-      const std::string word = text_of(*node, "weighting");
+      const std::string word = word_of(*node, "weighting");
       if (word != "per-recording" && word != "pooled") {
         fail(*node, "unknown weighting " + in_quotes(word) + ", expected 'per-recording' or 'pooled'");
       }
@@ -86,36 +80,6 @@ class Parser {
   }
 
  private:
-  [[noreturn]] void fail_at(int line, const std::string& message) const { throw InputError(file_, line, message); }
-  [[noreturn]] void fail(const toml::node& node, const std::string& message) const { fail_at(line_of(node), message); }
-  static int line_of(const toml::node& node) { return static_cast<int>(node.source().begin.line); }
-
-  [[nodiscard]] toml::table parse(const std::string& text) const {
-    try {
-      return toml::parse(text);
-    } catch (const toml::parse_error& error) {
-      std::string reason(error.description());
-      std::ranges::replace(reason, '\n', ' ');
-      fail_at(static_cast<int>(error.source().begin.line), "not valid TOML (" + reason + "), expected TOML 1.0");
-    }
-  }
-
-  void check_keys(const toml::table& table, std::initializer_list<std::string_view> known,
-                  const std::string& of) const {
-    for (const auto& [key, node] : table) {
-      if (std::ranges::find(known, key.str()) != known.end()) continue;
-      std::vector<std::string> words;
-      std::string expected;
-      for (const auto name : known) {
-        words.emplace_back(name);
-        expected += (expected.empty() ? "" : ", ") + std::string(name);
-      }
-      fail_at(
-          static_cast<int>(key.source().begin.line),
-          "unknown key " + in_quotes(key.str()) + of + suggestion(key.str(), words) + ", expected one of " + expected);
-    }
-  }
-
   [[nodiscard]] const toml::node& required(const toml::table& table, const std::string& key,
                                            const std::string& example) const {
     const auto* node = table.get(key);
@@ -123,9 +87,11 @@ class Parser {
     return *node;
   }
 
-  [[nodiscard]] std::string text_of(const toml::node& node, const std::string& name) const {
-    if (const auto* text = node.as_string(); text != nullptr && !text->get().empty()) return text->get();
-    fail(node, "'" + name + "' is not text, expected a string in double quotes");
+  // Text that is not empty.
+  [[nodiscard]] std::string word_of(const toml::node& node, const std::string& name) const {
+    std::string text = text_of(node, name);
+    if (text.empty()) fail(node, "'" + name + "' is not text, expected a string in double quotes");
+    return text;
   }
 
   [[nodiscard]] double number_of(const toml::node& node, const std::string& name, double low, double high) const {
@@ -174,9 +140,9 @@ class Parser {
   }
 
   [[nodiscard]] std::vector<std::string> texts_of(const toml::node& node, const std::string& name) const {
-    if (node.is_string()) return {text_of(node, name)};
+    if (node.is_string()) return {word_of(node, name)};
     std::vector<std::string> result;
-    for (const auto& element : array_of(node, name, name + " = [\"...\"]")) result.push_back(text_of(element, name));
+    for (const auto& element : array_of(node, name, name + " = [\"...\"]")) result.push_back(word_of(element, name));
     return result;
   }
 
@@ -219,7 +185,7 @@ class Parser {
     if (table == nullptr) fail(node, "'" + name + "' is not a table, expected " + name + " = { alpha = 1 }");
     std::map<std::string, int> result;
     for (const auto& [key, value] : *table) {
-      result[std::string(key.str())] = static_cast<int>(whole_of(value, std::string(key.str()), 0, 5));
+      result[std::string(key.str())] = static_cast<int>(whole_of(value, std::string(key.str()), 0, highest_order));
     }
     return result;
   }
@@ -229,7 +195,7 @@ class Parser {
     ModelSpec spec;
     spec.line = line_of(node);
     if (node.is_string()) {
-      std::string rest = text_of(node, "models");
+      std::string rest = word_of(node, "models");
       spec.label = rest;
       for (std::size_t plus = rest.find('+'); !rest.empty(); plus = rest.find('+')) {
         const std::string word = rest.substr(0, plus);
@@ -242,11 +208,11 @@ class Parser {
       check_keys(*table, {"id", "label", "effects", "by_current", "by_frequency", "fix", "bounds"}, " of a model");
       const auto* id = table->get("id");
       if (id == nullptr) fail(node, "a model without 'id', expected for example id = \"bouc-wen\"");
-      spec.model = text_of(*id, "id");
+      spec.model = word_of(*id, "id");
       spec.label = spec.model;
       if (const auto* effects = table->get("effects")) spec.effects = texts_of(*effects, "effects");
       for (const std::string& effect : spec.effects) spec.label += "+" + effect;
-      if (const auto* label = table->get("label")) spec.label = text_of(*label, "label");
+      if (const auto* label = table->get("label")) spec.label = word_of(*label, "label");
       if (const auto* orders = table->get("by_current")) spec.layout.by_current = orders_of(*orders, "by_current");
       if (const auto* orders = table->get("by_frequency"))
         spec.layout.by_frequency = orders_of(*orders, "by_frequency");
@@ -324,7 +290,7 @@ class Parser {
                   fail(node, "[[data]] needs either dataset = \"ID\" or recordings = [\"FILE OR FOLDER\"]");
                 }
                 if (dataset != nullptr) {
-                  spec.dataset = text_of(*dataset, "dataset");
+                  spec.dataset = word_of(*dataset, "dataset");
                   spec.label = spec.dataset;
                   const auto known = ids_of(dataset_catalogue());
                   if (std::ranges::find(known, spec.dataset) == known.end()) {
@@ -340,7 +306,7 @@ class Parser {
                   fs::path first = fs::path(spec.paths.front()).lexically_normal();
                   spec.label = (first.has_filename() ? first.filename() : first.parent_path().filename()).string();
                 }
-                if (const auto* value = table->get("label")) spec.label = text_of(*value, "label");
+                if (const auto* value = table->get("label")) spec.label = word_of(*value, "label");
                 if (const auto* value = table->get("seed")) {
                   if (dataset == nullptr) fail(*value, "'seed' is the noise of a shipped dataset, not of recordings");
                   spec.seed =
@@ -361,7 +327,7 @@ class Parser {
       spec.line = line_of(node);
       const toml::table* settings = nullptr;
       if (node.is_string()) {
-        spec.id = text_of(node, "solvers");
+        spec.id = word_of(node, "solvers");
         spec.label = spec.id;
       } else {
         const auto* table = node.as_table();
@@ -369,9 +335,9 @@ class Parser {
         check_keys(*table, {"id", "label", "settings"}, " of a solver");
         const auto* id = table->get("id");
         if (id == nullptr) fail(node, "a solver without 'id', expected for example id = \"pso\"");
-        spec.id = text_of(*id, "id");
+        spec.id = word_of(*id, "id");
         spec.label = spec.id;
-        if (const auto* label = table->get("label")) spec.label = text_of(*label, "label");
+        if (const auto* label = table->get("label")) spec.label = word_of(*label, "label");
         if (const auto* value = table->get("settings")) {
           settings = value->as_table();
           if (settings == nullptr) fail(*value, "'settings' is not a table, expected settings = { population = 100 }");
@@ -401,7 +367,6 @@ class Parser {
   }
 
   fs::path path_;
-  std::string file_;
 };
 
 }  // namespace
