@@ -1,6 +1,5 @@
 // The program as a user runs it: results, determinism, wrong input, interruption. Every test runs HYSTERON_PROGRAM in a
 // temporary folder of its own.
-#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -19,50 +18,21 @@
 #include <thread>
 #include <vector>
 
+#include "app/program.hpp"
+
 namespace hysteron {
 namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
-
-struct Outcome {
-  int status = -1;
-  std::string out;
-  std::string err;
-};
-
-std::string read(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::stringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
+using testing::finish;
+using testing::Outcome;
+using testing::read;
+using testing::start;
 
 void write(const fs::path& path, const std::string& text) {
   fs::create_directories(path.parent_path());
   std::ofstream(path, std::ios::binary) << text;
-}
-
-pid_t start(const std::vector<std::string>& words, const fs::path& folder) {
-  const pid_t child = fork();
-  if (child != 0) return child;
-  if (chdir(folder.c_str()) != 0) _exit(99);
-  const int out = open("stdout.txt", O_WRONLY | O_CREAT | O_TRUNC, 0644);
-  const int err = open("stderr.txt", O_WRONLY | O_CREAT | O_TRUNC, 0644);
-  dup2(out, STDOUT_FILENO);
-  dup2(err, STDERR_FILENO);
-  std::vector<char*> arguments{const_cast<char*>(HYSTERON_PROGRAM)};
-  for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
-  arguments.push_back(nullptr);
-  execv(HYSTERON_PROGRAM, arguments.data());
-  _exit(99);
-}
-
-Outcome finish(pid_t child, const fs::path& folder) {
-  int status = 0;
-  waitpid(child, &status, 0);
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + WTERMSIG(status), read(folder / "stdout.txt"),
-          read(folder / "stderr.txt")};
 }
 
 std::string csv(double frequency, double current, int samples = 80, double factor = 1.0) {
@@ -92,7 +62,7 @@ class Program : public ::testing::Test {
   }
   void TearDown() override { fs::remove_all(folder_); }
 
-  Outcome run(const std::vector<std::string>& words) const { return finish(start(words, folder_), folder_); }
+  Outcome run(const std::vector<std::string>& words) const { return testing::run(words, folder_); }
 
   // A fitted model in `fitted/`.
   void fit() const {

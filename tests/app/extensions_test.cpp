@@ -1,34 +1,25 @@
 // Published parameter sets, solvers of other libraries and plugins, as a user calls them.
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <iomanip>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <sstream>
 #include <string>
+#include <vector>
+
+#include "app/program.hpp"
 
 namespace hysteron {
 namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
-
-struct Outcome {
-  int status = -1;
-  std::string out;
-  std::string err;
-};
-
-std::string read(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::stringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
+using testing::Outcome;
+using testing::read;
 
 class Extensions : public ::testing::Test {
  protected:
@@ -50,11 +41,12 @@ class Extensions : public ::testing::Test {
   }
   void TearDown() override { fs::remove_all(folder_); }
 
-  Outcome run(const std::string& words) {
-    const std::string command =
-        "cd '" + folder_.string() + "' && '" HYSTERON_PROGRAM "' " + words + " >out.txt 2>err.txt";
-    const int status = std::system(command.c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read(folder_ / "out.txt"), read(folder_ / "err.txt")};
+  // Words with spaces in single quotes.
+  Outcome run(const std::string& line) {
+    std::istringstream rest(line);
+    std::vector<std::string> words;
+    for (std::string word; rest >> std::quoted(word, '\'');) words.push_back(word);
+    return testing::run(words, folder_);
   }
   void expect_refused(const std::string& words, const std::string& part) {
     const Outcome outcome = run(words);
@@ -130,7 +122,7 @@ TEST_F(Extensions, PluginAddsItsModelAndSolver) {
 TEST_F(Extensions, PluginsThatAreNoneAreRefused) {
   expect_refused("--plugin none.so list models", "no such file");
   expect_refused("--plugin r.csv list models", "cannot be loaded");
-  expect_refused("--plugin '" HYSTERON_PLUGIN "' --plugin='" HYSTERON_PLUGIN "' list models", "is taken");
+  expect_refused("--plugin '" HYSTERON_PLUGIN "' '--plugin=" HYSTERON_PLUGIN "' list models", "is taken");
 }
 
 }  // namespace

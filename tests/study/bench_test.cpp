@@ -1,18 +1,14 @@
 // The program as a user runs it: the same bytes for any number of threads, after kills, from shards.
-#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <chrono>
 #include <csignal>
 #include <fstream>
-#include <functional>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <thread>
 
+#include "app/program.hpp"
 #include "core/random.hpp"
 #include "io/temporary_folder.hpp"
 
@@ -20,51 +16,18 @@ namespace hysteron {
 namespace {
 
 namespace fs = std::filesystem;
+using testing::Outcome;
+using testing::read;
+using testing::run;
+using testing::start;
 using testing::TemporaryFolder;
-
-std::string read(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::stringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
+using testing::wait_for;
 
 const std::string small_study =
     "schema = \"hysteron.study/1\"\ntitle = \"test\"\nmodels = [\"viscous\"]\n"
     "solvers = [\"pso\", \"cma-es\", \"multistart-lm\"]\nbudgets = [60, 150]\nseeds = 5\ntarget_nrmse = [0.3]\n"
     "[[data]]\ndataset = \"rd8040-twin\"\nlabel = \"twin\"\nonly = [\"2.0Hz_1.0A\", \"0.4Hz_0.0A\"]\neach = true\n";
 constexpr std::size_t small_runs = 60;
-
-struct Outcome {
-  int status;
-  std::string out;
-  std::string err;
-};
-
-pid_t start(const std::vector<std::string>& words, const fs::path& folder, const std::function<void()>& before = {}) {
-  const pid_t child = fork();
-  if (child != 0) return child;
-  if (chdir(folder.c_str()) != 0) _exit(99);
-  dup2(open("stdout.txt", O_WRONLY | O_CREAT | O_TRUNC, 0644), STDOUT_FILENO);
-  dup2(open("stderr.txt", O_WRONLY | O_CREAT | O_TRUNC, 0644), STDERR_FILENO);
-  if (before) before();
-  std::vector<char*> arguments{const_cast<char*>(HYSTERON_PROGRAM)};
-  for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
-  arguments.push_back(nullptr);
-  execv(HYSTERON_PROGRAM, arguments.data());
-  _exit(99);
-}
-
-int wait_for(pid_t child) {
-  int status = 0;
-  waitpid(child, &status, 0);
-  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-}
-
-Outcome run(const std::vector<std::string>& words, const fs::path& folder, const std::function<void()>& before = {}) {
-  const int status = wait_for(start(words, folder, before));
-  return {status, read(folder / "stdout.txt"), read(folder / "stderr.txt")};
-}
 
 // Every file of a report that may not vary.
 std::string report_bytes(const fs::path& folder, const std::string& study) {
