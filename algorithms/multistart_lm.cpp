@@ -1,7 +1,7 @@
 // Levenberg-Marquardt from many starts at once: `width` descents side by side, random starts uniform in the unit box,
 // the first from the problem's start. A descent that ends is replaced by a new one. Stops when `agreement` descents
 // have ended at the same best cost after at least `starts` descents, or at the budget. See support/descent.hpp for
-// equations and sources; stopping by agreement follows Boender and Rinnooy Kan 1987, doi 10.1007/BF02592071, in spirit:
+// equations and sources; stopping by agreement follows Boender and Rinnooy Kan 1987, doi 10.1007/BF02591684, in spirit:
 // the more descents end in the best optimum, the less likely a better one is unseen.
 //
 // Where the problem allows screening, descents are made on the coarse objective first, until the squared cost falls by

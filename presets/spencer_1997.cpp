@@ -44,7 +44,7 @@ std::vector<double> parameters(std::span<const double> q) {
 const Preset preset_spencer_1997 = {
     "spencer-1997",
     "MR damper prototype, modified Bouc-Wen for a varying voltage",
-    "Spencer, Dyke, Sain, Carlson, J. Eng. Mech. 123 1997 230-238, doi 10.1061/(ASCE)0733-93991997123:3230",
+    "Spencer, Dyke, Sain, Carlson, J. Eng. Mech. 123 (1997) 230-238, doi 10.1061/(ASCE)0733-9399(1997)123:3(230)",
     "modified-bouc-wen",
     {},
     PresetDrive::voltage,
