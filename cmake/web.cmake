@@ -51,6 +51,7 @@ endfunction()
 
 _hysteron_embed(report_html "${HYSTERON_WEB_DIR}/report.html")
 _hysteron_embed(report_css "${HYSTERON_WEB_DIR}/report.css")
+_hysteron_embed(common_js "${HYSTERON_WEB_DIR}/common.js")
 _hysteron_embed(report_js "${HYSTERON_WEB_DIR}/report.js")
 _hysteron_embed(study_js "${HYSTERON_WEB_DIR}/study.js")
 _hysteron_embed(uplot_js "${_uplot}/dist/uPlot.iife.min.js")

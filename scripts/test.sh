@@ -1,8 +1,11 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds everything and runs all tests.
+# Installs what is missing, builds everything and runs all tests; words given go to ctest. Reports are also looked at in
+# headless Chromium where it is installed; screenshots are then in out/pages.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 scripts/setup.sh
 cmake --preset release -DHYSTERON_TESTS=ON -DHYSTERON_BENCH=ON
 cmake --build --preset release
 ctest --preset release --no-tests=error "$@"
+# 77: no Chromium, which has been said.
+scripts/check_reports.py build/release/hysteron out/pages || [ $? -eq 77 ]

@@ -3,7 +3,7 @@
 (function () {
 "use strict";
 
-const root = document.documentElement;
+const { root, isNumber, superscript, fmt, esc, el, section, css, decimalsOf, linearTicks, logTicks } = common;
 const report = JSON.parse(document.getElementById("report-data").textContent);
 const list = (value) => (Array.isArray(value) ? value : []);
 const recordings = list(report.recordings);
@@ -12,57 +12,26 @@ const parameters = list(report.parameters);
 
 // ---------------------------------------------------------------------------------------------- numbers and elements
 
-const isNumber = (v) => typeof v === "number" && Number.isFinite(v);
-
-function superscript(n) {
-  return String(n).replace(/[-\d]/g, (c) => (c === "-" ? "⁻" : "⁰¹²³⁴⁵⁶⁷⁸⁹"[Number(c)]));
-}
-
-function fmt(v, digits = 4) {
-  if (!isNumber(v)) return "–";
-  if (v === 0) return "0";
-  const [mantissa, exponent] = v.toExponential(digits - 1).split("e");
-  const e = Number(exponent);
-  const text = e >= -4 && e < 6 ? v.toFixed(Math.max(0, digits - 1 - e)) : `${mantissa} × 10${superscript(e)}`;
-  return text.replace("-", "−");
-}
-
 // A number somebody chose, such as a bound: no trailing zeros.
 function brief(v) {
   if (!isNumber(v)) return "–";
   const e = v === 0 ? 0 : Math.floor(Math.log10(Math.abs(v)) + 1e-12);
-  if (e >= -4 && e < 6) return String(Number(v.toPrecision(6))).replace("-", "−");
+  if (e >= -4 && e < 6) return String(Number(v.toPrecision(4))).replace("-", "−");
   const mantissa = String(Number((v / 10 ** e).toPrecision(4)));
   return ((mantissa === "1" ? "" : mantissa === "-1" ? "-" : `${mantissa} × `) + `10${superscript(e)}`).replace("-", "−");
 }
 
 // Counts with narrow spaces between thousands.
 const count = (v) => (isNumber(v) ? String(v).replace(/\B(?=(\d{3})+(?!\d))/g, "\u202f") : "–");
+// A sentence written by the program, its powers of ten as a reader writes them.
+const prose = (text) => String(text).replace(/(\d)e([+-])0*(\d+)/g, (_, digit, sign, power) => `${digit} × 10${superscript((sign === "-" ? "-" : "") + power)}`);
 const plural = (n, one) => `${n} ${one}${n === 1 ? "" : "s"}`;
-const esc = (text) => String(text).replace(/[&<>"']/g, (c) => `&#${c.charCodeAt(0)};`);
-
-function el(tag, attributes, ...children) {
-  const node = document.createElement(tag);
-  for (const [name, value] of Object.entries(attributes || {})) {
-    if (value === null || value === undefined || value === false) continue;
-    if (name.startsWith("on")) node.addEventListener(name.slice(2), value);
-    else node.setAttribute(name, value === true ? "" : value);
-  }
-  for (const child of children.flat()) {
-    if (child !== null && child !== undefined && child !== "") node.append(child);
-  }
-  return node;
-}
 
 // Our own chart markup; the texts in it have gone through esc().
 function svgNode(markup) {
   const holder = document.createElement("div");
   holder.innerHTML = markup;
   return holder.firstElementChild;
-}
-
-function section(id, title, ...children) {
-  return el("section", { id, "aria-labelledby": `${id}-title` }, el("h2", { id: `${id}-title` }, title), ...children);
 }
 
 // columns: {title, num, head (cell is the row's header)}; cells are text or nodes.
@@ -100,46 +69,6 @@ function extent(arrays) {
 function padded([lo, hi], share = 0.05) {
   const gap = hi > lo ? (hi - lo) * share : Math.abs(lo) * 0.1 || 1;
   return [lo - gap, hi + gap];
-}
-
-// Decimals that show a step exactly: 0 for 5, 1 for 2.5, 2 for 0.01.
-function decimalsOf(step) {
-  let decimals = 0;
-  while (decimals < 10 && Math.abs(step * 10 ** decimals - Math.round(step * 10 ** decimals)) > 1e-6 * step * 10 ** decimals) ++decimals;
-  return decimals;
-}
-
-function linearTicks(lo, hi, wanted) {
-  const raw = (hi - lo) / Math.max(1, wanted);
-  const power = 10 ** Math.floor(Math.log10(raw));
-  const steps = [1, 2, 5, 10].map((s) => s * power);
-  const ticksOf = (s) => Math.floor(hi / s + 1e-9) - Math.ceil(lo / s - 1e-9) + 1;
-  let k = steps.findIndex((s) => s >= raw * 0.999);
-  while (k > 0 && ticksOf(steps[k]) < 2) --k;  // one tick alone gives no scale
-  const step = steps[k];
-  const decimals = decimalsOf(step);
-  const ticks = [];
-  for (let i = Math.ceil(lo / step - 1e-9); i * step <= hi + step * 1e-9; ++i) {
-    const value = i * step;
-    const text = Math.abs(value) >= 1e6 || (step < 1e-4 && value !== 0) ? fmt(value, 2) : value.toFixed(decimals);
-    ticks.push([value, text.replace(/^-/, "−")]);
-  }
-  return ticks;
-}
-
-function logTicks(lo, hi) {
-  const decades = Math.log10(hi / lo);
-  const factors = decades < 1.2 ? [1, 2, 3, 5, 7] : decades < 3 ? [1, 2, 5] : [1];
-  const ticks = [];
-  for (let e = Math.floor(Math.log10(lo)) - 1; e <= Math.log10(hi); ++e) {
-    for (const f of factors) {
-      const value = f * 10 ** e;
-      if (value < lo * 0.9999 || value > hi * 1.0001) continue;
-      const plain = e >= -3 && e < 6;
-      ticks.push([value, plain ? String(Number(value.toPrecision(2))) : (f === 1 ? "" : `${f}·`) + `10${superscript(e)}`]);
-    }
-  }
-  return ticks;
 }
 
 // options: width, height, small, title (for screen readers), x and y {label, range, log}, margin [top, right, bottom,
@@ -338,8 +267,6 @@ let selected = -1;
 let plots = [];          // uPlot instances of the selected recording
 let detail = null;       // elements of the detail view
 let resizeWatch = null;
-
-const css = (name) => getComputedStyle(root).getPropertyValue(name).trim();
 
 function axis(label, side) {
   const font = "12px system-ui, -apple-system, 'Segoe UI', Roboto, 'Liberation Sans', Arial, sans-serif";
@@ -655,13 +582,13 @@ function parameterRemarks(p) {
 
 function modelSection() {
   const model = report.model || {};
-  const columns = [{ title: "Parameter", head: true, nowrap: true }, { title: "Meaning and remarks", text: true }, { title: "Value", num: true }, { title: "Unit", nowrap: true },
+  const columns = [{ title: "Parameter", head: true }, { title: "Meaning and remarks", text: true }, { title: "Value", num: true }, { title: "Unit", nowrap: true },
     { title: "Std. error", num: true }, { title: "95 % interval", num: true }, { title: "Bounds", num: true }, { title: "Within bounds" }];
   const interval = (pair, text) => (Array.isArray(pair) && pair.some(isNumber) ? `${text(pair[0])} … ${text(pair[1])}` : "–");
   const rows = parameters.map((p) => [
     p.symbol && p.symbol !== p.name ? el("span", {}, el("code", {}, p.name), ` ${p.symbol}`) : el("code", {}, p.name),
     el("span", {}, p.meaning || "", " ", parameterRemarks(p)),
-    fmt(p.value, 4), p.unit || "–", fmt(p.std_error, 2), interval(p.ci95, (v) => fmt(v, 4)), interval([p.lower, p.upper], brief), withinBounds(p),
+    fmt(p.value, 4), p.unit || "–", fmt(p.std_error, 2), interval(p.ci95, (v) => fmt(v, 3)), interval([p.lower, p.upper], brief), withinBounds(p),
   ]);
   return section("model", "Model and parameters",
     el("p", {}, model.title || model.id || "", model.id && model.title ? [" (", el("code", {}, model.id), ")"] : ""),
@@ -749,7 +676,7 @@ function diagnosisSection() {
       ? `Held-out NRMSE ${fmt(e.nrmse_heldout_before, 3)} → ${fmt(e.nrmse_heldout_after, 3)}. ` : "";
     parts.push(el("div", { class: "effect" },
       el("h3", {}, el("code", {}, e.id), isNumber(e.confidence) ? `, confidence ${fmt(e.confidence, 3)}` : ""),
-      e.sentence ? el("p", {}, e.sentence) : null,
+      e.sentence ? el("p", {}, prose(e.sentence)) : null,
       el("p", { class: "muted" }, before, isNumber(e.share_of_misfit) ? `Explains ${percent(e.share_of_misfit)} of the misfit. ` : "",
         list(e.indistinguishable_from).length ? `Not distinguishable from ${e.indistinguishable_from.join(", ")} with these data.` : ""),
       list(e.parameters).length ? plainTable(`Parameters of ${e.id}`, [{ title: "Parameter", head: true }, { title: "Value", num: true }, { title: "95 % interval", num: true }, { title: "Unit" }],
@@ -761,12 +688,16 @@ function diagnosisSection() {
       d.locations.map((l) => [l.where || "", l.variable || "", fmt(l.from, 3), fmt(l.to, 3), l.unit || "–", percent(l.share_of_misfit), percent(l.share_of_samples), list(l.recordings).join(", ")])));
   }
   if (list(d.rejected).length) {
-    parts.push(el("h3", {}, "Examined and rejected"), plainTable("Effects tested that do not help", [{ title: "Effect", head: true }, { title: "Reason" }, { title: "p", num: true }],
-      d.rejected.map((x) => [x.id, x.reason || "", fmt(x.p, 2)])));
+    // Many effects share a reason: a row a reason, not an effect.
+    const reasons = [...new Set(d.rejected.map((x) => x.reason || ""))];
+    const named = (x) => [el("code", { class: "nowrap" }, x.id), isNumber(x.p) ? ` (${fmt(x.p, 2)})` : ""];
+    parts.push(el("h3", {}, "Examined and rejected"), plainTable("Effects tested that do not help; in brackets the p value of the test",
+      [{ title: "Reason", head: true }, { title: "Effects" }],
+      reasons.map((reason) => [prose(reason), el("span", {}, d.rejected.filter((x) => (x.reason || "") === reason).flatMap((x, i) => [i ? ", " : "", ...named(x)]))])));
   }
   if (list(d.not_observable).length) {
     parts.push(el("h3", {}, "Not observable in these data"), plainTable("Effects these recordings could not have shown", [{ title: "Effect", head: true }, { title: "Why, or the smallest size that would show" }],
-      d.not_observable.map((x) => [x.id, x.reason || x.detection_limit || ""])));
+      d.not_observable.map((x) => [x.id, prose(x.reason || x.detection_limit || "")])));
   }
   if (d.next_experiment) parts.push(el("h3", {}, "Next experiment"), el("p", {}, d.next_experiment));
   return section("diagnosis", "Diagnosis", ...parts);
@@ -801,7 +732,12 @@ function provenanceSection() {
 function verdictLine() {
   if (report.verdict) return report.verdict;
   const d = report.diagnosis;
-  if (d && d.verdict) return [verdictWords[d.verdict] || d.verdict, ...list(d.effects).map((e) => e.sentence).filter(Boolean)].join(" ");
+  if (d && d.verdict) {
+    // One effect is told in its own sentence; several are named here and told below.
+    const found = list(d.effects);
+    const told = found.length === 1 ? prose(found[0].sentence || found[0].id) : found.length ? `${d.verdict === "ambiguous" ? "Candidates" : "Found"}: ${found.map((e) => e.id).join(", ")}.` : "";
+    return `${verdictWords[d.verdict] || d.verdict} ${told}`;
+  }
   const fitted = recordings.filter((r) => r.role === "fit").length;
   const held = recordings.filter((r) => r.role === "validate").length;
   const flagged = parameters.filter((p) => p.at_bound || p.identifiable === false).length;

@@ -3,43 +3,10 @@
 (function () {
 "use strict";
 
-const root = document.documentElement;
+const { root, isNumber, fmt, esc, el, section, css, logTicks } = common;
 const study = JSON.parse(document.getElementById("report-data").textContent);
 const solvers = study.solvers.map((s) => s.label);
 const problems = study.problems.map((p) => p.label);
-
-const isNumber = (v) => typeof v === "number" && Number.isFinite(v);
-const esc = (text) => String(text).replace(/[&<>"']/g, (c) => `&#${c.charCodeAt(0)};`);
-const css = (name) => getComputedStyle(root).getPropertyValue(name).trim();
-
-function superscript(n) {
-  return String(n).replace(/[-\d]/g, (c) => (c === "-" ? "⁻" : "⁰¹²³⁴⁵⁶⁷⁸⁹"[Number(c)]));
-}
-
-function fmt(v, digits = 4) {
-  if (!isNumber(v)) return "–";
-  if (v === 0) return "0";
-  const [mantissa, exponent] = v.toExponential(digits - 1).split("e");
-  const e = Number(exponent);
-  return e >= -4 && e < 6 ? v.toFixed(Math.max(0, digits - 1 - e)) : `${mantissa} × 10${superscript(e)}`;
-}
-
-function el(tag, attributes, ...children) {
-  const node = document.createElement(tag);
-  for (const [name, value] of Object.entries(attributes || {})) {
-    if (value === null || value === undefined || value === false) continue;
-    if (name.startsWith("on")) node.addEventListener(name.slice(2), value);
-    else node.setAttribute(name, value === true ? "" : value);
-  }
-  for (const child of children.flat()) {
-    if (child !== null && child !== undefined && child !== "") node.append(child);
-  }
-  return node;
-}
-
-function section(id, title, ...children) {
-  return el("section", { id, "aria-labelledby": `${id}-title` }, el("h2", { id: `${id}-title` }, title), ...children);
-}
 
 function picker(label, words, change) {
   const select = el("select", { onchange: () => change(select.selectedIndex) }, words.map((w) => el("option", {}, w)));
@@ -69,9 +36,13 @@ function plot(host, options) {
   const axis = (label, side, log) => ({
     label, font, labelFont: font, labelSize: 20, gap: 4, stroke: css("--ink"), size: side === 3 ? 58 : 32, space: side === 3 ? 30 : 60,
     grid: { stroke: css("--grid"), width: 1 }, ticks: { stroke: css("--line"), width: 1, size: 4 },
-    values: (u, splits) => splits.map((v) => (v === null ? "" : log ? (v >= 1e4 || v < 1e-3 ? Number(v.toPrecision(2)).toExponential().replace(/e\+?(-?\d+)/, (m, e) => (m && `·10${superscript(e)}`)).replace(/^1·/, "") : String(Number(v.toPrecision(3)))) : String(Number(v.toPrecision(6))))),
+    ...(log ? {
+      splits: (u, k, low, high) => logTicks(low, high).map(([value]) => value),
+      filter: (u, splits) => splits,
+      values: (u, splits, k) => { const { min, max } = u.scales[u.axes[k].scale]; const words = new Map(logTicks(min, max)); return splits.map((v) => words.get(v) ?? ""); },
+    } : { values: (u, splits) => splits.map((v) => String(Number(v.toPrecision(6)))) }),
   });
-  const series = [{ label: options.x.short || options.x.label }];
+  const series = [{ label: options.x.short || options.x.label, value: (u, v) => (isNumber(v) ? fmt(v, 4) : "–") }];
   const data = [options.grid];
   const bands = [];
   for (const s of options.series) {
@@ -171,13 +142,15 @@ function criticalDifference() {
     out.push(`<text x="${onLeft ? end - 6 : end + 6}" y="${y}" dy="0.35em" text-anchor="${onLeft ? "end" : "start"}">${esc(solvers[row.solver])} (${row.mean_rank.toFixed(2)})</text>`);
   });
   out.push("</svg>");
-  const holder = document.createElement("div");
+  const holder = el("div", { class: "scroll ranks", tabindex: 0, role: "region", "aria-label": "Mean ranks" });
   holder.innerHTML = out.join("");
   return el("figure", { class: "plot wide" }, el("figcaption", {}, el("span", {}, "Mean ranks, best on the left; a bar joins solvers that are not told apart")), holder);
 }
 
 // -------------------------------------------------------------------------------------------------------------- tables
 
+// Names do not break at their hyphens; sentences wrap.
+const kept = (text) => (text.length < 32 ? "nowrap" : null);
 const tableOf = (id) => study.tables.find((t) => t.id === id);
 
 // filter: column whose words the reader can choose from
@@ -186,7 +159,7 @@ function shownTable(id, filter) {
   if (!t || !t.rows.length) return t ? el("div", {}, el("h3", {}, t.title), el("p", { class: "muted" }, t.note)) : null;
   const body = el("tbody", {});
   const fill = (word) => body.replaceChildren(...t.rows.filter((r) => !word || r[filter] === word).map((cells) =>
-    el("tr", {}, cells.map((cell, i) => el("td", { class: t.numeric[i] ? "num" : null }, cell)))));
+    el("tr", {}, cells.map((cell, i) => el("td", { class: t.numeric[i] ? "num" : kept(cell) }, cell)))));
   fill();
   const words = filter === undefined ? [] : [...new Set(t.rows.map((r) => r[filter]))];
   return el("div", { id: `table-${id}` }, el("h3", {}, t.title), el("p", { class: "muted" }, t.note),
@@ -251,7 +224,7 @@ function runsSection() {
     const rows = study.runs.filter((r) => (chosen.problem < 0 || r[1] === chosen.problem) && (chosen.solver < 0 || r[2] === chosen.solver) &&
       (chosen.budget < 0 || r[3] === study.budgets[chosen.budget]));
     count.textContent = rows.length > limit ? `the first ${limit} of ${rows.length}; all are in runs.csv` : `${rows.length} runs`;
-    body.replaceChildren(...rows.slice(0, limit).map((r) => el("tr", {}, el("td", { class: "mono", title: r[0] }, r[0].slice(0, 12)), el("td", {}, problems[r[1]]), el("td", {}, solvers[r[2]]),
+    body.replaceChildren(...rows.slice(0, limit).map((r) => el("tr", {}, el("td", { class: "mono", title: r[0] }, r[0].slice(0, 12)), el("td", { class: kept(problems[r[1]]) }, problems[r[1]]), el("td", { class: kept(solvers[r[2]]) }, solvers[r[2]]),
       el("td", { class: "num" }, String(r[3])), el("td", { class: "num" }, String(r[4])), el("td", { class: "num" }, fmt(r[5], 6)), el("td", { class: "num" }, String(r[6])), el("td", {}, r[7]))));
   };
   const pick = (name, label, words) => picker(label, ["all", ...words], (k) => { chosen[name] = k - 1; fill(); });

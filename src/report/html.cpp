@@ -130,6 +130,7 @@ std::string page_of(const nlohmann::json& data, std::string_view script) {
                                      {"report_css", web::report_css()},
                                      {"uplot_license", web::uplot_license()},
                                      {"uplot_js", without_banner(web::uplot_js())},
+                                     {"common_js", web::common_js()},
                                      {"report_js", script},
                                      {"data", text}});
 }

@@ -7,6 +7,7 @@ namespace hysteron::web {
 
 std::string_view report_html();
 std::string_view report_css();
+std::string_view common_js();
 std::string_view report_js();
 std::string_view study_js();
 std::string_view uplot_js();

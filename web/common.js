@@ -1,0 +1,85 @@
+// What the scripts of the pages share: numbers as text, elements, ticks.
+const common = (function () {
+"use strict";
+
+const root = document.documentElement;
+
+const isNumber = (v) => typeof v === "number" && Number.isFinite(v);
+
+function superscript(n) {
+  return String(n).replace(/[-\d]/g, (c) => (c === "-" ? "⁻" : "⁰¹²³⁴⁵⁶⁷⁸⁹"[Number(c)]));
+}
+
+function fmt(v, digits = 4) {
+  if (!isNumber(v)) return "–";
+  if (v === 0) return "0";
+  const [mantissa, exponent] = v.toExponential(digits - 1).split("e");
+  const e = Number(exponent);
+  const text = e >= -4 && e < 6 ? v.toFixed(Math.max(0, digits - 1 - e)) : `${mantissa} × 10${superscript(e)}`;
+  return text.replace("-", "−");
+}
+
+const esc = (text) => String(text).replace(/[&<>"']/g, (c) => `&#${c.charCodeAt(0)};`);
+
+function el(tag, attributes, ...children) {
+  const node = document.createElement(tag);
+  for (const [name, value] of Object.entries(attributes || {})) {
+    if (value === null || value === undefined || value === false) continue;
+    if (name.startsWith("on")) node.addEventListener(name.slice(2), value);
+    else node.setAttribute(name, value === true ? "" : value);
+  }
+  for (const child of children.flat()) {
+    if (child !== null && child !== undefined && child !== "") node.append(child);
+  }
+  return node;
+}
+
+function section(id, title, ...children) {
+  return el("section", { id, "aria-labelledby": `${id}-title` }, el("h2", { id: `${id}-title` }, title), ...children);
+}
+
+// Decimals that show a step exactly: 0 for 5, 1 for 2.5, 2 for 0.01.
+function decimalsOf(step) {
+  let decimals = 0;
+  while (decimals < 10 && Math.abs(step * 10 ** decimals - Math.round(step * 10 ** decimals)) > 1e-6 * step * 10 ** decimals) ++decimals;
+  return decimals;
+}
+
+function linearTicks(lo, hi, wanted) {
+  const raw = (hi - lo) / Math.max(1, wanted);
+  const power = 10 ** Math.floor(Math.log10(raw));
+  const steps = [1, 2, 5, 10].map((s) => s * power);
+  const ticksOf = (s) => Math.floor(hi / s + 1e-9) - Math.ceil(lo / s - 1e-9) + 1;
+  let k = steps.findIndex((s) => s >= raw * 0.999);
+  while (k > 0 && ticksOf(steps[k]) < 2) --k;  // one tick alone gives no scale
+  const step = steps[k];
+  const decimals = decimalsOf(step);
+  const ticks = [];
+  for (let i = Math.ceil(lo / step - 1e-9); i * step <= hi + step * 1e-9; ++i) {
+    const value = i * step;
+    const text = Math.abs(value) >= 1e6 || (step < 1e-4 && value !== 0) ? fmt(value, 2) : value.toFixed(decimals);
+    ticks.push([value, text.replace(/^-/, "−")]);
+  }
+  return ticks;
+}
+
+// Pairs of value and label.
+function logTicks(lo, hi) {
+  const decades = Math.log10(hi / lo);
+  const factors = decades < 1.2 ? [1, 2, 3, 5, 7] : decades < 3 ? [1, 2, 5] : [1];
+  const ticks = [];
+  for (let e = Math.floor(Math.log10(lo)) - 1; e <= Math.log10(hi); ++e) {
+    for (const f of factors) {
+      const value = f * 10 ** e;
+      if (value < lo * 0.9999 || value > hi * 1.0001) continue;
+      const plain = e >= -3 && e < 6;
+      ticks.push([value, plain ? String(Number(value.toPrecision(2))) : (f === 1 ? "" : `${f}·`) + `10${superscript(e)}`]);
+    }
+  }
+  return ticks.length > 1 ? ticks : linearTicks(lo, hi, 4);
+}
+
+const css = (name) => getComputedStyle(root).getPropertyValue(name).trim();
+
+return { root, isNumber, superscript, fmt, esc, el, section, css, decimalsOf, linearTicks, logTicks };
+})();
