@@ -513,7 +513,7 @@ TEST_F(Program, InterruptKeepsWhatIsFinishedAndExits130) {
     const pid_t child = start({"fit", "data", "--model", "bouc-wen", "--by-current", "alpha:1,c0:1", "--solver", "pso",
                                "--budget", "900000000", "--quiet", "--out", out},
                               folder_);
-    std::this_thread::sleep_for(std::chrono::milliseconds(700));
+    testing::wait_until_caught(child, signal);
     ASSERT_EQ(kill(child, signal), 0);
     const Outcome outcome = finish(child, folder_);
     EXPECT_EQ(outcome.status, 130) << outcome.err;

@@ -15,8 +15,11 @@
 
 namespace hysteron::testing {
 
+// Told apart from every exit status, 130 among them.
+constexpr int ended_by(int signal) { return 1000 + signal; }
+
 struct Outcome {
-  int status = -1;  // 128 + number of the signal that ended it
+  int status = -1;  // or ended_by(SIGNAL)
   std::string out;
   std::string err;
 };
@@ -44,10 +47,23 @@ inline pid_t start(const std::vector<std::string>& words, const std::filesystem:
   _exit(99);
 }
 
+// Waits until a child has a handler for a signal: one sent before would end it as it ends any program.
+inline void wait_until_caught(pid_t child, int signal) {
+  const std::string status = "/proc/" + std::to_string(child) + "/status";
+  const std::string key = "SigCgt:";
+  for (int k = 0; k < 3000; ++k) {
+    const std::string text = read(status);
+    const auto at = text.find(key);
+    if (at != std::string::npos && (std::stoull(text.substr(at + key.size()), nullptr, 16) >> (signal - 1)) % 2 == 1)
+      return;
+    usleep(10000);
+  }
+}
+
 inline int wait_for(pid_t child) {
   int status = 0;
   waitpid(child, &status, 0);
-  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : ended_by(WTERMSIG(status));
 }
 
 inline Outcome finish(pid_t child, const std::filesystem::path& folder) {

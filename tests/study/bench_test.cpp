@@ -75,7 +75,7 @@ TEST_F(Bench, KilledAndResumedGivesTheSameBytes) {
     const pid_t child = start({"bench", "study.toml", "--out", "killed", "--threads", "2", "--quiet"}, folder.path());
     std::this_thread::sleep_for(std::chrono::microseconds(static_cast<int>(2000 + 120000 * instants.uniform(k))));
     kill(child, SIGKILL);
-    killed += wait_for(child) == 128 + SIGKILL ? 1 : 0;
+    killed += wait_for(child) == testing::ended_by(SIGKILL) ? 1 : 0;
   }
   EXPECT_GT(killed, 0);
   const Outcome outcome = run({"bench", "study.toml", "--out", "killed", "--quiet"}, folder.path());
