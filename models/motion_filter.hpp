@@ -1,5 +1,5 @@
 // Acceleration from a first-order lag of the velocity, for parts that need more of the motion than x and v.
-// A part keeps h' = (v - h) / tau from h = 0. For a velocity v = v0 + a t from the start of the recording on,
+// A part keeps h' = (v - h) / tau from h = 0. For a velocity v = v0 + a t since the march began,
 //   h = v0 (1 - e) + a (t - tau (1 - e)),   e = exp(-t / tau),
 // so that a = (v (1 - e) - h) / (tau (1 - e) - t e), which turns into (v - h) / tau: no transient of the start at rest.
 #pragma once

@@ -20,6 +20,8 @@ struct Cavitation {
                                                    "r < 0: F <- F (1 - e), s' = -|v| e min(-20 r, 1)"};
   static constexpr int states = 1;
   static constexpr bool has_loaded_rate = true;
+  // Limits of 0.9, 0.75, 0.55 and 0.35 of the peak force, to either side.
+  static constexpr double starts[] = {0.055, -0.055, 0.067, -0.067, 0.09, -0.09, 0.14, -0.14};
   static constexpr Parameter parameters[] = {
       {"kappa",
        "kappa",

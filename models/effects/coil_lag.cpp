@@ -29,7 +29,7 @@ struct CoilLag {
        0.0,
        Scale::linear,
        {}},
-      {"tau", "tau", "s", "time constant of the coil", 5.0e-4, 2.0e-1, 5.0e-3, Scale::logarithmic, {}},
+      {"tau", "tau", "s", "time constant of the coil", 5.0e-4, 5.0e-1, 5.0e-3, Scale::logarithmic, {}},
   };
 
   template <class T>
@@ -46,7 +46,7 @@ struct CoilLag {
   static T force(const std::array<T, 2>& p, const std::array<T, 1>& s, const Input<T>& in, const T& below) {
     const T& g = p[0];
     const T& tau = p[1];
-    const T present = settled_lag(in.drive, s[0], tau, in.time);
+    const T present = settled_lag(in.drive, s[0], tau, in.age);
     return below * (T(1.0) + g * abs(present)) / (T(1.0) + g * abs(in.drive));
   }
 };

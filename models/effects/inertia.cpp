@@ -47,7 +47,7 @@ struct Inertia {
   static T force(const std::array<T, 2>& p, const std::array<T, 2>& s, const Input<T>& in, const T& below) {
     const T& m = p[0];
     const T& tau = p[1];
-    return below + m * acceleration(in.v, s[0], s[1], tau, in.time);
+    return below + m * acceleration(in.v, s[0], s[1], tau, in.age);
   }
 };
 

@@ -47,7 +47,7 @@ struct SensorDelay {
   static void drive(const std::array<T, 2>& p, const std::array<T, 1>& s, Input<T>& in) {
     const T& lag = p[0];
     const T& tau = p[1];
-    const T a = acceleration(in.v, s[0], tau, in.time);
+    const T a = acceleration(in.v, s[0], tau, in.age);
     in.x = in.x - lag * (in.v - tau * a);
     in.v = in.v - lag * a;
   }

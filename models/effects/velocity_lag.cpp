@@ -45,7 +45,7 @@ struct VelocityLag {
   static void drive(const std::array<T, 2>& p, const std::array<T, 1>& s, Input<T>& in) {
     const T& lag = p[0];
     const T& tau = p[1];
-    in.v = in.v - lag * acceleration(in.v, s[0], tau, in.time);
+    in.v = in.v - lag * acceleration(in.v, s[0], tau, in.age);
   }
   template <class T>
   static T force(const std::array<T, 2>& /*p*/, const std::array<T, 1>& /*s*/, const Input<T>& /*in*/, const T& below) {

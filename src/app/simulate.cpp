@@ -113,7 +113,9 @@ std::vector<double> force_of_preset(const Preset& preset, const Options& options
   }
   std::vector<double> state(16, 0.0);
   std::vector<double> force(recording.size());
-  model.march<double>(target.motion, all.data(), count, 0, recording.size(), state.data(), force.data());
+  Motion motion = target.motion;
+  motion.lead = 0.0;
+  model.march<double>(motion, all.data(), count, 0, recording.size(), state.data(), force.data());
   return force;
 }
 

@@ -117,26 +117,26 @@ void march_target(const CompositeModel& model, const Target& target, const Param
       parameters_at_drive(excitation.act(drive, elapsed, values), values);
     }
   };
-  const auto block = [&](std::size_t begin, std::size_t end) {
+  const auto block = [&](const Motion& motion, std::size_t begin, std::size_t end) {
     if (target.drive_varies) {
       for (std::size_t n = begin; n < end; ++n) {
-        const double elapsed = n == 0 ? -1.0 : target.motion.time[n] - target.motion.time[n - 1];
-        parameters_of(target.motion.drive[n], elapsed, p.data() + (n - begin) * width);
+        const double elapsed = n == 0 ? -1.0 : motion.time[n] - motion.time[n - 1];
+        parameters_of(motion.drive[n], elapsed, p.data() + (n - begin) * width);
       }
     }
-    model.march<T>(target.motion, p.data(), stride, begin, end, state.data(), out.data());
+    model.march<T>(motion, p.data(), stride, begin, end, state.data(), out.data());
   };
   if (!target.drive_varies) {
     parameters_of(target.drive, -1.0, p.data());
   }
   for (std::size_t begin = 0; begin < target.preroll; begin += block_samples) {
     const std::size_t end = std::min(begin + block_samples, target.preroll);
-    block(begin, end);
+    block(target.lead_in, begin, end);
     before(begin, end - begin, out.data());
   }
   for (std::size_t begin = 0; begin < samples; begin += block_samples) {
     const std::size_t end = std::min(begin + block_samples, samples);
-    block(begin, end);
+    block(target.motion, begin, end);
     sink(begin, end - begin, out.data());
   }
 }
@@ -179,6 +179,26 @@ std::size_t preroll_samples(const Recording& recording, double frequency) {
     }
   }
   return best;
+}
+
+// The period to march beforehand, if any, so that the recording goes on from its end.
+void lead_in(Target& target, const Recording& recording) {
+  target.preroll = preroll_samples(recording, target.frequency);
+  if (target.preroll == 0) {
+    return;
+  }
+  const auto first = [&](const std::vector<double>& channel) {
+    return std::vector<double>(
+        channel.begin(), channel.begin() + static_cast<std::ptrdiff_t>(
+                                               channel.empty() ? 0 : std::min(target.preroll + 1, channel.size())));
+  };
+  target.lead_in = target.motion;
+  target.lead_in.time = first(target.motion.time);
+  target.lead_in.x = first(target.motion.x);
+  target.lead_in.v = first(target.motion.v);
+  target.lead_in.drive = first(target.motion.drive);
+  target.lead_in.intervals.resize(target.lead_in.time.size() - 1);
+  target.motion.lead = target.lead_in.time.back();
 }
 
 // Sum over the parts of their bounds of |d rate / d state|, 1/s.
@@ -292,16 +312,17 @@ Target make_target(const Recording& recording, const ObjectiveOptions& options) 
   Target target;
   target.motion =
       make_motion(recording.time, recording.displacement, recording.velocity, recording.drive, options.tolerance);
-  if (options.comparing) {
-    target.motion = comparing_motion(std::move(target.motion));
-  }
   target.force = recording.force;
   target.frequency = dominant_frequency(recording);
   if (!recording.drive.empty()) {
     target.drive = mean_of(recording.drive);
     target.drive_varies = drive_varies(recording);
   }
-  target.preroll = preroll_samples(recording, target.frequency);
+  lead_in(target, recording);
+  if (options.comparing) {
+    target.lead_in = comparing_motion(std::move(target.lead_in));
+    target.motion = comparing_motion(std::move(target.motion));
+  }
   if (options.skip_run_in && target.preroll == 0) {
     target.run_in = run_in_samples(recording);
   }
@@ -331,13 +352,18 @@ Objective::Objective(const Layout& layout, const std::vector<Recording>& recordi
     const Target& full = targets_[k];
     const Recording recording = every_kth(recordings[k], screening_stride(recordings[k], full.frequency));
     Target target = full;
-    target.motion = screening_motion(
-        make_motion(recording.time, recording.displacement, recording.velocity, recording.drive, options.tolerance));
+    target.motion =
+        make_motion(recording.time, recording.displacement, recording.velocity, recording.drive, options.tolerance);
+    target.preroll = 0;
+    if (full.preroll > 0) {
+      lead_in(target, recording);
+      target.lead_in = screening_motion(std::move(target.lead_in));
+    }
+    target.motion = screening_motion(std::move(target.motion));
     target.force = recording.force;
     target.run_in = full.run_in * target.force.size() / full.force.size();
     target.weight *=
         static_cast<double>(full.force.size() - full.run_in) / static_cast<double>(target.force.size() - target.run_in);
-    target.preroll = full.preroll > 0 ? preroll_samples(recording, full.frequency) : 0;
     screening_targets_.push_back(std::move(target));
   }
 }

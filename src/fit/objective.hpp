@@ -44,6 +44,7 @@ struct Target {
   bool drive_varies = false;
   std::size_t run_in = 0;   // samples at the start that do not count
   std::size_t preroll = 0;  // samples of the first period marched beforehand when the recording starts in motion
+  Motion lead_in;           // them, with the sample after them; empty without
 };
 
 Target make_target(const Recording& recording, const ObjectiveOptions& options);

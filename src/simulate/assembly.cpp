@@ -16,11 +16,13 @@ constexpr std::size_t max_links = 9;
 constexpr double element_margin = 1.25;
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-// What a step holds of its series links: a factor on the gain, and dF/dv of the links below as the root's first guess.
+// What a step holds of its series links: a factor on the gain, and, for the root's first guess, dF/dv of the links
+// below and the speed they moved at when the step began.
 template <class V>
 struct Relief {
   std::array<V, max_links> factor;
   std::array<V, max_links> resistance;
+  std::array<V, max_links> speed;
 };
 template <class T>
 using States = std::array<T, static_cast<std::size_t>(max_states)>;
@@ -76,10 +78,10 @@ class Assembly {
     Value stiffness;  // of all other links
     Relief<Value> relief;
   };
-  // `speed` and `acceleration` bound those of the recorded motion over the interval.
+  // `speed` and `acceleration` bound those of the recorded motion over the interval. The relief of the step before is
+  // taken as the first guess.
   void start(const States<T>& s, const Input<T>& in, double speed, double acceleration, Start& result) const {
     result.relief.factor.fill(Value(1.0));
-    result.relief.resistance.fill(Value(0.0));
     result.force = evaluate(links_.size(), p_, s.data(), in, result.relief, result.rates.data());
     States<Value> state;
     States<Value> rates;
@@ -117,7 +119,7 @@ class Assembly {
   };
 
   static Input<Value> value_input(const Input<T>& in) {
-    return {value_of(in.x), value_of(in.v), value_of(in.drive), value_of(in.time)};
+    return {value_of(in.x), value_of(in.v), value_of(in.drive), value_of(in.time), value_of(in.age)};
   }
   template <class U>
   static const PartOperations<U>& operations(const Link& link) {
@@ -142,7 +144,7 @@ class Assembly {
       Yield<U> yield;
       part.yield(own, *state, yield);
       yield.gain = yield.gain * U(relief.factor[top - 1]);
-      const Input<U> shifted{in.x - yield.deflection, in.v, in.drive, in.time};
+      const Input<U> shifted{in.x - yield.deflection, in.v, in.drive, in.time, in.age};
       const U u = solve(top - 1, p, s, shifted, *state, yield, relief);
       if (rates != nullptr) {
         rates[link.state] = u;
@@ -167,7 +169,7 @@ class Assembly {
 
   template <class U>
   static Input<U> moved(const Input<U>& in, const U& speed) {
-    return {in.x, in.v - speed, in.drive, in.time};
+    return {in.x, in.v - speed, in.drive, in.time, in.age};
   }
 
   // Rate u of the state of a series element above the links [0, top); `in` holds the deflected displacement.
@@ -218,11 +220,16 @@ class Assembly {
       tolerance = Value(motion_.balance_tolerance) * (abs(u) + yield.gain * (abs(force) + abs(held)));
       return u - yield.gain * (force - held);
     };
-    Value before(0.0);
+    // Where the links below hold the element, they move on as they did; else the element is taken to be at rest.
+    const Value hold = yield.gain * yield.slope * relief.resistance[top];
+    const auto held_back = hold > Value(0.1);
+    Value before =
+        select(held_back, (in.v - relief.speed[top]) / select(held_back, yield.slope, Value(1.0)), Value(0.0));
     Value g_before = residual(before);
-    Value low = min(Value(0.0), -g_before);
-    Value high = max(Value(0.0), -g_before);
-    Value u = -g_before / fma(yield.gain * yield.slope, relief.resistance[top], Value(1.0));
+    // The slope of g is one at least.
+    Value low = min(before, before - g_before);
+    Value high = max(before, before - g_before);
+    Value u = before - g_before / (Value(1.0) + hold);
     Value g = residual(u);
     const auto narrow = [&]() {
       low = select(g < Value(0.0), max(low, u), low);
@@ -267,7 +274,8 @@ class Assembly {
         Yield<Value> yield;
         link.values->yield(p + link.parameter, *state, yield);
         const Value& u = rates[link.state];
-        in = {in.x - yield.deflection, in.v - yield.slope * u, in.drive, in.time};
+        in = {in.x - yield.deflection, in.v - yield.slope * u, in.drive, in.time, in.age};
+        relief.speed[i] = in.v;
         const Value stiffness = instantaneous_stiffness(i, s, in, speed, relief);
         const Value resistance = relief.resistance[i];
         const Value gain = yield.gain / fma(yield.gain * yield.slope, resistance, Value(1.0));
@@ -337,7 +345,7 @@ class Assembly {
 // Room for one step, made once: clearing it would cost as much as the step.
 template <class T>
 struct Room {
-  typename Assembly<T>::Start start;
+  typename Assembly<T>::Start start{};
   States<T> k2, k3, k4, trial, next;
 };
 
@@ -388,7 +396,12 @@ void march_segment(const Assembly<T>& system, const Motion& motion, std::size_t 
   while (any(active)) {
     const Input<T> in = detail::input_at<T>(motion, n, theta);
     if (!known) {
+      const auto before = start.relief;
       system.start(state, in, interval.speed, acceleration_of(interval), start);
+      for (std::size_t i = 0; i < max_links; ++i) {
+        start.relief.speed[i] = select(active, start.relief.speed[i], before.speed[i]);
+        start.relief.resistance[i] = select(active, start.relief.resistance[i], before.resistance[i]);
+      }
     }
     known = false;
     const Value left = Value(to) - theta;

@@ -120,6 +120,10 @@ constexpr Part compile() {
   part.equations = M::equations;
   part.parameters = M::parameters;
   part.states = M::states;
+  if constexpr (requires { M::starts; }) {
+    static_assert(std::size(M::starts) == 8);
+    part.starts = M::starts;
+  }
   if constexpr (detail::IsSeries<M>) {
     part.bends = true;
     part.on_double = detail::series_operations<M, double>();

@@ -83,6 +83,7 @@ Motion comparing_motion(Motion motion) {
   motion.step_limit = 1.5;
   motion.finer_at_reversals = 1.0;
   motion.finer_when_long = 0.0;
+  motion.most_substeps = 32.0;  // what is stiffer runs away, and with it a hypothesis that would hold up all others
   motion.balance_tolerance = 1e-4;
   motion.balance_iterations = 8;
   if (!motion.intervals.empty()) {

@@ -33,6 +33,7 @@ struct Motion {
   std::vector<double> v;
   std::vector<double> drive;  // empty: zero
   std::vector<MotionInterval> intervals;
+  double lead = 0.0;  // s marched before the first sample
   // Largest |lambda| h a sub-step may have: 0.5 at the default tolerance of 1e-4 of peak force.
   double step_limit = 0.5;
   // How much finer the sub-steps are near a velocity reversal: laws that slip against a series element have their kink

@@ -55,6 +55,7 @@ struct Input {
   T v;      // velocity, m/s
   T drive;  // current or voltage, A or V
   T time;   // s since the start of the recording
+  T age;    // s since the march began: later than time where a period is marched beforehand
 };
 
 // Deflection D(q) of a series element and the law of its state, whose element force is that of the links below it:
@@ -107,6 +108,9 @@ struct Part {
   std::span<const std::string_view> equations;
   std::span<const Parameter> parameters;
   int states = 0;
+  // Parts of the first parameter's range, off its neutral value, to start a search from: eight of them, for effects
+  // that do nothing below a threshold. Empty for the usual ones.
+  std::span<const double> starts;
   bool bends = false;  // the force is not affine in the force below, so that parameters below are not linear
   PartOperations<double> on_double;
   PartOperations<Lanes> on_lanes;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "core/error.hpp"
 #include "datasets/dataset.hpp"
@@ -422,6 +423,26 @@ std::vector<Recording> three_levels() {
     recordings.push_back(recording);
   }
   return recordings;
+}
+
+TEST(MidMotion, FiltersOfTheMotionAreSettledByThePeriodBeforehand) {
+  // A sine that is under way at the first sample: m a is there from that sample on, without a transient.
+  const std::vector<Recording> moving{motion("moving.csv", {{0.01, 2.0}}, 2.0, 1000, 0.0)};
+  const Target target = make_target(moving[0], {});
+  ASSERT_GT(target.preroll, 0U);
+  const CompositeModel model = make_model("viscous", {"inertia"});
+  const std::vector<std::string> names = model.parameter_names();
+  constexpr double mass = 12.0;
+  std::vector<double> values;
+  for (const Parameter& card : model.parameters()) {
+    values.push_back(card.fixed ? card.initial : 0.0);
+  }
+  values[static_cast<std::size_t>(std::ranges::find(names, "inertia.m") - names.begin())] = mass;
+  const std::vector<double> force = predict(model, values, {}, target);
+  const double w2 = std::pow(2.0 * std::numbers::pi * 2.0, 2);
+  for (std::size_t n = 0; n < force.size(); ++n) {
+    EXPECT_NEAR(force[n], -mass * w2 * moving[0].displacement[n], 0.01 * mass * w2 * 0.01) << n;
+  }
 }
 
 TEST(Layout, TermsReproduceNodeValuesAndNodeInterpolation) {
