@@ -1,6 +1,7 @@
 // A second hysteresis with its own yield displacement in parallel, as of seals or particle chains that deform before
 // they yield.
 //   F <- F + f_h z,   z' = (v - |v| z) / x_y
+// What yields within 4 % of the stroke is dry friction (coulomb-friction, seal-friction) rather than this.
 // Source: Dahl, Aerospace Corp. report TOR-0158(3107-18)-1, 1968.
 #include "simulate/compile.hpp"
 
@@ -15,7 +16,7 @@ struct PreYieldHysteresis {
   static constexpr int states = 1;
   static constexpr Parameter parameters[] = {
       {"f_h", "f_h", "N", "force of the saturated element", 0.0, 2.0e3, 0.0, Scale::linear, {1, 0, 0}, true},
-      {"x_y", "x_y", "m", "its yield displacement", 5.0e-5, 2.5e-2, 5.0e-3, Scale::logarithmic, {0, 1, 0}},
+      {"x_y", "x_y", "m", "its yield displacement", 1.0e-3, 2.5e-2, 5.0e-3, Scale::logarithmic, {0, 1, 0}},
   };
 
   template <class T>

@@ -1,7 +1,8 @@
 // Friction of seal and bearing: Coulomb friction with a Stribeck hump at low speed.
-//   F <- F + (fc + fb exp(-(v / v_st)^2)) tanh(v / v_s),   v_s = 1 mm/s in place of sgn(v)
-// fb is the excess of the static over the Coulomb friction.
+//   F <- F + (fc + fb exp(-(v / v_st)^2)) z,   z' = (v - |v| z) / (x_b + |v| t_b)
+// z stands for sgn(v), as in coulomb-friction. fb is the excess of the static over the Coulomb friction.
 // Source: Armstrong-Helouvry, Dupont, Canudas de Wit, Automatica 30 (1994) 1083-1138, doi 10.1016/0005-1098(94)90209-7.
+#include "models/bristle.hpp"
 #include "simulate/compile.hpp"
 
 namespace hysteron {
@@ -12,8 +13,9 @@ struct SealFriction {
   static constexpr std::string_view title = "Seal friction (Coulomb-Stribeck)";
   static constexpr std::string_view reference =
       "Armstrong-Helouvry, Dupont, Canudas de Wit, Automatica 30 (1994) 1083-1138, doi 10.1016/0005-1098(94)90209-7";
-  static constexpr std::string_view equations[] = {"F <- F + (fc + fb exp(-(v / v_st)^2)) tanh(v / v_s)"};
-  static constexpr int states = 0;
+  static constexpr std::string_view equations[] = {"F <- F + (fc + fb exp(-(v / v_st)^2)) z",
+                                                   "z' = (v - |v| z) / (x_b + |v| t_b)"};
+  static constexpr int states = 1;
   static constexpr Parameter parameters[] = {
       {"fc", "f_c", "N", "Coulomb friction", 0.0, 1.0e3, 0.0, Scale::linear, {1, 0, 0}, true},
       {"fb",
@@ -27,27 +29,23 @@ struct SealFriction {
        {1, 0, 0},
        true},
       {"v_st", "v_st", "m/s", "Stribeck speed", 3.0e-3, 1.0e-1, 1.5e-2, Scale::logarithmic, {0, 0, 1}},
-      {"v_s",
-       "v_s",
-       "m/s",
-       "speed at which the sign function is rounded",
-       1.0e-4,
-       1.0e-1,
-       1.0e-3,
-       Scale::logarithmic,
-       {0, 0, 1},
-       false,
-       true},
   };
 
   template <class T>
-  static T force(const std::array<T, 4>& p, const std::array<T, 0>& /*s*/, const Input<T>& in, const T& below) {
+  static std::array<T, 1> rate(const std::array<T, 3>& /*p*/, const std::array<T, 1>& s, const Input<T>& in) {
+    return {bristle_rate(in.v, s[0])};
+  }
+  template <class T>
+  static T stiffness(const std::array<T, 3>& /*p*/, double speed) {
+    return T(bristle_stiffness(speed));
+  }
+  template <class T>
+  static T force(const std::array<T, 3>& p, const std::array<T, 1>& s, const Input<T>& in, const T& below) {
     const T& fc = p[0];
     const T& fb = p[1];
     const T& v_st = p[2];
-    const T& v_s = p[3];
     const T relative = in.v / v_st;
-    return below + (fc + fb * exp(-relative * relative)) * tanh(in.v / v_s);
+    return below + (fc + fb * exp(-relative * relative)) * s[0];
   }
 };
 
