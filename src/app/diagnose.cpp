@@ -132,6 +132,7 @@ void run(const Options& options) {
   }
 
   ProgressLine progress(options.common.quiet);
+  diagnose_with.stopped = interrupted;
   std::unique_ptr<Diagnosis> diagnosis;
   try {
     diagnosis = diagnose(campaign, diagnose_with, [&](double share, const std::string& stage) {

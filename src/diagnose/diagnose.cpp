@@ -15,7 +15,7 @@ namespace hysteron {
 namespace {
 
 // What hypotheses are compared on.
-constexpr std::size_t quick_samples = 5000;
+constexpr std::size_t quick_samples = 4000;
 constexpr std::size_t quick_recordings = 8;
 // Yield displacements below this part of the half stroke are travelled between two samples: they cost much and tell
 // nothing of what is missing.
@@ -142,7 +142,7 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const DiagnoseOpti
   }
   ObjectiveOptions objective = options.objective;
   objective.skip_run_in = true;
-  Workbench bench(scale, split_of(campaign), layout, objective, options.seed);
+  Workbench bench(scale, split_of(campaign), layout, objective, options.seed, options.stopped);
   notes.push_back(bench.split().how);
 
   SearchOptions searching;
@@ -169,8 +169,8 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const DiagnoseOpti
   some.fit = thinned(some.fit, fine_samples);
   ObjectiveOptions coarse = objective;
   coarse.comparing = true;
-  const Workbench quick(scale, std::move(fewer), layout, coarse, options.seed);
-  const Workbench fine(scale, std::move(some), layout, coarse, options.seed);
+  const Workbench quick(scale, std::move(fewer), layout, coarse, options.seed, options.stopped);
+  const Workbench fine(scale, std::move(some), layout, coarse, options.seed, options.stopped);
   diagnosis.search = search(quick, fine, base, searching, progress);
   // What is reported is of every sample at the tolerance asked for.
   Search& found = diagnosis.search;
@@ -183,6 +183,15 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const DiagnoseOpti
         rival.fit = diagnosis.bench.scored(rival.fit);
       }
     }
+  }
+  if (found.augmented.heldout > 1.01 * found.base.heldout) {
+    found.augmented = found.base;
+    found.quick_augmented = found.quick_base;
+    found.misfit = found.base_misfit;
+    found.found.clear();
+    found.richer.clear();
+    diagnosis.notes.push_back(
+        "effects that improved the fit made the prediction of the held-out recordings worse and were dropped");
   }
   diagnosis.verdict = verdict_of(diagnosis.search);
 
@@ -238,7 +247,7 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const DiagnoseOpti
                                                                              diagnosis.search.quick_augmented.cost,
                                              1e-300);
     if (tried.evidence < 0.0) {
-      row.reason = "alone it explains no more than chance";
+      row.reason = "alone it explains no more than the best of so many candidates would by chance";
     } else if (!diagnosis.search.found.empty()) {
       row.reason =
           fmt::format("alone it explains {:.0f} % of what the augmented model explains", 100.0 * std::min(share, 1.0));

@@ -1,6 +1,7 @@
 // The whole diagnosis of a campaign: base fit, noise, search, place, verdict.
 #pragma once
 
+#include <functional>
 #include <memory>
 
 #include "diagnose/locate.hpp"
@@ -16,6 +17,8 @@ struct DiagnoseOptions {
   std::uint64_t seed = 1;
   int most_effects = 3;
   std::vector<std::string> candidates;  // empty: every effect of the catalogue
+  // Asked often while fitting; once true the fits end soon and the progress is told, which may throw.
+  std::function<bool()> stopped = [] { return false; };
 };
 
 struct ParameterInterval {

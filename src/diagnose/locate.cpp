@@ -189,7 +189,8 @@ std::vector<Location> locate(const Workbench& bench, const Fit& fit) {
     Location location;
     location.variable = variable.name;
     location.unit = variable.unit;
-    location.from = edges[best_from];
+    // An end that is zero but for rounding is zero.
+    location.from = std::fabs(edges[best_from]) < 1e-6 * std::fabs(edges.back()) ? 0.0 : edges[best_from];
     location.to = edges[best_to];
     location.where = sentence(variable, location.from, location.to, best_from == 0, best_to == count);
     location.share_of_misfit = part;

@@ -4,6 +4,40 @@ namespace hysteron {
 
 using nlohmann::json;
 
+namespace {
+
+json misfit_json(const Misfit& misfit) {
+  return {{"squares", misfit.squares}, {"structure", misfit.structure},     {"white", misfit.white},
+          {"floor", misfit.floor},     {"predictable", misfit.predictable}, {"effective_samples", misfit.effective}};
+}
+
+// What the verdict rests on; squares are of NRMSE.
+json evidence_json(const Search& search) {
+  json found = json::array();
+  for (const Found& one : search.found) {
+    json rivals = json::array();
+    for (const Rival& rival : one.rivals) {
+      rivals.push_back({{"id", rival.id}, {"share_of_gain", rival.share}, {"evidence", rival.evidence}});
+    }
+    found.push_back({{"id", one.id},
+                     {"gain", one.gain},
+                     {"evidence", one.evidence},
+                     {"nrmse_fit_without", one.without.cost},
+                     {"nrmse_heldout_without", one.without.heldout},
+                     {"rivals", rivals}});
+  }
+  json laws = json::array();
+  for (const auto& [law, squares] : search.other_laws) {
+    laws.push_back({{"model", law}, {"squares", squares}});
+  }
+  return {{"base", misfit_json(search.base_misfit)},
+          {"augmented", misfit_json(search.misfit)},
+          {"found", found},
+          {"other_laws", laws}};
+}
+
+}  // namespace
+
 json diagnosis_json(const Diagnosis& diagnosis) {
   const Search& search = diagnosis.search;
   json effects = json::array();
@@ -68,6 +102,7 @@ json diagnosis_json(const Diagnosis& diagnosis) {
             {"nrmse_fit", search.augmented.cost},
             {"nrmse_heldout", search.augmented.heldout},
             {"remaining_structure", diagnosis.verdict.remaining_structure}}},
+          {"evidence", evidence_json(search)},
           {"next_experiment", diagnosis.next_experiment},
           {"notes", diagnosis.notes}};
 }

@@ -5,7 +5,9 @@
 #include <set>
 
 #include "diagnose/noise.hpp"
+#include "diagnose/relatives.hpp"
 #include "diagnose/structure.hpp"
+#include "diagnose/verdict.hpp"
 
 namespace hysteron {
 namespace {
@@ -20,8 +22,16 @@ constexpr std::size_t rival_count = 6;
 // squared error falls by this share.
 constexpr double least_evidence = 6.0;
 constexpr double least_gain = 0.01;
+// No further effects are looked for once this part of what was explained is left above the noise, or is all that the
+// last one added: the next could not be named.
+constexpr double negligible = 0.05;
 
 bool is_law(const std::string& id) { return id.starts_with("law:"); }
+
+bool is_series(const std::string& id) {
+  const Part* part = find_effect(id);
+  return part != nullptr && part->on_double.yield != nullptr;
+}
 
 Hypothesis with(const Hypothesis& what, const std::string& id) {
   Hypothesis result = what;
@@ -86,18 +96,21 @@ Tried weighed(const std::string& id, const Fit& fit, const Fit& before, double e
   return tried;
 }
 
-// All candidates behind `before`, a few rounds each, the best taken further; best first.
+// All candidates behind `before`, a few rounds each, the best taken further; best first. The base's parameters start
+// from those of `before` and, where given, of `also`.
 std::vector<Tried> stage(const Workbench& bench, const Fit& before, const std::vector<std::string>& candidates,
-                         double effective) {
+                         double effective, const Fit* also = nullptr) {
   std::vector<std::string> ids;
   std::vector<Hypothesis> hypotheses;
+  // Two elements in series share one force and are told apart by their sum only.
+  const bool has_series = std::ranges::any_of(before.what.effects, is_series);
   for (const std::string& id : candidates) {
-    if (!contains(before.what, id) || is_law(id)) {
+    if ((!contains(before.what, id) || is_law(id)) && !(is_series(id) && has_series)) {
       ids.push_back(id);
       hypotheses.push_back(with(before.what, id));
     }
   }
-  std::vector<Fit> fits = bench.from_fit(hypotheses, before, screening_rounds);
+  std::vector<Fit> fits = bench.from_fit(hypotheses, before, screening_rounds, also);
   std::vector<std::size_t> order(fits.size());
   for (std::size_t k = 0; k < order.size(); ++k) {
     order[k] = k;
@@ -118,10 +131,10 @@ std::vector<Tried> stage(const Workbench& bench, const Fit& before, const std::v
 }
 
 bool worth(const Tried& tried, const Fit& before, double candidates) {
-  const double relative = tried.gain / squared(before.cost);
-  const double relative_heldout = tried.heldout_gain / squared(before.heldout);
-  return tried.evidence > least_evidence + 2.0 * std::log(candidates) && relative > least_gain &&
-         relative_heldout > -0.005;
+  // Recordings that do not excite the effect may get a little worse.
+  const double bearable = std::max(0.005 * squared(before.heldout), 0.02 * tried.gain);
+  return tried.evidence > least_evidence + 2.0 * std::log(candidates) &&
+         tried.gain > least_gain * squared(before.cost) && tried.heldout_gain > -bearable;
 }
 
 }  // namespace
@@ -158,10 +171,12 @@ Misfit misfit_of(const Workbench& bench, const Fit& fit) {
     structure += floor.method == "cycles" ? std::max(0.0, mean - noise) : share * mean;
     result.squares += mean;
     result.white += std::min(mean, squared(floor.white / norm));
+    result.floor += std::min(mean, noise);
   }
   const auto count = static_cast<double>(recordings.size());
   result.squares /= count;
   result.white /= count;
+  result.floor /= count;
   result.structure = structure / count;
   result.predictable = predictable / count / result.squares;
   result.noise = result.squares - result.structure;
@@ -208,6 +223,7 @@ Search search(const Workbench& bench, const Workbench& fine, const Hypothesis& b
   Fit current = result.quick_base;
   double effective = misfit_of(bench, current).effective;
   std::vector<std::vector<Tried>> stages;
+  double strongest = 0.0;
   for (int depth = 0; depth < options.most_effects; ++depth) {
     progress(0.1 + 0.6 * depth / options.most_effects, "trying " + std::to_string(candidates.size()) +
                                                            " hypotheses behind " +
@@ -227,6 +243,16 @@ Search search(const Workbench& bench, const Workbench& fine, const Hypothesis& b
       break;
     }
     current = chosen->fit;
+    // What is left could not be named beside what was found.
+    const Misfit left = misfit_of(bench, current);
+    strongest = std::max(strongest, chosen->gain);
+    if (chosen->gain < negligible * strongest) {
+      break;
+    }
+    if (!structured(left) &&
+        left.squares - left.floor < negligible * (squared(result.quick_base.cost) - left.squares)) {
+      break;
+    }
   }
   result.first_stage = stages.empty() ? std::vector<Tried>{} : stages.front();
 
@@ -253,15 +279,34 @@ Search search(const Workbench& bench, const Workbench& fine, const Hypothesis& b
         changed = true;
         break;
       }
+      if (found.gain < negligible * strongest) {
+        result.found.push_back(std::move(found));
+        continue;
+      }
       std::vector<std::string> others;
       for (const std::string& other : closest(stages, rival_count)) {
         if (other != id && !contains(current.what, other)) {
           others.push_back(other);
         }
       }
-      const std::vector<Tried> rivals = less == base && !result.first_stage.empty()
-                                            ? result.first_stage
-                                            : stage(bench, found.without, others, effective);
+      for (const std::string& other : relatives(id)) {
+        if (std::ranges::find(options.candidates, other) != options.candidates.end() &&
+            std::ranges::find(others, other) == others.end() && !contains(current.what, other)) {
+          others.push_back(other);
+        }
+      }
+      // A rival is judged from the best start it can have: the damper's parameters without the effect, and with it.
+      std::vector<Tried> rivals = stage(bench, found.without, others, effective, &current);
+      if (less == base) {
+        for (const Tried& tried : result.first_stage) {
+          const auto again = std::ranges::find(rivals, tried.id, &Tried::id);
+          if (again == rivals.end()) {
+            rivals.push_back(tried);
+          } else if (tried.fit.cost < again->fit.cost) {
+            *again = tried;
+          }
+        }
+      }
       const Tried* better = nullptr;
       for (const Tried& rival : rivals) {
         if (rival.id == id) {

@@ -17,6 +17,7 @@ struct Misfit {
   double structure = 0.0;    // the part that is not noise
   double noise = 0.0;        // squares - structure
   double white = 0.0;        // squares of the noise by fourth differences: a lower bound of the noise
+  double floor = 0.0;        // squares of the noise as noise_floor estimates it
   double predictable = 0.0;  // share that repeats with the motion (structure.hpp)
   double correlation = 0.0;  // lag-one correlation of the residual
   double effective = 0.0;    // samples worth of independent information

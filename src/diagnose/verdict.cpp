@@ -6,6 +6,8 @@
 #include <cmath>
 #include <map>
 
+#include "diagnose/relatives.hpp"
+
 namespace hysteron {
 namespace {
 
@@ -22,10 +24,17 @@ constexpr double least_gain_over_structure = 3.0;
 // A gain below this share of the squared error must show in the judging recordings too, by this part of it.
 constexpr double plain_gain = 0.3;
 constexpr double confirmed_part = 0.25;
+// A gain of this share of the squared error that they bear out shows that something is missing.
+constexpr double shown_gain = 0.05;
 // Of the residual beyond its white noise, this part counts as unexplained even where nothing shows that it repeats.
 constexpr double doubtful_share = 0.2;
+// A further effect must explain this part of what the strongest does: the equations of that one are not exact, and what
+// they miss looks like an effect of its own.
+constexpr double least_share_of_strongest = 0.08;
 // Another damper law does as well when its squared error is within this factor of the augmented model's.
 constexpr double law_factor = 1.1;
+
+double squared(double value) { return value * value; }
 
 bool is_law(const std::string& id) { return id.starts_with("law:"); }
 
@@ -55,13 +64,20 @@ Verdict verdict_of(const Search& search) {
   verdict.remaining_structure = structured(search.misfit);
   // Coloured noise and structure that no motion variable tells look alike: part of what exceeds the white noise counts
   // as unexplained.
-  const double leftover = std::max(verdict.remaining_structure ? search.misfit.structure : 0.0,
-                                   doubtful_share * (search.misfit.squares - search.misfit.white));
-  const double wanted = verdict.remaining_structure ? least_gain_over_structure : least_gain_over_leftover;
+  const double surely = verdict.remaining_structure ? search.misfit.structure : 0.0;
+  const double doubtful = doubtful_share * (search.misfit.squares - search.misfit.white);
+  const double above_floor = search.misfit.squares - search.misfit.floor;
+  const double leftover = std::max({surely, doubtful, above_floor});
+  const double wanted =
+      std::max({least_gain_over_structure * surely, doubtful, least_gain_over_leftover * above_floor});
   if (search.found.empty()) {
-    verdict.word = verdict.remaining_structure ? "unattributed" : "complete";
+    const bool laws = !search.richer.empty() && squared(search.augmented.cost / search.base.cost) < 1.0 - shown_gain &&
+                      search.augmented.heldout < search.base.heldout;
+    verdict.word = verdict.remaining_structure || laws ? "unattributed" : "complete";
     if (verdict.remaining_structure) {
       verdict.reason = "no known effect explains the misfit";
+    } else if (laws) {
+      verdict.reason = "a richer dependence of the damper's own parameters on the drive explains the misfit";
     }
     return verdict;
   }
@@ -74,7 +90,8 @@ Verdict verdict_of(const Search& search) {
     }
   }
   for (const Found& found : search.found) {
-    if (found.gain < wanted * leftover || !confirmed(found, search.augmented)) {
+    if (found.gain < std::max(wanted, least_share_of_strongest * search.found.front().gain) ||
+        !confirmed(found, search.augmented)) {
       continue;
     }
     Named named;
@@ -86,6 +103,11 @@ Verdict verdict_of(const Search& search) {
     double best_share = 0.0;
     std::vector<const Rival*> as_good;
     for (const Rival& rival : found.rivals) {
+      // What holds the effect as a limit always explains as much; only more than its further parameters are worth
+      // counts.
+      if (is_limit(found.id, rival.id) && rival.evidence > 0.0) {
+        continue;
+      }
       if (rival.share > 1.0 - margin || rival.evidence < least_evidence) {
         if (is_law(rival.id)) {
           if (found.id == "magnetic-saturation" && follows_drive(*search.base.layout, rival.id.substr(4))) {
@@ -123,7 +145,12 @@ Verdict verdict_of(const Search& search) {
     }
   }
   if (verdict.effects.empty()) {
-    const bool quiet = !structured(search.base_misfit);
+    // Gains that the held-out recordings bear out are of something, even where the residual looks like noise.
+    const bool shown = std::ranges::any_of(search.found, [&](const Found& found) {
+      return found.evidence > least_evidence && found.gain > shown_gain * search.base_misfit.squares &&
+             confirmed(found, search.augmented);
+    });
+    const bool quiet = !structured(search.base_misfit) && !shown;
     verdict.word = quiet ? "complete" : "unattributed";
     verdict.reason = quiet ? "the best known effect explains too little to be more than the colour of the noise"
                            : "the best known effect explains less of the misfit than stays unexplained, or not on the "

@@ -11,7 +11,15 @@
 namespace hysteron {
 namespace {
 
-constexpr std::size_t start_count = 8;  // one pack
+constexpr std::size_t start_count = 8;
+// Rounds after which only the best starts go on.
+constexpr int race_rounds = 2;
+
+// As many as fill a pack with all their derivatives, two at least.
+std::size_t survivors_of(std::size_t dimension) {
+  const std::size_t sweeps = (dimension + sweep_directions - 1) / sweep_directions;
+  return std::max<std::size_t>(2, static_cast<std::size_t>(lane_count) / sweeps);
+}
 
 std::size_t node_drive(const ParameterLaw& law, std::size_t node) { return node % law.drive_nodes.size(); }
 std::size_t node_frequency(const ParameterLaw& law, std::size_t node) { return node / law.drive_nodes.size(); }
@@ -61,8 +69,13 @@ double Residual::mean_square(std::size_t first) const {
 }
 
 Workbench::Workbench(const DataScale& scale, Split split, LayoutOptions layout, ObjectiveOptions objective,
-                     std::uint64_t seed)
-    : scale_(scale), split_(std::move(split)), layout_(std::move(layout)), options_(objective), seed_(seed) {}
+                     std::uint64_t seed, std::function<bool()> stopped)
+    : scale_(scale),
+      split_(std::move(split)),
+      layout_(std::move(layout)),
+      options_(objective),
+      seed_(seed),
+      stopped_(std::move(stopped)) {}
 
 Layout Workbench::layout(const Hypothesis& what) const {
   LayoutOptions options = layout_;
@@ -120,6 +133,11 @@ Fit Workbench::descended(const Hypothesis& what, const Layout& layout, const Obj
     runs.push_back({entry->make(problem), start, diverged_cost});
   }
   for (int round = 0; round < rounds; ++round) {
+    if (const std::size_t survivors = survivors_of(layout.dimension());
+        round == race_rounds && runs.size() > survivors) {
+      std::ranges::stable_sort(runs, {}, &Run::cost);
+      runs.resize(survivors);
+    }
     Request batch;
     batch.derivatives = true;
     std::vector<std::size_t> asked;
@@ -131,7 +149,7 @@ Fit Workbench::descended(const Hypothesis& what, const Layout& layout, const Obj
         batch.points.insert(batch.points.end(), requests[k].points.begin(), requests[k].points.end());
       }
     }
-    if (asked.empty()) {
+    if (asked.empty() || stopped_()) {
       break;
     }
     const Response answer = objective.evaluate(batch);
@@ -164,21 +182,30 @@ Fit Workbench::from_anywhere(const Hypothesis& what, std::size_t budget) const {
   problem.linear = layout.linear();
   problem.start = layout.initial();
   problem.screening = true;
-  const RunResult run = run_solver(*find_solver("multistart-lm"), problem,
-                                   [&](const Request& request) { return objective.evaluate(request); });
+  const RunResult run = run_solver(
+      *find_solver("multistart-lm"), problem, [&](const Request& request) { return objective.evaluate(request); },
+      [&](const RunResult&) { return !stopped_(); });
   return finished(what, layout, run.best, run.cost);
 }
 
-Fit Workbench::from_fit(const Hypothesis& what, const Fit& warm, int rounds) const {
+Fit Workbench::from_fit(const Hypothesis& what, const Fit& warm, int rounds, const Fit* also) const {
   const Layout layout = this->layout(what);
   const Objective objective(layout, split_.fit, options_);
   std::vector<double> known = layout.initial();
   const std::vector<bool> fresh = take_over(warm, layout, known);
+  std::vector<double> known_also = layout.initial();
+  if (also != nullptr) {
+    take_over(*also, layout, known_also);
+  }
   std::vector<std::vector<double>> starts;
-  constexpr std::array<double, start_count> pushes = {0.01, -0.02, 0.05, -0.1, 0.003, -0.005, 0.3, -0.3};
+  std::array<double, start_count> pushes = {0.01, -0.02, 0.05, -0.1, 0.003, -0.005, 0.3, -0.3};
+  const Part* newest = what.effects.empty() ? nullptr : find_effect(what.effects.back());
+  if (newest != nullptr && !newest->starts.empty()) {
+    std::ranges::copy(newest->starts, pushes.begin());
+  }
   constexpr std::array<std::size_t, 4> bases = {2, 3, 5, 7};
   for (std::size_t k = 0; k < start_count; ++k) {
-    std::vector<double> start = known;
+    std::vector<double> start = also != nullptr && k >= start_count / 2 ? known_also : known;
     std::size_t part = 0;
     for (std::size_t c = 0; c < start.size(); ++c) {
       if (!fresh[c]) {
@@ -198,8 +225,11 @@ Fit Workbench::from_fit(const Hypothesis& what, const Fit& warm, int rounds) con
     }
     starts.push_back(std::move(start));
   }
-  if (std::ranges::none_of(fresh, [](bool yes) { return yes; })) {
+  const auto added = static_cast<std::size_t>(std::ranges::count(fresh, true));
+  if (added == 0) {
     starts.resize(1);
+  } else if (added == 1 && also == nullptr && newest != nullptr && newest->starts.empty()) {
+    starts.resize(survivors_of(layout.dimension()));  // one size: where it starts from matters little
   }
   return descended(what, layout, objective, starts, rounds);
 }
@@ -221,14 +251,15 @@ Fit Workbench::scored(const Fit& fit) const {
   return finished(fit.what, *fit.layout, fit.point, objective.evaluate({fit.point, false}).cost[0]);
 }
 
-std::vector<Fit> Workbench::from_fit(const std::vector<Hypothesis>& what, const Fit& warm, int rounds) const {
+std::vector<Fit> Workbench::from_fit(const std::vector<Hypothesis>& what, const Fit& warm, int rounds,
+                                     const Fit* also) const {
   std::vector<Fit> fits(what.size());
   Workbench single = *this;
   single.options_.threads = 1;
   const int threads = options_.threads > 0 ? options_.threads : omp_get_max_threads();
 #pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
   for (std::size_t k = 0; k < what.size(); ++k) {
-    fits[k] = single.from_fit(what[k], warm, rounds);
+    fits[k] = single.from_fit(what[k], warm, rounds, also);
   }
   return fits;
 }

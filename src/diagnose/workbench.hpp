@@ -44,16 +44,18 @@ struct Residual {
 class Workbench {
  public:
   // `scale` of the whole campaign, so that every workbench of it searches one box.
-  Workbench(const DataScale& scale, Split split, LayoutOptions layout, ObjectiveOptions objective, std::uint64_t seed);
+  // Once `stopped` is true fits end where they are: what they return is then of no use but for ending soon.
+  Workbench(const DataScale& scale, Split split, LayoutOptions layout, ObjectiveOptions objective, std::uint64_t seed,
+            std::function<bool()> stopped);
 
   [[nodiscard]] const Split& split() const { return split_; }
   [[nodiscard]] const ObjectiveOptions& options() const { return options_; }
 
   // Many starts over the whole box.
   [[nodiscard]] Fit from_anywhere(const Hypothesis& what, std::size_t budget) const;
-  // Descents from a fit of a smaller or equal hypothesis: its values, and a spread of starts for what is new.
-  // `rounds` derivative evaluations of each start.
-  [[nodiscard]] Fit from_fit(const Hypothesis& what, const Fit& warm, int rounds) const;
+  // Descents from a fit of a smaller or equal hypothesis, half of them from `also` when given: its values, and a spread
+  // of starts for what is new. `rounds` derivative evaluations of the best starts, fewer of the others.
+  [[nodiscard]] Fit from_fit(const Hypothesis& what, const Fit& warm, int rounds, const Fit* also = nullptr) const;
   // Continues the best of a fit itself.
   [[nodiscard]] Fit polished(const Fit& fit, int rounds) const;
   // The same hypothesis fitted to all recordings, judged ones too.
@@ -61,7 +63,8 @@ class Workbench {
   // Costs of a fit as they are on this workbench, nothing refitted.
   [[nodiscard]] Fit scored(const Fit& fit) const;
   // Several at once, in parallel; results in order.
-  [[nodiscard]] std::vector<Fit> from_fit(const std::vector<Hypothesis>& what, const Fit& warm, int rounds) const;
+  [[nodiscard]] std::vector<Fit> from_fit(const std::vector<Hypothesis>& what, const Fit& warm, int rounds,
+                                          const Fit* also = nullptr) const;
   [[nodiscard]] std::vector<Fit> polished(const std::vector<Fit>& fits, int rounds) const;
 
   // Of a fit on a recording.
@@ -79,6 +82,7 @@ class Workbench {
   LayoutOptions layout_;
   ObjectiveOptions options_;
   std::uint64_t seed_;
+  std::function<bool()> stopped_;
 };
 
 }  // namespace hysteron

@@ -1,0 +1,16 @@
+// Which effects are mistaken for one another, whatever the recordings: one is a limit of the other, or their signatures
+// agree on all but few motions.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace hysteron {
+
+// Effects to set against `id` besides those the data bring up; empty for an unknown id.
+std::vector<std::string> relatives(const std::string& id);
+
+// Whether `wider` with further parameters at a limit is `effect` itself, in every motion.
+bool is_limit(const std::string& effect, const std::string& wider);
+
+}  // namespace hysteron
