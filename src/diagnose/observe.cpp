@@ -49,8 +49,8 @@ std::optional<std::string> excluded_by_inputs(const std::string& effect, const s
       return "the velocity was not recorded but derived from the displacement without lag";
     }
     if (std::fabs(lag->lag) < std::max(3.0 * lag->std_error, 1e-4)) {
-      return fmt::format("the recorded velocity agrees with the slope of the displacement: lag {:.2g} ms",
-                         1e3 * lag->lag);
+      return fmt::format("the recorded velocity agrees with the slope of the displacement within {:.2g} ms",
+                         1e3 * std::max({std::fabs(lag->lag), 2.0 * lag->std_error, 1e-6}));
     }
   }
   return std::nullopt;
@@ -141,8 +141,14 @@ std::vector<Unobservable> detection_limits(const Workbench& bench, const Fit& fi
     }
     const auto s = static_cast<Eigen::Index>(size_at);
     const double sensitivity = full(s, s);
-    if (!(sensitivity > 0.0) || response.cost[0] >= diverged_cost) {
-      result[k].reason = "it changes no force on these motions";
+    if (response.cost[0] >= diverged_cost) {
+      result[k].reason = "its equations are too stiff at these sampling rates for its smallest size to be told";
+      continue;
+    }
+    if (!(sensitivity > 0.0)) {
+      result[k].reason = find_effect(result[k].id)->starts.empty()
+                             ? "it changes no force on these motions"
+                             : "it acts only beyond a threshold, and a small one changes no force";
       continue;
     }
     const auto m = static_cast<Eigen::Index>(others.size());
@@ -163,6 +169,10 @@ std::vector<Unobservable> detection_limits(const Workbench& bench, const Fit& fi
     // size^2 * sensitivity * kept / squares * effective = what the criterion asks for.
     const double asked = 12.0 + std::log(misfit.effective);
     const double response_share = std::sqrt(asked * misfit.squares / (misfit.effective * kept));
+    if (response_share > 1.0) {
+      result[k].reason = "the other parameters imitate it nearly entirely on these recordings";
+      continue;
+    }
     result[k].detection_limit =
         fmt::format("a force below {:.2g} % of the peak force (root mean square)", 100.0 * response_share);
   }
