@@ -17,6 +17,11 @@ namespace {
 constexpr std::size_t bins = 16;
 constexpr std::size_t stretches = 8;  // of each recording, the blocks of the bootstrap
 constexpr int resamples = 200;
+// An interval is told when it holds this part of the misfit, this many times its share of the samples, and in 19 of 20
+// resamples more than its share.
+constexpr double least_part = 0.2;
+constexpr double least_ratio = 1.25;
+constexpr double surely_above = 1.1;
 
 // One variable sampled over all recordings.
 struct Variable {
@@ -196,7 +201,7 @@ std::vector<Location> locate(const Workbench& bench, const Fit& fit) {
     location.share_of_misfit = part;
     location.share_of_samples = of_samples;
     location.lowest_ratio = ratios[resamples / 20];
-    if (part < 0.2 || part < 1.5 * of_samples || location.lowest_ratio < 1.5) {
+    if (part < least_part || part < least_ratio * of_samples || location.lowest_ratio < surely_above) {
       continue;
     }
     // Recordings that hold more than their share of it.
