@@ -72,7 +72,7 @@ function padded([lo, hi], share = 0.05) {
 }
 
 // options: width, height, small, title (for screen readers), x and y {label, range, log}, margin [top, right, bottom,
-// left], series [{x, y, cls, color, step, limit, label}], window [from, to] of sample indices
+// left], band {x, lower, upper} (optional), series [{x, y, cls, color, step, limit, label}], window [from, to] of sample indices
 function chart(options) {
   const { width, height, x, y, margin: [top, right, bottom, left] } = options;
   const forward = (axis) => (axis.log ? Math.log10 : (v) => v);
@@ -101,6 +101,12 @@ function chart(options) {
     out.push(`<text class="tick" x="${left - 5}" y="${at}" dy="0.35em" text-anchor="end">${esc(text)}</text>`);
   }
   out.push(`<rect class="frame" x="${left}" y="${top}" width="${width - left - right}" height="${height - top - bottom}"/>`);
+  if (options.band) {
+    const { x: at, lower, upper } = options.band;
+    const inside = (v) => Math.min(Math.max(v, y.range[0]), y.range[1]);
+    const edge = (values) => at.map((v, i) => `${px(v).toFixed(1)} ${py(inside(values[i])).toFixed(1)}`);
+    if (at.length > 1) out.push(`<path class="band" d="M${[...edge(upper), ...edge(lower).reverse()].join("L")}Z"/>`);
+  }
   for (const s of options.series) {
     const n = Math.min(s.x.length, s.y.length);
     const stride = s.limit ? Math.max(1, Math.floor(n / s.limit)) : 1;
@@ -626,6 +632,31 @@ function convergenceChart(width) {
   }));
 }
 
+// Means with bands of two standard deviations, one small chart a parameter, for solvers that follow the data in time.
+function trackFigures(s) {
+  const track = s.track || {};
+  const time = list(track.time);
+  if (!time.length) return [];
+  const charts = list(track.parameters).map((p) => {
+    // The first instants know nothing; their bands must not flatten the rest.
+    const settled = Math.floor(time.length / 4);
+    const y = padded(extent([p.mean.slice(settled), p.lower.slice(settled), p.upper.slice(settled)]), 0.25);
+    const inside = p.mean.map((v) => Math.min(Math.max(v, y[0]), y[1]));
+    return el("div", { class: "track" }, el("b", {}, p.name), el("span", { class: "sub" },
+      el("span", {}, p.unit), el("strong", {}, `${fmt(p.mean[p.mean.length - 1], 4)} (${fmt(p.lower[p.lower.length - 1], 3)} … ${fmt(p.upper[p.upper.length - 1], 3)})`)),
+    svgNode(chart({
+      width: 240, height: 150, small: true, margin: [4, 4, 16, 46],
+      title: `${p.name} [${p.unit}] against time, with a band of two standard deviations`,
+      x: { label: "t [s]", range: extent([time]) }, y: { label: p.unit, range: y },
+      band: { x: time, lower: p.lower, upper: p.upper },
+      series: [{ x: time, y: inside, cls: "simulated" }],
+    })));
+  });
+  return [el("h3", {}, "Parameters against time: ", el("code", {}, s.id)),
+    el("p", { class: "muted" }, `Mean and band of two standard deviations over ${plural(list(track.recordings).length, "recording")}, one after another; values at the end.`),
+    el("div", { class: "minis" }, charts)];
+}
+
 let drawConvergence = () => {};
 
 function solverSection() {
@@ -647,7 +678,56 @@ function solverSection() {
   };
   return section("solvers", "Search",
     plainTable("What each solver reached within its budget of objective evaluations; diverged counts candidates whose simulation blew up", columns, rows),
-    el("h3", {}, "Convergence"), host);
+    el("h3", {}, "Convergence"), host, ...solvers.flatMap(trackFigures));
+}
+
+// ---------------------------------------------------------------------------------------------------------- two stages
+
+// Values of the freely fitted conditions with bars of two standard errors, and both laws through them.
+function lawFigure(p) {
+  const bars = { x: [], y: [] };
+  for (const f of list(p.free)) {
+    const at = f[p.against];
+    const half = isNumber(f.std_error) ? 2 * f.std_error : 0;
+    bars.x.push(at, at, null);
+    bars.y.push(f.value - half, f.value + half, null);
+  }
+  const dots = list(p.free).map((f) => f.value);
+  const xr = padded(extent([list(p.free).map((f) => f[p.against])]), 0.06);
+  const tick = (xr[1] - xr[0]) / 80;
+  const dashes = { x: [], y: [] };
+  for (const f of list(p.free)) {
+    dashes.x.push(f[p.against] - tick, f[p.against] + tick, null);
+    dashes.y.push(f.value, f.value, null);
+  }
+  const y = padded(extent([dots, p.curve.two_stages, p.curve.joint]), 0.15);
+  bars.y = bars.y.map((v) => (v === null ? null : Math.min(Math.max(v, y[0]), y[1])));
+  return el("div", { class: "track" }, el("b", {}, `${p.name} [${p.unit}]`),
+    svgNode(chart({
+      width: 240, height: 168, small: true, margin: [4, 4, 16, 46],
+      title: `${p.name} [${p.unit}] against ${p.against}: free values, law in two stages, law of the joint fit`,
+      x: { label: p.against === "drive" ? "drive" : "f [Hz]", range: xr }, y: { label: p.unit, range: y },
+      series: [{ ...bars, cls: "residual" }, { ...dashes, cls: "measured" },
+        { x: p.curve.at, y: p.curve.two_stages, cls: "simulated" }, { x: p.curve.at, y: p.curve.joint, cls: "baseline" }],
+    })));
+}
+
+function stagesSection() {
+  const s = report.stages;
+  if (!s || typeof s !== "object") return null;
+  const item = (cls, text, dashed) => el("li", {}, el("i", { style: `border-color:var(--${cls});border-top-style:${dashed ? "dashed" : "solid"}` }), text);
+  const row = (name, x) => [name, fmt(x.nrmse_fit, 4), fmt(x.nrmse_heldout, 4), count(x.evaluations)];
+  return section("stages", "Parameter laws in two stages and at once",
+    s.predicts_better ? el("p", {}, s.predicts_better === "joint"
+      ? "The joint fit predicts the held-out recordings better." : "The laws found in two stages predict the held-out recordings better.") : null,
+    plainTable("NRMSE of the laws; both fitted to the same recordings", [{ title: "", head: true }, { title: "Fitted", num: true }, { title: "Held out", num: true }, { title: "Evaluations", num: true }],
+      [["Every condition free (no law)", fmt(s.nrmse_free, 4), "–", "–"], row("Two stages", s.two_stages), row("Joint", s.joint)]),
+    plainTable("Parameters in the order they were frozen; what was still free was fitted again each time",
+      [{ title: "Parameter", head: true }, { title: "Law" }, { title: "Scatter about the law, share of the box", num: true }, { title: "NRMSE then", num: true }],
+      list(s.parameters).map((p) => [el("code", {}, p.name), p.law, percent(p.scatter), fmt(p.nrmse_when_frozen, 4)])),
+    el("ul", { class: "legend" }, item("measured", "one condition, all parameters free"), item("residual", "two standard errors"),
+      item("simulated", "law, two stages"), item("baseline", "law, joint fit", true)),
+    el("div", { class: "minis" }, list(s.parameters).map(lawFigure)));
 }
 
 // ------------------------------------------------------------------------------------------------------------- diagnosis
@@ -753,10 +833,11 @@ function page() {
     recordings.length ? overview() : null,
     recordings.length ? section("recordings", "Recordings", recordingTable(), detailView()) : null,
     report.model || parameters.length ? modelSection() : null,
+    stagesSection(),
     solverSection(),
     provenanceSection(),
   ].filter(Boolean);
-  const titles = { diagnosis: "Diagnosis", overview: "Overview", recordings: "Recordings", model: "Model", solvers: "Search", provenance: "Provenance" };
+  const titles = { diagnosis: "Diagnosis", overview: "Overview", recordings: "Recordings", model: "Model", stages: "Two stages", solvers: "Search", provenance: "Provenance" };
   const warnings = list(report.warnings);
   document.getElementById("content").replaceChildren(
     el("header", {}, el("h1", {}, report.title || "Hysteron report"), report.subtitle ? el("p", { class: "subtitle" }, report.subtitle) : "",

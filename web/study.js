@@ -249,7 +249,7 @@ function methodSection() {
 
 const parts = { progress: progress(), profiles: profiles() };
 const sections = [
-  section("answer", "Ranking", criticalDifference(), shownTable("ranking")),
+  section("answer", "Ranking", criticalDifference(), shownTable("ranking"), shownTable("models")),
   parts.progress.node,
   parts.profiles.node,
   section("tables", "Tables", shownTable("fixed-budget", 0), shownTable("fixed-target", 0), shownTable("pairs"), shownTable("pairs-by-problem", 0), shownTable("problems"), shownTable("times", 0)),

@@ -4,9 +4,11 @@
 #include <memory>
 
 #include "app/command.hpp"
+#include "app/figure.hpp"
 #include "core/error.hpp"
 #include "core/suggest.hpp"
 #include "datasets/dataset.hpp"
+#include "io/output.hpp"
 #include "presets/preset.hpp"
 #include "report/terminal.hpp"
 #include "study/reproduce.hpp"
@@ -197,12 +199,23 @@ void describe_solver(const SolverEntry& entry, bool as_json) {
   }
 }
 
+std::string figure_of(const std::string& id) {
+  if (const Part* model = find_model(id)) {
+    return loop_figure(*model);
+  }
+  if (const SolverEntry* solver = find_solver(id)) {
+    return convergence_figure(*solver);
+  }
+  throw InputError("--figure: '" + id + "' is neither a model nor a solver, see `hysteron list models`");
+}
+
 }  // namespace
 
 void add_catalogue(CLI::App& program) {
   struct Options {
     std::string word;
     bool json = false;
+    std::string figure;
   };
   auto list_options = std::make_shared<Options>();
   CLI::App* list = program.add_subcommand("list", "models, solvers, effects, datasets or tables there are");
@@ -237,9 +250,15 @@ void add_catalogue(CLI::App& program) {
       "describe", "one model, effect, solver, dataset or parameter set: equations, parameters, source");
   describe->add_option("NAME", describe_options->word, "an id of `hysteron list`")->required();
   describe->add_flag("--json", describe_options->json, "JSON on standard output");
-  describe->footer("Example:\n  hysteron describe bouc-wen");
+  describe->add_option("--figure", describe_options->figure,
+                       "instead, an SVG file: loops of a model, or convergence of a solver on the simulated damper");
+  describe->footer("Example:\n  hysteron describe bouc-wen\n  hysteron describe bouc-wen --figure bouc-wen.svg");
   describe->callback([describe_options] {
     const std::string& id = describe_options->word;
+    if (!describe_options->figure.empty()) {
+      write_file_atomically(describe_options->figure, figure_of(id));
+      return;
+    }
     if (const Part* model = find_model(id)) {
       describe_part(*model, "model", describe_options->json);
     } else if (const Part* effect = find_effect(id)) {

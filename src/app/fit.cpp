@@ -8,6 +8,8 @@
 #include "app/command.hpp"
 #include "app/model_file.hpp"
 #include "app/page.hpp"
+#include "app/stages.hpp"
+#include "app/track.hpp"
 #include "core/error.hpp"
 #include "io/output.hpp"
 #include "report/html.hpp"
@@ -27,6 +29,7 @@ struct FitOptions {
   std::size_t budget = 20000;
   std::string by_current;
   std::string by_frequency;
+  std::string stages = "one";
   std::vector<std::string> fix;
   std::vector<std::string> bounds;
   std::vector<std::string> settings;
@@ -98,8 +101,14 @@ json trace_json(const RunResult& run) {
   return trace;
 }
 
-json solver_json(const Identification& result, std::size_t k) {
+json solver_json(const Identification& result, const Campaign& campaign, std::size_t k) {
   const SolverOutcome& outcome = result.solvers[k];
+  std::vector<const Recording*> followed;
+  for (std::size_t r = 0; r < campaign.recordings.size(); ++r) {
+    if (std::ranges::find(result.heldout, r) == result.heldout.end()) {
+      followed.push_back(&campaign.recordings[r]);
+    }
+  }
   return {{"id", outcome.run.solver},
           {"title", find_solver(outcome.run.solver)->title},
           {"cost", outcome.run.cost},
@@ -109,7 +118,8 @@ json solver_json(const Identification& result, std::size_t k) {
           {"diverged", outcome.run.diverged},
           {"stopped", outcome.run.stopped},
           {"chosen", k == result.chosen},
-          {"trace", trace_json(outcome.run)}};
+          {"trace", trace_json(outcome.run)},
+          {"track", track_json(outcome.run, result.layout, followed)}};
 }
 
 json final_json(const Identification& result) {
@@ -132,17 +142,31 @@ void run(const FitOptions& options) {
   // Wrong names are told before a folder is made.
   make_model(model, identify_with.effects);
   normaliser(campaign.recordings.front(), identify_with.objective.normalisation);
+  if (options.stages == "two" && identify_with.layout.by_current.empty() && identify_with.layout.by_frequency.empty()) {
+    throw InputError("--stages two: no parameter has a law, expected --by-current or --by-frequency");
+  }
 
   check_output_folder(options.out);
 
   ProgressLine progress(options.common.quiet);
-  const Identification result =
-      identify(campaign, model, identify_with, [&](const std::string& stage, const RunResult& run) {
-        progress.show(stage, static_cast<double>(run.evaluations) / static_cast<double>(run.budget),
-                      fmt::format("{} of {} evaluations, best NRMSE {}", run.evaluations, run.budget,
-                                  run.cost < diverged_cost ? format_number(run.cost, 4) : "-"));
-        return !interrupted();
-      });
+  const auto show = [&](const std::string& stage, const RunResult& run) {
+    progress.show(stage, static_cast<double>(run.evaluations) / static_cast<double>(run.budget),
+                  fmt::format("{} of {} evaluations, best NRMSE {}", run.evaluations, run.budget,
+                              run.cost < diverged_cost ? format_number(run.cost, 4) : "-"));
+    return !interrupted();
+  };
+  const Identification result = identify(campaign, model, identify_with, show);
+  std::optional<TwoStage> two;
+  if (options.stages == "two" && !interrupted()) {
+    std::vector<std::size_t> fitted;
+    for (std::size_t k = 0; k < campaign.recordings.size(); ++k) {
+      if (std::ranges::find(result.heldout, k) == result.heldout.end()) {
+        fitted.push_back(k);
+      }
+    }
+    two = fit_two_stage(campaign, result.layout, fitted, result.heldout,
+                        *find_solver(result.solvers[result.chosen].run.solver), identify_with, show);
+  }
   progress.finish();
   make_output_folder(options.out);
 
@@ -185,7 +209,7 @@ void run(const FitOptions& options) {
   }
   json solvers = json::array();
   for (std::size_t k = 0; k < result.solvers.size(); ++k) {
-    solvers.push_back(solver_json(result, k));
+    solvers.push_back(solver_json(result, campaign, k));
   }
   json estimates = json::array();
   for (const Estimate& estimate : result.estimates) {
@@ -204,6 +228,7 @@ void run(const FitOptions& options) {
       {"final", final_json(result)},
       {"parameters", estimates},
       {"recordings", rows},
+      {"stages", two ? stages_json(*two, result, campaign) : json(nullptr)},
       {"warnings", warnings},
       {"provenance", model_file["provenance"]}};
 
@@ -249,6 +274,10 @@ void run(const FitOptions& options) {
       "correlated residual; they do not cover what the model leaves out.",
       "Fit [%] = 100 (1 - RMSE / standard deviation of the measured force).",
       "A derivative evaluation is charged as 1 + number of free parameters evaluations."};
+  if (std::ranges::any_of(result.solvers, [](const SolverOutcome& outcome) { return !outcome.run.track.empty(); })) {
+    page["notes"].push_back(
+        "Bands of parameters against time are the filter's own: they hold as far as the model and its noise level do.");
+  }
   page["diagnosis"] = nullptr;
 
   const std::filesystem::path out(options.out);
@@ -286,6 +315,9 @@ void run(const FitOptions& options) {
                           was_heldout(k) ? (result.roles_given ? "validate" : "held out in the check") : ""});
   }
   fmt::print("{}\n", table({"recording", "NRMSE", "RMSE [N]", "fit [%]", "remark"}, table_rows));
+  if (two) {
+    print_stages(*two, result);
+  }
   if (!result.heldout.empty() && !result.roles_given) {
     fmt::print("solvers compared on the {} other recordings; final fit on all {}\n",
                campaign.recordings.size() - result.heldout.size(), campaign.recordings.size());
@@ -324,6 +356,11 @@ void add_fit(CLI::App& program) {
   command->add_option("--by-current", options->by_current,
                       "parameters that are polynomials in the drive, e.g. alpha:1,c0:1");
   command->add_option("--by-frequency", options->by_frequency, "parameters that are polynomials in frequency");
+  command
+      ->add_option("--stages", options->stages,
+                   "two: also the laws through the values of conditions fitted freely, beside the joint fit")
+      ->check(CLI::IsMember({"one", "two"}))
+      ->capture_default_str();
   command->add_option("--fix", options->fix, "PARAMETER=VALUE held, SI units; repeatable")->allow_extra_args(false);
   command->add_option("--bounds", options->bounds, "PARAMETER=LOWER:UPPER instead of the default box; repeatable")
       ->allow_extra_args(false);

@@ -165,7 +165,7 @@ Fit Workbench::descended(const Hypothesis& what, const Layout& layout, const Obj
         run.best = requests[asked[i]].points;
       }
       run.solver->tell(requests[asked[i]],
-                       {{answer.cost[i]}, slice(answer.gradient, d), slice(answer.gauss_newton, d * d)});
+                       {{answer.cost[i]}, slice(answer.gradient, d), slice(answer.gauss_newton, d * d), {}, {}});
     }
   }
   const auto best = std::ranges::min_element(runs, {}, &Run::cost);

@@ -1,6 +1,7 @@
 #include "fit/driver.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 #include "core/error.hpp"
 
@@ -72,13 +73,28 @@ RunResult run_solver(const SolverEntry& entry, const Problem& problem, const Eva
   result.budget = problem.budget;
   result.cost = 3.0 * diverged_cost;
   const std::size_t d = problem.dimension;
+  // Counted in samples, of which an evaluation has so many.
+  const std::size_t samples =
+      std::max<std::size_t>(1, std::accumulate(problem.recordings.begin(), problem.recordings.end(), std::size_t{0}));
+  std::size_t spent = 0;
+  const auto price_of = [&](const Request& request) {
+    if (request.window && request.window->end > request.window->begin) {
+      return request.window->end - request.window->begin;
+    }
+    return request.derivatives ? samples * (1 + d) : samples;
+  };
   std::vector<double> screened;  // the best point of those only screened
   double screened_cost = 3.0 * diverged_cost;
-  const auto record = [&](const Request& request, const Response& response, std::size_t price) {
+  const auto record = [&](const Request& request, const Response& response) {
+    const std::size_t price = price_of(request);
     for (std::size_t k = 0; k < response.cost.size(); ++k) {
-      result.evaluations += price;
+      spent += price;
+      result.evaluations = (spent + samples - 1) / samples;
       if (response.cost[k] >= diverged_cost) {
         ++result.diverged;
+      }
+      if (request.window) {
+        continue;
       }
       double& cost = request.screening ? screened_cost : result.cost;
       if (response.cost[k] < cost) {
@@ -91,13 +107,15 @@ RunResult run_solver(const SolverEntry& entry, const Problem& problem, const Eva
       }
     }
   };
+  const std::size_t budget = problem.budget * samples;
   // What is reported is never the result of a screening alone.
   const auto end = [&](const std::string& why) {
-    if (result.best.empty() && !screened.empty() && result.evaluations < problem.budget) {
+    if (result.best.empty() && !screened.empty() && spent + samples <= budget) {
       const Request request{screened, false};
-      record(request, evaluate(request), 1);
+      record(request, evaluate(request));
     }
     result.stopped = why;
+    result.track = solver->track();
     return result;
   };
   while (true) {
@@ -105,18 +123,17 @@ RunResult run_solver(const SolverEntry& entry, const Problem& problem, const Eva
     if (request.points.empty()) {
       return end(solver->stopped_because());
     }
-    const std::size_t price = request.derivatives ? 1 + d : 1;
-    const std::size_t affordable = (problem.budget - result.evaluations) / price;
+    const std::size_t affordable = (budget - spent) / price_of(request);
     if (affordable == 0) {
       return end("budget");
     }
     request.points.resize(std::min(request.points.size() / d, affordable) * d);
     const Response response = evaluate(request);
-    record(request, response, price);
+    record(request, response);
     if (observer && !observer(result)) {
       return end("interrupted");
     }
-    if (result.evaluations >= problem.budget) {
+    if (spent >= budget) {
       return end("budget");
     }
     solver->tell(request, response);

@@ -23,13 +23,15 @@ struct RunResult {
   std::size_t diverged = 0;
   std::vector<TracePoint> trace;  // at every improvement
   std::string stopped;            // "budget", the solver's own reason, or "interrupted"
+  std::vector<Tracked> track;     // Solver::track
 };
 
 using Evaluate = std::function<Response(const Request&)>;
 // Called after every answer; false stops the run.
 using Observer = std::function<bool(const RunResult&)>;
 
-// A request with derivatives is charged 1 + dimension evaluations a point, as finite differences would be.
+// A request with derivatives is charged 1 + dimension evaluations a point, as finite differences would be; one of a
+// window the window's share of the samples. `evaluations` is rounded up, and the budget is never passed.
 RunResult run_solver(const SolverEntry& entry, const Problem& problem, const Evaluate& evaluate,
                      const Observer& observer = {});
 

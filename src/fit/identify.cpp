@@ -10,42 +10,6 @@
 namespace hysteron {
 namespace {
 
-std::vector<Recording> pick(const std::vector<Recording>& recordings, const std::vector<std::size_t>& indices) {
-  std::vector<Recording> result;
-  for (const std::size_t index : indices) {
-    result.push_back(recordings[index]);
-  }
-  return result;
-}
-
-double heldout_nrmse(const Layout& layout, const std::vector<Term>& terms, const std::vector<Recording>& recordings,
-                     const ObjectiveOptions& options) {
-  std::vector<Score> scores;
-  for (const Recording& recording : recordings) {
-    const Target target = make_target(recording, options);
-    scores.push_back(score(predict(layout.model(), layout.held(), terms, target), recording, options.normalisation));
-  }
-  return overall(scores, recordings, options.normalisation, options.weighting);
-}
-
-Problem make_problem(const Objective& objective, const SolverEntry& entry, const IdentifyOptions& options,
-                     const std::string& stage, std::vector<double> start) {
-  Problem problem;
-  problem.dimension = objective.layout().dimension();
-  problem.budget = options.budget;
-  problem.stream = Stream(options.seed).child(stage).child(entry.id);
-  problem.linear = objective.layout().linear();
-  problem.start = std::move(start);
-  problem.screening = true;
-  for (const auto& [name, value] : options.settings) {
-    const bool known = std::ranges::any_of(entry.settings, [&](const Setting& row) { return row.name == name; });
-    if (known || options.solvers.size() == 1) {
-      problem.settings[name] = value;
-    }
-  }
-  return problem;
-}
-
 // Lag-1 correlation of the residuals, pooled: a coloured residual carries fewer independent samples than it has.
 double residual_correlation(const Objective& objective, const std::vector<Term>& terms) {
   double product = 0.0;
@@ -86,6 +50,43 @@ std::string final_stage(bool refit) {
 }
 
 }  // namespace
+
+std::vector<Recording> pick(const std::vector<Recording>& recordings, const std::vector<std::size_t>& indices) {
+  std::vector<Recording> result;
+  for (const std::size_t index : indices) {
+    result.push_back(recordings[index]);
+  }
+  return result;
+}
+
+double predicted_nrmse(const Layout& layout, const std::vector<Term>& terms, const std::vector<Recording>& recordings,
+                       const ObjectiveOptions& options) {
+  std::vector<Score> scores;
+  for (const Recording& recording : recordings) {
+    const Target target = make_target(recording, options);
+    scores.push_back(score(predict(layout.model(), layout.held(), terms, target), recording, options.normalisation));
+  }
+  return overall(scores, recordings, options.normalisation, options.weighting);
+}
+
+Problem make_problem(const Objective& objective, const SolverEntry& entry, const IdentifyOptions& options,
+                     const std::string& stage, std::vector<double> start) {
+  Problem problem;
+  problem.dimension = objective.layout().dimension();
+  problem.budget = options.budget;
+  problem.stream = Stream(options.seed).child(stage).child(entry.id);
+  problem.linear = objective.layout().linear();
+  problem.start = std::move(start);
+  problem.screening = true;
+  objective.describe_data(problem);
+  for (const auto& [name, value] : options.settings) {
+    const bool known = std::ranges::any_of(entry.settings, [&](const Setting& row) { return row.name == name; });
+    if (known || options.solvers.size() == 1) {
+      problem.settings[name] = value;
+    }
+  }
+  return problem;
+}
 
 std::vector<std::size_t> choose_heldout(const std::vector<Recording>& recordings) {
   const std::size_t count = recordings.size();
@@ -168,8 +169,8 @@ Identification identify(const Campaign& campaign, const std::string& model, cons
     }
     SolverOutcome outcome{std::move(run), {}};
     if (!heldout.empty()) {
-      outcome.nrmse_heldout =
-          heldout_nrmse(layout, layout.terms(outcome.run.best), pick(campaign.recordings, heldout), options.objective);
+      outcome.nrmse_heldout = predicted_nrmse(layout, layout.terms(outcome.run.best),
+                                              pick(campaign.recordings, heldout), options.objective);
     }
     result.solvers.push_back(std::move(outcome));
   }
@@ -202,7 +203,7 @@ Identification identify(const Campaign& campaign, const std::string& model, cons
       result.cost = run.cost;
       if (!refit && !heldout.empty()) {
         result.nrmse_heldout =
-            heldout_nrmse(layout, layout.terms(best), pick(campaign.recordings, heldout), options.objective);
+            predicted_nrmse(layout, layout.terms(best), pick(campaign.recordings, heldout), options.objective);
       }
     }
     if (refit) {

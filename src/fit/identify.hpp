@@ -58,6 +58,17 @@ struct Identification {
   std::vector<std::string> warnings = {};
 };
 
+std::vector<Recording> pick(const std::vector<Recording>& recordings, const std::vector<std::size_t>& indices);
+
+// Overall NRMSE of a set of terms on recordings it need not have seen.
+double predicted_nrmse(const Layout& layout, const std::vector<Term>& terms, const std::vector<Recording>& recordings,
+                       const ObjectiveOptions& options);
+
+// The problem a solver is given: options.budget, options.settings as far as the solver knows them, and a stream of the
+// seed, the stage's name and the solver.
+Problem make_problem(const Objective& objective, const SolverEntry& entry, const IdentifyOptions& options,
+                     const std::string& stage, std::vector<double> start);
+
 // Which recordings to hold out when no roles are given: about a fifth, spread over drive level and severity.
 std::vector<std::size_t> choose_heldout(const std::vector<Recording>& recordings);
 

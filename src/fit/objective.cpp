@@ -99,16 +99,15 @@ class Excitation {
   std::vector<Step> parts_;
 };
 
-// Marches a target block by block and hands (first sample, count, force) to the sink, those of the period marched
-// beforehand to the other one.
+// Marches samples [first, last) of a target block by block and hands (first sample, count, force) to the sink, those of
+// the period marched beforehand to the other one. `state` holds max_states: those at the first sample, then those at
+// the last; a march that begins the target starts from rest, whatever it held.
 template <class T, class Parameters, class Sink, class Before>
-void march_target(const CompositeModel& model, const Target& target, const Parameters& parameters_at_drive, Sink&& sink,
-                  Before&& before) {
-  const std::size_t samples = target.force.size();
+void march_window(const CompositeModel& model, const Target& target, const Parameters& parameters_at_drive,
+                  std::size_t first, std::size_t last, std::vector<T>& state, Sink&& sink, Before&& before) {
   const std::size_t width = model.parameter_count();
   const std::size_t stride = target.drive_varies ? width : 0;
   std::vector<T> p(target.drive_varies ? width * (block_samples + 1) : width);
-  std::vector<T> state(max_states);
   std::vector<T> out(block_samples);
   Excitation<T> excitation(model);
   const auto parameters_of = [&](double drive, double elapsed, T* values) {
@@ -129,16 +128,33 @@ void march_target(const CompositeModel& model, const Target& target, const Param
   if (!target.drive_varies) {
     parameters_of(target.drive, -1.0, p.data());
   }
-  for (std::size_t begin = 0; begin < target.preroll; begin += block_samples) {
-    const std::size_t end = std::min(begin + block_samples, target.preroll);
-    block(target.lead_in, begin, end);
-    before(begin, end - begin, out.data());
+  if (first == 0) {
+    std::ranges::fill(state, T(0.0));
+    for (std::size_t begin = 0; begin < target.preroll; begin += block_samples) {
+      const std::size_t end = std::min(begin + block_samples, target.preroll);
+      block(target.lead_in, begin, end);
+      before(begin, end - begin, out.data());
+    }
+  } else if (target.drive_varies && !excitation.none()) {
+    // What the effects on the drive remember, from the start of the recording.
+    for (std::size_t n = 0; n < first; ++n) {
+      parameters_of(target.motion.drive[n], n == 0 ? -1.0 : target.motion.time[n] - target.motion.time[n - 1],
+                    p.data());
+    }
   }
-  for (std::size_t begin = 0; begin < samples; begin += block_samples) {
-    const std::size_t end = std::min(begin + block_samples, samples);
+  for (std::size_t begin = first; begin < last; begin += block_samples) {
+    const std::size_t end = std::min(begin + block_samples, last);
     block(target.motion, begin, end);
     sink(begin, end - begin, out.data());
   }
+}
+
+// The whole target.
+template <class T, class Parameters, class Sink, class Before>
+void march_target(const CompositeModel& model, const Target& target, const Parameters& parameters_at_drive, Sink&& sink,
+                  Before&& before) {
+  std::vector<T> state(max_states);
+  march_window<T>(model, target, parameters_at_drive, 0, target.force.size(), state, sink, before);
 }
 
 // Samples of the first period when a recording starts in mid-motion and the motion comes back to where it started, so
@@ -544,7 +560,84 @@ std::vector<std::size_t> Objective::packing(const std::vector<double>& points) c
   return order;
 }
 
+void Objective::describe_data(Problem& problem) const {
+  problem.recordings.clear();
+  for (const Target& target : targets_) {
+    problem.recordings.push_back(target.force.size());
+  }
+  problem.states = static_cast<std::size_t>(layout_.model().states());
+}
+
+// In one thread: a window is too short to share.
+Response Objective::evaluate_window(const Request& request) const {
+  const std::size_t d = layout_.dimension();
+  const std::size_t points = request.points.size() / d;
+  const auto states = static_cast<std::size_t>(layout_.model().states());
+  const Window& window = *request.window;
+  const Target& target = targets_[window.recording];
+  const std::size_t samples = window.end - window.begin;
+  const double scale = std::sqrt(target.weight);
+  const double limit = 1e12 * target.normaliser;
+  Response response;
+  response.cost.resize(points);
+  response.residual.resize(points * samples);
+  response.states.resize(points * states);
+  std::vector<std::size_t> order(points);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::vector<Lanes> nodes(d);
+  std::vector<Lanes> state(max_states);
+  for (std::size_t first = 0; first < points; first += lane_count) {
+    const Rows rows = Rows(order).subspan(first, std::min<std::size_t>(lane_count, points - first));
+    const auto candidate = [&](std::size_t lane) { return std::min(lane, rows.size() - 1); };
+    for (std::size_t c = 0; c < d; ++c) {
+      nodes[c] = lanes_of(request.points, rows, layout_, c, false, candidate);
+    }
+    for (int lane = 0; lane < lane_count && window.begin > 0; ++lane) {
+      for (std::size_t s = 0; s < states; ++s) {
+        state[s].set_lane(lane, request.states[(first + candidate(static_cast<std::size_t>(lane))) * states + s]);
+      }
+    }
+    march_window<Lanes>(
+        layout_.model(), target,
+        [&](const auto& drive, Lanes* p) { parameters_of_pack(layout_, nodes, drive, target.frequency, p); },
+        window.begin, window.end, state,
+        [&](std::size_t begin, std::size_t count, const Lanes* out) {
+          for (std::size_t lane = 0; lane < rows.size(); ++lane) {
+            double* residual = response.residual.data() + (first + lane) * samples + begin - window.begin;
+            for (std::size_t k = 0; k < count; ++k) {
+              residual[k] = out[k].lane(static_cast<int>(lane)) - target.force[begin + k];
+            }
+          }
+        },
+        [](std::size_t, std::size_t, const Lanes*) {});
+    for (std::size_t lane = 0; lane < rows.size(); ++lane) {
+      double* residual = response.residual.data() + (first + lane) * samples;
+      double* end_states = response.states.data() + (first + lane) * states;
+      double squares = 0.0;
+      bool finite = true;
+      for (std::size_t k = 0; k < samples; ++k) {
+        finite = finite && std::fabs(residual[k]) < limit;
+        residual[k] *= window.begin + k >= target.run_in ? scale : 0.0;
+        squares += residual[k] * residual[k];
+      }
+      for (std::size_t s = 0; s < states; ++s) {
+        end_states[s] = state[s].lane(static_cast<int>(lane));
+        finite = finite && std::isfinite(end_states[s]);
+      }
+      response.cost[first + lane] = finite ? std::sqrt(squares) : diverged_cost;
+      if (!finite) {
+        std::fill_n(residual, samples, 0.0);
+        std::fill_n(end_states, states, 0.0);
+      }
+    }
+  }
+  return response;
+}
+
 Response Objective::evaluate(const Request& request) const {
+  if (request.window) {
+    return evaluate_window(request);
+  }
   const std::size_t d = layout_.dimension();
   const std::size_t points = request.points.size() / d;
   const std::size_t packs = (points + lane_count - 1) / lane_count;

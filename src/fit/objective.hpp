@@ -58,13 +58,16 @@ class Objective {
   // The same recordings thinned and marched coarsely, for requests that only screen.
   [[nodiscard]] const std::vector<Target>& screening_targets() const { return screening_targets_; }
   [[nodiscard]] std::size_t samples() const;
-  // Costs (and derivatives with respect to unit coordinates) of the request's points.
+  // Tells a problem what its windows may be: samples of the recordings, state variables.
+  void describe_data(Problem& problem) const;
+  // Costs (and derivatives with respect to unit coordinates) of the request's points, or residuals of its window.
   [[nodiscard]] Response evaluate(const Request& request) const;
 
  private:
   template <class T>
   void run_pack(const std::vector<double>& points, std::span<const std::size_t> rows, const Target& target,
                 double* sums) const;
+  [[nodiscard]] Response evaluate_window(const Request& request) const;
   [[nodiscard]] std::vector<std::size_t> packing(const std::vector<double>& points) const;
 
   Layout layout_;

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -15,6 +16,13 @@
 
 namespace hysteron {
 
+// Part of the data, in time order: samples [begin, end) of a recording.
+struct Window {
+  std::size_t recording = 0;
+  std::size_t begin = 0;
+  std::size_t end = 0;
+};
+
 // Points a solver wants evaluated, row by row, in unit-box coordinates [0, 1]^dimension.
 struct Request {
   std::vector<double> points;
@@ -22,6 +30,12 @@ struct Request {
   // A first look by a coarse integration over thinned samples, where Problem::screening allows it. Counts as any
   // evaluation, but its costs are only compared with each other and never reported.
   bool screening = false;
+  // For solvers that follow the data in time order: only this part, answered by its residuals. A point costs the share
+  // of an evaluation that the window is of the data. Derivatives and screening are not asked with it.
+  std::optional<Window> window = {};
+  // State variables of every point at the first sample of the window, count x Problem::states. Not read where the
+  // window begins a recording: there the simulation starts as it does for the cost.
+  std::vector<double> states = {};
 };
 
 // Answer to a request, in the order of its points. `cost` is finite or a large ordered value for diverged
@@ -30,6 +44,10 @@ struct Response {
   std::vector<double> cost;
   std::vector<double> gradient;      // J^T r, count x dimension, only when derivatives were asked
   std::vector<double> gauss_newton;  // J^T J, count x dimension x dimension (row-major), likewise
+  // With a window: its weighted residuals r, count x samples, `cost` being the root of their sum of squares, so that
+  // cost^2 of the whole is the sum over all windows; and the state variables at the window's end. Zero where diverged.
+  std::vector<double> residual;
+  std::vector<double> states;
 };
 
 inline constexpr double diverged_cost = 1e10;
@@ -44,10 +62,23 @@ struct Problem {
   std::vector<bool> linear;
   // Requests for screening are understood.
   bool screening = false;
+  // Samples of each recording in time order; empty where the data are not recordings: then one window {0, 0, 0} stands
+  // for all residuals, at the price of one evaluation.
+  std::vector<std::size_t> recordings;
+  std::size_t states = 0;  // state variables of the simulation
   // A starting point in the unit box, if the caller has one (warm start).
   std::vector<double> start;
   // Settings by name; a solver rejects unknown names when it is made.
   std::map<std::string, double> settings;
+};
+
+// What a solver that follows the data believes after the samples before `sample` of a recording: mean and standard
+// deviation of every coordinate of the unit box.
+struct Tracked {
+  std::size_t recording;
+  std::size_t sample;
+  std::vector<double> mean;
+  std::vector<double> deviation;
 };
 
 class Solver {
@@ -65,6 +96,8 @@ class Solver {
   virtual void tell(const Request& request, const Response& response) = 0;
   // Why the solver stopped by itself, with its inequality; empty while it runs.
   [[nodiscard]] virtual std::string stopped_because() const { return {}; }
+  // Its belief against time, of the pass through the data that gave the result; empty for other solvers.
+  [[nodiscard]] virtual std::vector<Tracked> track() const { return {}; }
 };
 
 struct Setting {

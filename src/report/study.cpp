@@ -100,6 +100,21 @@ StudyTable fixed_budget_table(const json& analysis, const Names& names) {
   return table;
 }
 
+StudyTable model_table(const json& analysis, const Names& names) {
+  StudyTable table{"models",
+                   "Ranking of models",
+                   "Each with the solver of the lowest median at the largest budget; medians over the seeds. The order "
+                   "is that of the error on the recordings named.",
+                   {"data", "place", "model", "parameters", "solver", "NRMSE fitted", "NRMSE held out", "order by"},
+                   {}};
+  for (const json& row : analysis.at("models")) {
+    table.rows.push_back({row.at("data"), whole(row.at("place")), row.at("model"), whole(row.at("dimension")),
+                          names.solver(row.at("solver")), shown(row.at("median")), shown(row.at("heldout_median")),
+                          row.at("ranked_by")});
+  }
+  return table;
+}
+
 StudyTable fixed_target_table(const json& analysis, const Names& names) {
   StudyTable table{
       "fixed-target",
@@ -190,6 +205,7 @@ std::vector<StudyTable> study_tables(const json& analysis, const json& times) {
   const Names names(analysis);
   std::vector<StudyTable> tables{ranking_table(analysis, names), fixed_budget_table(analysis, names),
                                  fixed_target_table(analysis, names), pair_table(analysis, names, "pairs")};
+  if (!analysis.at("models").empty()) tables.insert(tables.begin() + 1, model_table(analysis, names));
   if (analysis.at("problems").size() > 1) tables.push_back(pair_table(analysis, names, "problem_pairs"));
   tables.push_back(problem_table(analysis));
   if (!times.is_null()) tables.push_back(time_table(times, names));

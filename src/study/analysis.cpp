@@ -122,6 +122,7 @@ class Analysis {
     result["alpha"] = significance;
     result["problems"] = problem_rows();
     result["fixed_budget"] = fixed_budget();
+    result["models"] = models(result["fixed_budget"]);
     result["ranking"] = ranking();
     result["pairs"] = pairs();
     result["problem_pairs"] = problem_pairs();
@@ -219,6 +220,45 @@ class Analysis {
       }
     }
     return rows;
+  }
+
+  // The models of every dataset that has several, each with the solver of the lowest median at the largest budget, best
+  // first: by the median on held-out recordings where all of them have one, else by that on the fitted ones.
+  [[nodiscard]] json models(const json& cells) const {
+    const auto data_of = [&](const json& row) {
+      return plan_.at("problems").at(row.at("problem").get<std::size_t>()).at("data").get<std::string>();
+    };
+    std::map<std::string, std::map<std::size_t, json>> best;  // by data, then problem
+    for (const json& row : cells) {
+      if (row.at("budget") != budgets_.back() || !row.at("median").is_number()) continue;
+      auto& of_data = best[data_of(row)];
+      const auto [at, added] = of_data.emplace(row.at("problem").get<std::size_t>(), row);
+      if (!added && row.at("median") < at->second.at("median")) at->second = row;
+    }
+    json result = json::array();
+    for (const auto& [data, problems] : best) {
+      if (problems.size() < 2) continue;
+      std::vector<json> rows;
+      for (const auto& [problem, row] : problems) {
+        const json& planned = plan_.at("problems").at(problem);
+        rows.push_back({{"data", data},
+                        {"model", planned.at("model")},
+                        {"dimension", planned.at("dimension")},
+                        {"solver", row.at("solver")},
+                        {"median", row.at("median")},
+                        {"heldout_median", row.at("heldout_median")}});
+      }
+      const bool heldout =
+          std::ranges::all_of(rows, [](const json& row) { return row.at("heldout_median").is_number(); });
+      const char* by = heldout ? "heldout_median" : "median";
+      std::ranges::stable_sort(rows, [&](const json& a, const json& b) { return a.at(by) < b.at(by); });
+      for (std::size_t k = 0; k < rows.size(); ++k) {
+        rows[k]["place"] = k + 1;
+        rows[k]["ranked_by"] = heldout ? "held-out" : "fitted";
+        result.push_back(std::move(rows[k]));
+      }
+    }
+    return result;
   }
 
   [[nodiscard]] json ranking() const {

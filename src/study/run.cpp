@@ -71,9 +71,10 @@ std::optional<RunRecord> do_run(const Plan& plan, const PlannedRun& run, const O
   const StudyProblem& problem = plan.problems[run.problem];
   const SolverEntry* entry = find_solver(plan.study.solvers[run.solver].id);
   if (entry == nullptr) throw InputError("unknown solver '" + plan.study.solvers[run.solver].id + "'");
+  Problem solved = solver_problem(problem, run, plan.study);
+  objective.describe_data(solved);
   const RunResult result = run_solver(
-      *entry, solver_problem(problem, run, plan.study),
-      [&](const Request& request) { return objective.evaluate(request); },
+      *entry, solved, [&](const Request& request) { return objective.evaluate(request); },
       [&](const RunResult&) { return !stop || !stop(); });
   if (result.stopped == "interrupted") return {};
   RunRecord record;

@@ -35,7 +35,7 @@ Problem make_problem(std::size_t dimension, std::size_t budget, std::uint64_t se
 bool is_deterministic(std::string_view id) {
   constexpr std::string_view drawing[] = {"nlopt:GN_CRS2_LM", "nlopt:GN_ISRES", "nlopt:GN_ESCH", "nlopt:GN_MLSL"};
   if (id.starts_with("nlopt:")) return std::ranges::find(drawing, id) == std::end(drawing);
-  return id == "lm" || id == "pagmo:compass_search";
+  return id == "lm" || id == "ukf" || id == "pagmo:compass_search";
 }
 
 // Solvers from libraries are exercised for the contract but keep their own convergence.

@@ -42,6 +42,9 @@ inline Response evaluate(const Request& request, std::size_t dimension, const Ob
     double sum = 0.0;
     for (const double r : residuals.value) sum += r * r;
     response.cost.push_back(residuals.value.empty() ? diverged_cost : std::sqrt(sum));
+    if (request.window) {
+      response.residual.insert(response.residual.end(), residuals.value.begin(), residuals.value.end());
+    }
     if (!request.derivatives) continue;
     for (std::size_t a = 0; a < dimension; ++a) {
       double component = 0.0;

@@ -79,7 +79,7 @@ const char* const result_files[] = {"model.json", "fit.json", "report.html"};
 TEST_F(Program, FitGivesTheSameBytesForAnyThreadsAndAnyOutputFolder) {
   const Outcome made = run({"generate", "rd8040-twin", "--only", "2.0Hz_0.", "--out", "twin"});
   ASSERT_EQ(made.status, 0) << made.err;
-  for (const std::string solver : {"multistart-lm", "pso"}) {
+  for (const std::string solver : {"multistart-lm", "pso", "ukf"}) {
     std::vector<std::string> folders;
     for (const std::string threads : {"1", "2", "7", "2"}) {
       folders.push_back(solver + std::to_string(folders.size()) + "/nested");
@@ -102,6 +102,60 @@ TEST_F(Program, FitGivesTheSameBytesForAnyThreadsAndAnyOutputFolder) {
                 .status,
             0);
   EXPECT_FALSE(read(folder_ / other / "model.json") == read(folder_ / "pso0/nested/model.json"));
+}
+
+TEST_F(Program, FilterIsShownAgainstTime) {
+  ASSERT_EQ(run({"fit", "data", "--model", "bouc-wen", "--by-current", "c0:1", "--solver", "ukf,pso", "--budget", "300",
+                 "--quiet", "--out", "fitted"})
+                .status,
+            0);
+  const json solvers = json::parse(read(folder_ / "fitted/fit.json")).at("solvers");
+  EXPECT_TRUE(solvers.at(1).at("track").is_null());
+  const json& track = solvers.at(0).at("track");
+  const std::vector<double> time = track.at("time");
+  ASSERT_GT(time.size(), 10U);
+  EXPECT_TRUE(std::ranges::is_sorted(time));
+  // 2 s of the first recording and 1 s of the second.
+  EXPECT_NEAR(time.back(), 3.0, 1e-9);
+  std::set<std::string> names;
+  for (const json& row : track.at("parameters")) {
+    names.insert(row.at("name"));
+    ASSERT_EQ(row.at("mean").size(), time.size());
+    for (std::size_t k = 0; k < time.size(); ++k) {
+      EXPECT_LT(row.at("lower")[k], row.at("mean")[k]);
+      EXPECT_LT(row.at("mean")[k], row.at("upper")[k]);
+    }
+  }
+  EXPECT_TRUE(names.contains("c0 at 0.2 A"));
+  EXPECT_TRUE(names.contains("c0 at 0.8 A"));
+}
+
+TEST_F(Program, LawsInTwoStagesStandBesideTheJointFit) {
+  for (int k = 0; k < 5; ++k) write(folder_ / "laws" / ("r" + std::to_string(k) + ".csv"), csv(1.0, 0.2 * k));
+  const std::vector<std::string> words{"fit",      "laws", "--model",  "viscous", "--by-current", "c0:1",
+                                       "--stages", "two",  "--budget", "600",     "--out",        "two"};
+  const Outcome outcome = run(words);
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const json stages = json::parse(read(folder_ / "two/fit.json")).at("stages");
+  EXPECT_EQ(stages.at("conditions").size(), 4U);  // one is held out
+  EXPECT_EQ(stages.at("parameters").size(), 3U);
+  EXPECT_GE(stages.at("two_stages").at("nrmse_fit"), stages.at("nrmse_free"));
+  EXPECT_GE(stages.at("two_stages").at("nrmse_fit").get<double>(),
+            stages.at("joint").at("nrmse_fit").get<double>() * (1.0 - 1e-6));
+  EXPECT_NE(outcome.out.find("two stages"), std::string::npos);
+}
+
+TEST_F(Program, FiguresAreSmallAndTheSameEveryTime) {
+  for (const std::string name : {"bouc-wen", "preisach", "pso", "lm", "ukf"}) {
+    ASSERT_EQ(run({"describe", name, "--figure", "first.svg"}).status, 0) << name;
+    ASSERT_EQ(run({"describe", name, "--figure", "second.svg"}).status, 0) << name;
+    const std::string figure = read(folder_ / "first.svg");
+    EXPECT_EQ(figure, read(folder_ / "second.svg")) << name;
+    EXPECT_LT(figure.size(), 15000U) << name;
+    EXPECT_EQ(figure.find("nan"), std::string::npos) << name;
+    EXPECT_EQ(figure.find("inf"), std::string::npos) << name;
+    EXPECT_NE(figure.find("class=\"c\""), std::string::npos) << name;
+  }
 }
 
 TEST_F(Program, ModelFileHasTheShapeOfTheContract) {
@@ -295,6 +349,9 @@ std::vector<Wrong> wrong_command_lines() {
       {"order missing", fit_with({"--by-current", "alpha"})},
       {"order 6", fit_with({"--by-current", "alpha:6"})},
       {"order negative", fit_with({"--by-current", "alpha:-1"})},
+      {"two stages without a law", fit_with({"--stages", "two"})},
+      {"three stages", fit_with({"--by-current", "alpha:1", "--stages", "three"})},
+      {"figure of an effect", {"describe", "clearance", "--figure", "figure.svg"}},
       {"missing --out", {"fit", "data", "--model", "bouc-wen"}},
       {"results below a file", {"fit", "data", "--model", "bouc-wen", "--budget", "60", "--out", "data/r1.csv/out"}},
       {"results where no folder can be made",

@@ -54,6 +54,39 @@ Made make() {
   return made;
 }
 
+// A second model on the same data, worse on the fitted recordings and better on the held-out ones.
+TEST(Analysis, RanksModelsByHeldOutRecordings) {
+  Made made = make();
+  EXPECT_TRUE(analyse(made.plan, made.records).at("models").empty());
+  json other = made.plan["problems"][0];
+  other["label"] = "n @ d";
+  other["model"] = "n";
+  made.plan["problems"].push_back(other);
+  const std::size_t first = made.records.size();
+  for (std::size_t k = 0; k < first; ++k) {
+    RunRecord record = made.records[k];
+    made.records[k].nrmse_heldout = *record.nrmse + 0.5;
+    record.key += "-n";
+    record.nrmse = *record.nrmse + 0.1;
+    record.nrmse_heldout = *record.nrmse + 0.05;
+    json run = made.plan["runs"][k];
+    run["key"] = record.key;
+    run["problem"] = 1;
+    made.plan["runs"].push_back(run);
+    made.records.push_back(record);
+  }
+  const json rows = analyse(made.plan, made.records).at("models");
+  ASSERT_EQ(rows.size(), 2U);
+  EXPECT_EQ(rows[0].at("model"), "n");
+  EXPECT_EQ(rows[0].at("solver"), 0);
+  EXPECT_EQ(rows[0].at("ranked_by"), "held-out");
+  EXPECT_DOUBLE_EQ(rows[0].at("median"), 0.2);
+  EXPECT_DOUBLE_EQ(rows[0].at("heldout_median"), 0.25);
+  EXPECT_DOUBLE_EQ(rows[1].at("heldout_median"), 0.6);
+  for (RunRecord& record : made.records) record.nrmse_heldout.reset();
+  EXPECT_EQ(analyse(made.plan, made.records).at("models")[0].at("model"), "m");
+}
+
 TEST(Analysis, CallsATieATie) {
   const Made made = make();
   const json analysis = analyse(made.plan, made.records);

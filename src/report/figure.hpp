@@ -1,0 +1,27 @@
+// Small line charts as SVG files for the documentation: the same bytes for the same numbers.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace hysteron {
+
+struct FigureCurve {
+  std::vector<double> x;
+  std::vector<double> y;  // of equal length
+  std::string colour = "#0072b2";
+  double width = 1.5;
+  bool step = false;  // a value holds until the next one
+};
+
+struct FigurePanel {
+  std::string x_label;
+  std::string y_label;
+  std::vector<FigureCurve> curves;
+  bool logarithmic = false;  // both axes; all values positive
+};
+
+// Panels side by side. `description` is read out in place of the picture.
+std::string figure_svg(const std::vector<FigurePanel>& panels, const std::string& description);
+
+}  // namespace hysteron
