@@ -442,6 +442,9 @@ void march_assembly(const CompositeModel& model, const Motion& motion, const T* 
       system.set_parameters(p + (n - begin) * stride);
     }
     const bool last = n >= motion.intervals.size();
+    // No guess from the interval before: a march in pieces gives the bits of one in a single piece.
+    start.relief.speed.fill(value_t<T>(0.0));
+    start.relief.resistance.fill(value_t<T>(0.0));
     system.start(current, detail::input_of_sample<T>(motion, n), last ? 0.0 : motion.intervals[n].speed,
                  last ? 0.0 : acceleration_of(motion.intervals[n]), start);
     out[n - begin] = start.force;

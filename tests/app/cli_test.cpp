@@ -139,7 +139,9 @@ TEST_F(Program, LawsInTwoStagesStandBesideTheJointFit) {
   const json stages = json::parse(read(folder_ / "two/fit.json")).at("stages");
   EXPECT_EQ(stages.at("conditions").size(), 4U);  // one is held out
   EXPECT_EQ(stages.at("parameters").size(), 3U);
-  EXPECT_GE(stages.at("two_stages").at("nrmse_fit"), stages.at("nrmse_free"));
+  // Equal but for rounding where one condition each determines the laws.
+  EXPECT_GE(stages.at("two_stages").at("nrmse_fit").get<double>(),
+            stages.at("nrmse_free").get<double>() * (1.0 - 1e-12));
   EXPECT_GE(stages.at("two_stages").at("nrmse_fit").get<double>(),
             stages.at("joint").at("nrmse_fit").get<double>() * (1.0 - 1e-6));
   EXPECT_NE(outcome.out.find("two stages"), std::string::npos);
