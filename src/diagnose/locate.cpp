@@ -98,7 +98,11 @@ std::vector<Location> locate(const Workbench& bench, const Fit& fit) {
     energy.push_back(std::move(r));
   }
   std::vector<Location> result;
-  for (const Variable& variable : variables()) {
+  for (Variable variable : variables()) {
+    if (variable.name == "drive") {
+      variable.unit = recordings.front().drive_kind == DriveKind::voltage ? "V" : "A";
+      variable.shown_unit = variable.unit;
+    }
     std::vector<double> values;
     for (std::size_t k = 0; k < recordings.size(); ++k) {
       for (std::size_t n = 0; n < recordings[k].size(); n += 7) {
