@@ -13,11 +13,15 @@
 
 #include "app/command.hpp"
 #include "challenge/effects.hpp"
+#include "challenge/hide.hpp"
+#include "challenge/hide_run.hpp"
 #include "challenge/run.hpp"
 #include "challenge/seal.hpp"
 #include "core/error.hpp"
+#include "io/campaign.hpp"
 #include "io/file.hpp"
 #include "io/output.hpp"
+#include "report/hidden.hpp"
 
 extern char** environ;
 
@@ -26,6 +30,9 @@ namespace {
 
 struct Options {
   std::string out;
+  std::vector<std::string> data;  // recordings to hide effects in; empty: simulated campaigns
+  std::string model;
+  std::string by_current;
   int campaigns = 300;
   std::vector<std::string> levels;
   std::vector<std::string> effects;
@@ -92,9 +99,43 @@ challenge::Diagnose diagnose_by_process(const Options& options) {
   };
 }
 
+// What is hidden in recordings of a real damper: what --effect names, else everything that can be, and the placebos.
+std::string hide(const Options& options, const std::filesystem::path& out) {
+  Campaign campaign = load_campaign(options.data);
+  if (!options.model.empty()) campaign.model = options.model;
+  if (campaign.model.empty()) campaign.model = "bouc-wen";
+  if (!options.by_current.empty()) campaign.by_current = parse_orders("--by-current", options.by_current);
+  std::vector<std::string> ids = options.effects;
+  if (ids.empty()) {
+    ids.assign(challenge::hideable().begin(), challenge::hideable().end());
+    for (const std::string_view id : challenge::placebos()) {
+      if (id != "shuffled-drive" || !campaign.recordings.front().drive.empty()) ids.emplace_back(id);
+    }
+  }
+  return challenge::hide_all(out, campaign, ids, options.seed);
+}
+
+void write_hidden(const std::filesystem::path& out, const std::string& hash) {
+  const nlohmann::json result = challenge::score_hidden(out, hash);
+  write_file_atomically(out / "hidden.json", json_text(result));
+  const std::string text = hidden_markdown(result);
+  write_file_atomically(out / "hidden.md", text);
+  fmt::print("{}", text);
+}
+
+void write_simulated(const std::filesystem::path& out, const std::string& hash) {
+  const nlohmann::json result = challenge::score_all(out, hash);
+  write_file_atomically(out / "challenge.json", json_text(result));
+  const std::string text = challenge_markdown(result);
+  write_file_atomically(out / "challenge.md", text);
+  write_file_atomically(out / "report.html", challenge_html(result));
+  fmt::print("{}", text);
+}
+
 void run(const Options& options) {
   make_output_folder(options.out);
   const std::filesystem::path out(options.out);
+  const bool hidden = !options.data.empty();
   std::string hash;
   {
     ProgressLine line(options.quiet);
@@ -105,7 +146,7 @@ void run(const Options& options) {
       line.show(stage, share, detail);
     };
     if (!options.score_only) {
-      hash = challenge::make_all(out, tasks_of(options), options.seed, steps);
+      hash = hidden ? hide(options, out) : challenge::make_all(out, tasks_of(options), options.seed, steps);
       line.finish();
       fmt::print("sha256 of the sealed answers: {}\n", hash);
       std::fflush(stdout);
@@ -115,12 +156,7 @@ void run(const Options& options) {
       if (failed > 0) fmt::print(stderr, "{} diagnoses failed, see {}/diagnoses/*/failed.txt\n", failed, options.out);
     }
   }
-  const nlohmann::json result = challenge::score_all(out, hash);
-  write_file_atomically(out / "challenge.json", json_text(result));
-  const std::string text = challenge_markdown(result);
-  write_file_atomically(out / "challenge.md", text);
-  write_file_atomically(out / "report.html", challenge_html(result));
-  fmt::print("{}", text);
+  (hidden ? write_hidden : write_simulated)(out, hash);
 }
 
 }  // namespace
@@ -131,13 +167,20 @@ void add_challenge(CLI::App& program) {
       "challenge", "makes campaigns with concealed physics, seals the answers, diagnoses, opens the seal, scores");
   command->add_option("--out", options->out, "folder to write; what an interrupted call left is gone on with")
       ->required();
+  CLI::Option* data = command->add_option(
+      "--in", options->data, "hide effects in these recordings of a real damper instead of simulating one");
+  command->add_option("--model", options->model, "base damper law, with --in; default campaign.toml's, else bouc-wen")
+      ->needs(data);
+  command->add_option("--by-current", options->by_current, "laws of its parameters in the drive, with --in")
+      ->needs(data);
   command->add_option("--campaigns", options->campaigns, "number of campaigns")
       ->check(CLI::Range(1, 9999))
       ->capture_default_str();
   command
       ->add_option("--level", options->levels,
                    "only these levels: plain, buried, absorbed, pairs, wrong-base, foreign, none, unexcited")
-      ->delimiter(',');
+      ->delimiter(',')
+      ->excludes(data);
   command->add_option("--effect", options->effects, "only these effects")->delimiter(',');
   command->add_option("--seed", options->seed, "seed of everything that is drawn")
       ->check(CLI::NonNegativeNumber)
@@ -155,7 +198,8 @@ void add_challenge(CLI::App& program) {
   command->footer(
       "Examples:\n"
       "  hysteron challenge --out challenge --campaigns 300 --seed 1\n"
-      "  hysteron challenge --out some --campaigns 10 --level plain --effect clearance,inertia --generate-only");
+      "  hysteron challenge --out some --campaigns 10 --level plain --effect clearance,inertia --generate-only\n"
+      "  hysteron challenge --in recordings/ --model bouc-wen --by-current alpha:1,c0:1 --out hidden");
   command->callback([options] { run(*options); });
 }
 

@@ -57,7 +57,7 @@ json estimate_json(const Estimate& estimate, const Layout& layout) {
   row["upper"] = constant ? json(estimate.upper) : json(nullptr);
   if (estimate.std_error) {
     row["std_error"] = *estimate.std_error;
-    row["ci95"] = {estimate.term.value - 1.96 * *estimate.std_error, estimate.term.value + 1.96 * *estimate.std_error};
+    row["ci95"] = {estimate.term.value - *estimate.half_width, estimate.term.value + *estimate.half_width};
   }
   return row;
 }

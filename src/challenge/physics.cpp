@@ -253,10 +253,11 @@ class Plant {
   }
 
   // While the rod retracts the force stays above -F_cav: the fluid column parts, and the damper follows at the speed
-  // that this force drives. On the way back the void closes before the damper takes up force.
+  // that this force drives. On the way back the void closes before the damper takes up force: without force its springs
+  // slacken.
   void cavitate(Balance& b, const State& s) const {
     if (b.rod.v >= 0.0 && s[void_length] > 1e-7) {
-      b.v_inner = 0.0;
+      solve(b, s, [](double) { return 0.0; });
       b.core = 0.0;
       return;
     }

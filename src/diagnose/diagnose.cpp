@@ -41,7 +41,7 @@ std::vector<ParameterInterval> intervals_of(const Workbench& bench, const Fit& f
   std::vector<ParameterInterval> result;
   for (const Estimate& row : identification.estimates) {
     if (row.name.starts_with(effect + ".")) {
-      result.push_back({row.name.substr(effect.size() + 1), row.unit, row.term.value, row.std_error});
+      result.push_back({row.name.substr(effect.size() + 1), row.unit, row.term.value, row.half_width});
     }
   }
   return result;
@@ -60,8 +60,8 @@ std::string sentence_of(const Diagnosis& diagnosis, const Named& named,
   std::vector<std::string> values;
   for (const ParameterInterval& p : parameters) {
     std::string text = fmt::format("{} = {:.3g}{}", p.name, p.value, p.unit == "1" ? "" : " " + p.unit);
-    if (p.std_error) {
-      text += fmt::format(" (95 %: {:.3g} to {:.3g})", p.value - 1.96 * *p.std_error, p.value + 1.96 * *p.std_error);
+    if (p.half_width) {
+      text += fmt::format(" (95 %: {:.3g} to {:.3g})", p.value - *p.half_width, p.value + *p.half_width);
     }
     values.push_back(text);
   }

@@ -25,7 +25,7 @@ struct ParameterInterval {
   std::string name;
   std::string unit;
   double value = 0.0;
-  std::optional<double> std_error;
+  std::optional<double> half_width;  // of the 95 % interval
 };
 
 struct Rejected {

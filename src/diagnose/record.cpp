@@ -49,7 +49,7 @@ json diagnosis_json(const Diagnosis& diagnosis) {
           {{"name", p.name},
            {"value", p.value},
            {"unit", p.unit},
-           {"ci95", p.std_error ? json{p.value - 1.96 * *p.std_error, p.value + 1.96 * *p.std_error} : json(nullptr)}});
+           {"ci95", p.half_width ? json{p.value - *p.half_width, p.value + *p.half_width} : json(nullptr)}});
     }
     effects.push_back({{"id", named.id},
                        {"confidence", named.confidence},

@@ -33,8 +33,13 @@ std::vector<std::string> relatives(const std::string& id) {
 }
 
 bool is_limit(const std::string& effect, const std::string& wider) {
-  return (effect == "offset-force" && wider == "gas-spring") ||
-         (effect == "coulomb-friction" && wider == "seal-friction");
+  static const std::vector<std::pair<std::string, std::string>> limits = {
+      {"offset-force", "gas-spring"},
+      {"linear-stiffness", "gas-spring"},
+      {"coulomb-friction", "seal-friction"},
+      {"compliance", "entrapped-gas"},
+  };
+  return std::ranges::find(limits, std::pair{effect, wider}) != limits.end();
 }
 
 }  // namespace hysteron

@@ -19,6 +19,8 @@ constexpr std::size_t rival_count = 6;
 // squared error falls by this share.
 constexpr double least_evidence = 6.0;
 constexpr double least_gain = 0.01;
+// A form that holds a simpler one as its limit is taken for it only above this.
+constexpr double wider_evidence = 3.0;
 // No further effects are looked for once this part of what was explained is left above the noise, or is all that the
 // last one added: the next could not be named.
 constexpr double negligible = 0.05;
@@ -272,7 +274,9 @@ Search search(const Workbench& bench, const Workbench& fine, const Hypothesis& b
         row.evidence =
             evidence(squared(rival.fit.cost), squared(current.cost),
                      static_cast<double>(current.dimension()) - static_cast<double>(rival.fit.dimension()), effective);
-        if (row.evidence < -least_evidence && (better == nullptr || rival.fit.cost < better->fit.cost)) {
+        // A wider form must be worth its further parameters.
+        const double asked = is_limit(rival.id, id) ? wider_evidence : -least_evidence;
+        if (row.evidence < asked && (better == nullptr || rival.fit.cost < better->fit.cost)) {
           better = &rival;
         }
         found.rivals.push_back(row);

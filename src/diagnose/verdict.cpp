@@ -11,8 +11,12 @@
 namespace hysteron {
 namespace {
 
-// A rival is as good when it explains all but this share of what the effect explains ...
+// A rival is as good when it explains all but this share of what the effect explains, unless it then leaves this many
+// times as much again above the noise ...
 constexpr double least_margin = 0.04;
+constexpr double clear_factor = 3.0;
+// (the noise is known to this share of its mean square) ...
+constexpr double floor_doubt = 0.2;
 // ... or all but this part of what is left unexplained: what is unknown may favour either.
 constexpr double margin_of_leftover = 0.5;
 // ... or when the criterion does not prefer the effect by this much.
@@ -90,7 +94,8 @@ Verdict verdict_of(const Search& search) {
     named.fit = &search.augmented;
     named.without = &found.without;
     named.share_of_misfit = found.share_of_misfit;
-    const double margin = std::max(least_margin, margin_of_leftover * leftover / found.gain);
+    const double clear_of_noise = clear_factor * std::max(above_floor, floor_doubt * search.misfit.floor) / found.gain;
+    const double margin = std::max(std::min(least_margin, clear_of_noise), margin_of_leftover * leftover / found.gain);
     double best_share = 0.0;
     std::vector<const Rival*> as_good;
     for (const Rival& rival : found.rivals) {

@@ -28,6 +28,7 @@ struct Estimate {
   std::string unit;
   std::string meaning;
   std::optional<double> std_error;      // absent when the data do not determine it
+  std::optional<double> half_width;     // of the 95 % interval, at least 1.96 std_error; absent likewise
   std::optional<std::string> at_bound;  // "lower" or "upper": the node value that sits on the box
   bool identifiable = true;
   double lower;

@@ -435,19 +435,21 @@ void Objective::run_pack<Lanes>(const std::vector<double>& points, Rows rows, co
 
 // A sweep differentiates sweep_directions coordinates. The pairs of candidate and sweep are dealt to the lanes, so that
 // few candidates with many coordinates fill a pack too.
-template <>
-void Objective::run_pack<LaneDual>(const std::vector<double>& points, Rows rows, const Target& target,
-                                   double* sums) const {
+Objective::PackDerivatives Objective::differentiated(const std::vector<double>& points, Rows rows,
+                                                     const Target& target) const {
   const std::size_t d = layout_.dimension();
   const std::size_t count = rows.size();
   const std::size_t pairs = count * ((d + sweep_directions - 1) / sweep_directions);
   const std::size_t samples = target.force.size();
   const Lanes limit(1e12 * target.normaliser);
-  std::vector<Lanes> jacobian(samples * d);
-  std::vector<Lanes> residual(samples);
+  PackDerivatives result;
+  std::vector<Lanes>& jacobian = result.jacobian;
+  std::vector<Lanes>& residual = result.residual;
+  Lanes& squares = result.squares;
+  Lanes& alive = result.alive;
+  jacobian.resize(samples * d);
+  residual.resize(samples);
   std::vector<LaneDual> nodes(d);
-  Lanes squares;
-  Lanes alive;
   for (std::size_t first = 0; first < pairs; first += lane_count) {
     const auto pair = [&](std::size_t lane) { return std::min(first + lane, pairs - 1); };
     const auto low = [&](std::size_t lane) { return pair(lane) / count * sweep_directions; };
@@ -497,9 +499,17 @@ void Objective::run_pack<LaneDual>(const std::vector<double>& points, Rows rows,
           }
         });
   }
+  return result;
+}
+
+template <>
+void Objective::run_pack<LaneDual>(const std::vector<double>& points, Rows rows, const Target& target,
+                                   double* sums) const {
+  const std::size_t d = layout_.dimension();
+  const auto [jacobian, residual, squares, alive] = differentiated(points, rows, target);
   std::vector<Lanes> gradient(d);
   std::vector<Lanes> matrix(d * (d + 1) / 2);
-  for (std::size_t n = target.run_in; n < samples; ++n) {
+  for (std::size_t n = target.run_in; n < target.force.size(); ++n) {
     const Lanes* row = jacobian.data() + n * d;
     std::size_t at = 0;
     for (std::size_t a = 0; a < d; ++a) {
@@ -700,6 +710,28 @@ Response Objective::evaluate(const Request& request) const {
     }
   }
   return response;
+}
+
+std::vector<Linearised> Objective::linearised(const std::vector<double>& point) const {
+  const std::size_t d = layout_.dimension();
+  const std::array<std::size_t, 1> row = {0};
+  std::vector<Linearised> result(targets_.size());
+  const int threads = threads_ > 0 ? threads_ : omp_get_max_threads();
+#pragma omp parallel for schedule(dynamic) num_threads(threads)
+  for (std::size_t r = 0; r < targets_.size(); ++r) {
+    const Target& target = targets_[r];
+    const PackDerivatives pack = differentiated(point, row, target);
+    const double scale = std::sqrt(target.weight);
+    result[r].residual.resize(target.force.size());
+    result[r].jacobian.resize(target.force.size() * d);
+    for (std::size_t n = target.run_in; n < target.force.size(); ++n) {
+      result[r].residual[n] = scale * pack.residual[n].lane(0);
+      for (std::size_t c = 0; c < d; ++c) {
+        result[r].jacobian[n * d + c] = scale * pack.jacobian[n * d + c].lane(0);
+      }
+    }
+  }
+  return result;
 }
 
 std::vector<double> predict(const CompositeModel& model, const std::vector<double>& held,

@@ -49,6 +49,13 @@ struct Target {
 
 Target make_target(const Recording& recording, const ObjectiveOptions& options);
 
+// Of one candidate on a recording: weighted residuals, whose squares summed over all recordings are cost^2, and their
+// derivatives with respect to the unit coordinates, samples x dimension (row-major). Zero in the run-in.
+struct Linearised {
+  std::vector<double> residual;
+  std::vector<double> jacobian;
+};
+
 class Objective {
  public:
   Objective(const Layout& layout, const std::vector<Recording>& recordings, const ObjectiveOptions& options);
@@ -62,8 +69,20 @@ class Objective {
   void describe_data(Problem& problem) const;
   // Costs (and derivatives with respect to unit coordinates) of the request's points, or residuals of its window.
   [[nodiscard]] Response evaluate(const Request& request) const;
+  // One entry per recording.
+  [[nodiscard]] std::vector<Linearised> linearised(const std::vector<double>& point) const;
 
  private:
+  // Of every candidate of a pack at every sample of a target, unweighted.
+  struct PackDerivatives {
+    std::vector<Lanes> jacobian;  // samples x dimension
+    std::vector<Lanes> residual;
+    Lanes squares;
+    Lanes alive;  // samples that stayed finite
+  };
+
+  [[nodiscard]] PackDerivatives differentiated(const std::vector<double>& points, std::span<const std::size_t> rows,
+                                               const Target& target) const;
   template <class T>
   void run_pack(const std::vector<double>& points, std::span<const std::size_t> rows, const Target& target,
                 double* sums) const;

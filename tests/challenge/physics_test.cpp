@@ -244,6 +244,21 @@ TEST(Truth, CavitationLimitsOneSideAndDwells) {
   EXPECT_EQ(track.force[track.lead + static_cast<std::size_t>(0.38 * rate)], 0.0);
 }
 
+// The damper's spring slackens while the void closes: no pull comes back in the stroke that closed it.
+TEST(Truth, NoPullAfterTheVoidHasClosed) {
+  Physics p = bouc_wen();
+  p.cavitation = 700.0;
+  const Motioned test = sine(1e-2, 1.0, 3.0);
+  const Track track = simulate(p, test, rate);
+  bool dwelt = false;
+  for (std::size_t k = 1; k < track.force.size(); ++k) {
+    dwelt = track.v[k] > 0.0 && (dwelt || track.force[k] == 0.0);
+    if (dwelt) {
+      EXPECT_GE(track.force[k], -1e-6 * p.force_scale) << k;
+    }
+  }
+}
+
 TEST(Truth, HeatAndWearLowerTheForceMonotonically) {
   for (const bool heat : {true, false}) {
     Physics p = bouc_wen();

@@ -318,27 +318,56 @@ TEST(Effects, SizeActsAtFirstOrderWhereItVanishes) {
   }
 }
 
-TEST(Effects, CavitationLimitsOneSideAndDwells) {
+// Distance travelled up in one return stroke of a 1 Hz sine before the force builds up again.
+double dwell_of(const Motion& motion, const Vector& force, double least) {
+  double dwell = 0.0;
+  for (std::size_t n = 0; n < force.size(); ++n) {
+    const double t = motion.time[n];
+    if (t > 0.375 && t < 0.625 && motion.v[n] > 0.0 && std::fabs(force[n]) < least) {
+      dwell += motion.v[n] / 2000.0;
+    }
+  }
+  return dwell;
+}
+
+TEST(Effects, CavitationOfAViscousDamperLimitsOneSideAndDwells) {
   const CompositeModel model = make_model("viscous", {"cavitation"});
   const Motion motion = sine(2000.0, 1.0);
   const double c = 4000.0;
   const double limit = 400.0;
-  const Vector force = simulate(model, motion, with(model, {{"c0", c}, {"cavitation.kappa", 1.0 / limit}}));
+  const Vector force =
+      simulate(model, motion, with(model, {{"c0", c}, {"cavitation.kappa", 1.0 / limit}, {"cavitation.w", 1.0}}));
   // The void of one suction stroke: integral of |v| - limit / c while c |v| > limit.
   double opened = 0.0;
-  double dwell = 0.0;
   for (std::size_t n = 0; n < force.size(); ++n) {
-    const double t = motion.time[n];
     EXPECT_GE(force[n], -limit * (1.0 + 1e-9));
-    if (t > 0.125 && t < 0.375) {
+    if (motion.time[n] > 0.125 && motion.time[n] < 0.375) {
       opened += std::max(-motion.v[n] - limit / c, 0.0) / 2000.0;
-    }
-    if (t > 0.375 && t < 0.625 && c * motion.v[n] > 50.0 && std::fabs(force[n]) < 0.5 * c * motion.v[n]) {
-      dwell += motion.v[n] / 2000.0;
     }
   }
   ASSERT_GT(opened, 5e-3);
-  EXPECT_NEAR(dwell, opened, 2.5e-4);  // s_r = 0.1 mm
+  EXPECT_NEAR(dwell_of(motion, force, 50.0), opened, 2.5e-4);  // s_r = 0.1 mm
+}
+
+TEST(Effects, CavitationOfDryFrictionPartsTheWholeMotion) {
+  const CompositeModel model = make_model("bingham", {"cavitation"});
+  const Motion motion = sine(2000.0, 1.0);
+  const Vector force = simulate(
+      model, motion,
+      with(model, {{"fc", 600.0}, {"c0", 0.0}, {"f0", 0.0}, {"cavitation.kappa", 1.0 / 400.0}, {"cavitation.w", 0.0}}));
+  // The whole stroke down is void, so that the whole stroke up is dwell.
+  double stroke = 0.0;
+  for (std::size_t n = 0; n < force.size(); ++n) {
+    EXPECT_GE(force[n], -400.0 * (1.0 + 1e-9));
+    stroke = std::max(stroke, motion.x[n]);
+  }
+  double whole = 0.0;
+  for (std::size_t n = 0; n < force.size(); ++n) {
+    if (motion.v[n] > 0.0 && motion.time[n] > 0.75 && std::fabs(force[n]) < 50.0) {
+      whole += motion.v[n] / 2000.0;
+    }
+  }
+  EXPECT_NEAR(whole, stroke, 0.02 * stroke);
 }
 
 TEST(Effects, PinchingTakesTheMiddle) {

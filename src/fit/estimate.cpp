@@ -1,0 +1,176 @@
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "fit/identify.hpp"
+#include "fit/jackknife.hpp"
+
+namespace hysteron {
+namespace {
+
+constexpr double normal_quantile = 1.96;
+
+// Lag-1 correlation of the residuals, pooled: a coloured residual carries fewer independent samples than it has.
+double residual_correlation(const Objective& objective, const std::vector<Term>& terms) {
+  double product = 0.0;
+  double square = 0.0;
+  for (const Target& target : objective.targets()) {
+    const std::vector<double> force = predict(objective.layout().model(), objective.layout().held(), terms, target);
+    double before = 0.0;
+    for (std::size_t n = 0; n < force.size(); ++n) {
+      const double residual = (force[n] - target.force[n]) / target.normaliser;
+      product += n > 0 ? residual * before : 0.0;
+      square += residual * residual;
+      before = residual;
+    }
+  }
+  return square > 0.0 ? std::clamp(product / square, 0.0, 0.9999) : 0.0;
+}
+
+// Eigenvalues and vectors of the Gauss-Newton matrix of some coordinates, scaled to unit diagonal.
+struct CorrelationEigen {
+  Eigen::VectorXd norm;
+  Eigen::VectorXd values;
+  Eigen::MatrixXd vectors;
+
+  CorrelationEigen(const Eigen::Ref<const Eigen::MatrixXd>& full, const std::vector<Eigen::Index>& coordinates) {
+    const Eigen::MatrixXd some = full(coordinates, coordinates);
+    norm = some.diagonal().cwiseMax(1e-300).cwiseSqrt();
+    const Eigen::MatrixXd scaled = norm.cwiseInverse().asDiagonal() * some * norm.cwiseInverse().asDiagonal();
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scaled);
+    values = solver.eigenvalues();
+    vectors = solver.eigenvectors();
+  }
+  // The data say nothing of this direction.
+  [[nodiscard]] bool open(Eigen::Index direction) const { return values[direction] <= 1e-9; }
+};
+
+}  // namespace
+
+// Standard errors and 95 % intervals: the widest of the following and of what the jackknife says.
+// From the Gauss-Newton matrix at the optimum, free coordinates only, with the effective sample size
+// N (1 - r) / (1 + r) of residuals whose lag-1 correlation is r. Directions the data leave open make the parameters
+// in them unidentifiable; they are looked for among all coordinates, since a parameter whose partner in a redundant
+// pair sits on a bound is no better determined.
+void estimate(Identification& result, const Objective& objective, const std::vector<double>& u, DriveKind drive_kind) {
+  const Layout& layout = result.layout;
+  const auto d = static_cast<Eigen::Index>(layout.dimension());
+  Request request{u, true};
+  const Response response = objective.evaluate(request);
+  const Eigen::Map<const Eigen::MatrixXd> full(response.gauss_newton.data(), d, d);
+  std::vector<Eigen::Index> free;
+  for (Eigen::Index k = 0; k < d; ++k) {
+    const double position = u[static_cast<std::size_t>(k)];
+    if (position > 1e-6 && position < 1.0 - 1e-6) {
+      free.push_back(k);
+    }
+  }
+  const auto m = static_cast<Eigen::Index>(free.size());
+  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(d, d);
+  std::vector<bool> open(static_cast<std::size_t>(d), false);
+  std::vector<Eigen::Index> every(static_cast<std::size_t>(d));
+  std::iota(every.begin(), every.end(), Eigen::Index{0});
+  const CorrelationEigen all(full, every);
+  for (Eigen::Index e = 0; e < d; ++e) {
+    for (Eigen::Index i = 0; i < d && all.open(e); ++i) {
+      if (std::fabs(all.vectors(i, e)) > 0.1) {
+        open[static_cast<std::size_t>(i)] = true;
+      }
+    }
+  }
+  if (m > 0) {
+    const CorrelationEigen eigen(full, free);
+    const double r = residual_correlation(objective, result.terms);
+    const double samples = static_cast<double>(objective.samples()) * (1.0 - r) / (1.0 + r);
+    const double variance = response.cost[0] * response.cost[0] / std::max(samples - static_cast<double>(m), 1.0);
+    Eigen::MatrixXd inverse = Eigen::MatrixXd::Zero(m, m);
+    for (Eigen::Index e = 0; e < m; ++e) {
+      if (!eigen.open(e)) {
+        inverse += eigen.vectors.col(e) * eigen.vectors.col(e).transpose() / eigen.values[e];
+      }
+    }
+    for (Eigen::Index i = 0; i < m; ++i) {
+      const auto a = free[static_cast<std::size_t>(i)];
+      for (Eigen::Index j = 0; j < m; ++j) {
+        covariance(a, free[static_cast<std::size_t>(j)]) = variance * inverse(i, j) / (eigen.norm[i] * eigen.norm[j]);
+      }
+      // An interval as wide as the box says nothing.
+      if (eigen.norm[i] <= 1e-150 || 4.0 * std::sqrt(covariance(a, a)) > 1.0) {
+        open[static_cast<std::size_t>(a)] = true;
+      }
+    }
+  }
+  Eigen::MatrixXd to_terms(d, d);
+  const std::vector<double> matrix = layout.term_matrix();
+  for (Eigen::Index t = 0; t < d; ++t) {
+    for (Eigen::Index c = 0; c < d; ++c) {
+      to_terms(t, c) = matrix[static_cast<std::size_t>(t * d + c)] *
+                       layout.slope(static_cast<std::size_t>(c), u[static_cast<std::size_t>(c)]);
+    }
+  }
+  const Eigen::MatrixXd term_covariance = to_terms * covariance * to_terms.transpose();
+  Eigen::VectorXd std_error = term_covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
+  Eigen::VectorXd half_width = normal_quantile * std_error;
+  if (m > 0 && response.cost[0] < diverged_cost) {
+    const Eigen::MatrixXd free_to_terms = to_terms(Eigen::all, free);
+    const auto deviation = [&](const Spread& spread) -> Eigen::VectorXd {
+      return (free_to_terms * spread.covariance * free_to_terms.transpose()).diagonal().cwiseMax(0.0).cwiseSqrt();
+    };
+    const Jackknife spreads = jackknife(objective.linearised(u), free, layout.dimension());
+    std_error = std_error.cwiseMax(deviation(spreads.stretches));
+    half_width = half_width.cwiseMax(spreads.stretches.quantile * deviation(spreads.stretches));
+    // Few recordings tell their own spread badly, which the wide quantile allows for and a standard error cannot.
+    if (spreads.recordings) {
+      half_width = half_width.cwiseMax(spreads.recordings->quantile * deviation(*spreads.recordings));
+    }
+  }
+  for (const ParameterLaw& law : layout.laws()) {
+    const std::size_t count = law.drive_nodes.size() * law.frequency_nodes.size();
+    bool law_open = false;
+    bool law_free = false;
+    std::optional<std::string> bound;
+    for (std::size_t k = 0; k < count; ++k) {
+      const double position = u[law.first + k];
+      law_open = law_open || open[law.first + k];
+      if (position <= 1e-6 || position >= 1.0 - 1e-6) {
+        bound = position < 0.5 ? "lower" : "upper";
+      } else {
+        law_free = true;
+      }
+    }
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::size_t t = law.first + k;
+      const Term& term = result.terms[t];
+      const Parameter& card = layout.cards()[law.parameter];
+      Estimate estimate;
+      estimate.term = term;
+      estimate.name = term_name(layout.names()[law.parameter], term.drive_power, term.frequency_power);
+      estimate.unit = std::string(card.unit);
+      for (int power = 0; power < term.drive_power; ++power) {
+        estimate.unit += drive_kind == DriveKind::voltage ? "/V" : "/A";
+      }
+      for (int power = 0; power < term.frequency_power; ++power) {
+        estimate.unit += "/Hz";
+      }
+      estimate.meaning = std::string(card.meaning);
+      estimate.lower = card.lower;
+      estimate.upper = card.upper;
+      estimate.at_bound = bound;
+      estimate.identifiable = !law_open;
+      const auto row = static_cast<Eigen::Index>(t);
+      // A term all of whose nodes sit on bounds has no error to state, not the error zero.
+      bool determined = false;
+      for (const Eigen::Index c : free) {
+        determined = determined || to_terms(row, c) != 0.0;
+      }
+      if (!law_open && law_free && determined) {
+        estimate.std_error = std_error[row];
+        estimate.half_width = half_width[row];
+      }
+      result.estimates.push_back(std::move(estimate));
+    }
+  }
+}
+
+}  // namespace hysteron

@@ -1,0 +1,192 @@
+#include "challenge/hide.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+
+#include "challenge/hide_run.hpp"
+#include "core/error.hpp"
+#include "io/campaign.hpp"
+#include "io/file.hpp"
+#include "io/output.hpp"
+
+namespace hysteron::challenge {
+namespace {
+
+constexpr double amplitude = 0.01;
+
+Recording sine(const std::string& file, double frequency, double current) {
+  Recording recording;
+  recording.file = file;
+  recording.sha256 = std::string(64, file.back());
+  const double w = 2.0 * std::numbers::pi * frequency;
+  for (int n = 0; n < 1500; ++n) {
+    const double t = n * 1e-3;
+    recording.time.push_back(t);
+    recording.displacement.push_back(amplitude * std::sin(w * t));
+    recording.velocity.push_back(amplitude * w * std::cos(w * t));
+    recording.force.push_back(1000.0 * std::cos(w * t) + 300.0 * std::sin(w * t));
+    recording.drive.push_back(current);
+  }
+  recording.drive_kind = DriveKind::current;
+  return recording;
+}
+
+std::vector<Recording> two() { return {sine("a", 2.0, 0.5), sine("b", 4.0, 1.0)}; }
+
+double value_of(const Altered& altered, const std::string& name) {
+  for (const HiddenParameter& p : altered.parameters) {
+    if (p.name == name) return p.value;
+  }
+  ADD_FAILURE() << name;
+  return 0.0;
+}
+
+TEST(Hide, ForcesAreThoseOfTheEquations) {
+  const std::vector<Recording> plain = two();
+  for (const std::string_view id : hideable()) {
+    Draws draws(Stream(3), id);
+    const Altered altered = alter(plain, std::string(id), draws);
+    double change = 0.0;
+    double force = 0.0;
+    for (std::size_t r = 0; r < plain.size(); ++r) {
+      const double w = 2.0 * std::numbers::pi * (r == 0 ? 2.0 : 4.0);
+      ASSERT_EQ(altered.recordings[r].size(), plain[r].size());
+      for (std::size_t n = 100; n + 100 < plain[r].size(); ++n) {  // derivatives at the ends are less exact
+        const double t = plain[r].time[n];
+        const double x = plain[r].displacement[n];
+        const double more = altered.recordings[r].force[n] - plain[r].force[n];
+        const double moved = altered.recordings[r].displacement[n] - x;
+        change += more * more;
+        force += plain[r].force[n] * plain[r].force[n];
+        if (id == "inertia") {
+          EXPECT_NEAR(more, -value_of(altered, "m") * w * w * x, 2.0);
+        }
+        if (id == "force-drift") {
+          EXPECT_NEAR(more, value_of(altered, "r") * t, 1e-9);
+        }
+        if (id == "cubic-stiffness") {
+          EXPECT_NEAR(more, value_of(altered, "k3") * x * x * x, 1e-6);
+        }
+        if (id == "compliance") {
+          EXPECT_NEAR(moved, value_of(altered, "C") * plain[r].force[n], 1e-12);
+        }
+        if (id == "clearance") {
+          EXPECT_LE(std::fabs(moved), 0.5 * value_of(altered, "gap") * (1.0 + 1e-12));
+        }
+        if (id == "sensor-delay") {
+          const double late = w * (t - value_of(altered, "lag"));
+          EXPECT_NEAR(altered.recordings[r].force[n], 1000.0 * std::cos(late) + 300.0 * std::sin(late), 1.0);
+        }
+      }
+    }
+    EXPECT_GE(altered.share, 0.1);
+    EXPECT_LE(altered.share, 0.3);
+    if (id != "compliance" && id != "clearance") {
+      EXPECT_NEAR(std::sqrt(change / force), altered.share, 0.15 * altered.share) << id;
+    }
+  }
+}
+
+TEST(Hide, PlacebosPutChannelsInDisorder) {
+  const std::vector<Recording> plain = two();
+  Draws draws(Stream(3), "placebo");
+  const Altered flipped = alter(plain, "flipped-velocity", draws);
+  const Altered swapped = alter(plain, "swapped-forces", draws);
+  EXPECT_NEAR(flipped.recordings[0].velocity[700], -plain[0].velocity[700], 1e-4);
+  EXPECT_EQ(swapped.recordings[0].force, plain[1].force);
+  std::vector<Recording> stepped = plain;
+  for (std::size_t n = 0; n < stepped[0].size(); ++n) stepped[0].drive[n] = n < 700 ? 0.2 : 1.4;
+  const Altered shuffled = alter(stepped, "shuffled-drive", draws);
+  EXPECT_NE(shuffled.recordings[0].drive, stepped[0].drive);
+  std::vector<double> sorted = shuffled.recordings[0].drive;
+  std::ranges::sort(sorted);
+  EXPECT_EQ(sorted, stepped[0].drive);
+  EXPECT_THROW(alter(plain, "magic", draws), InputError);
+}
+
+class HideRun : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    std::filesystem::remove_all(out_);
+    std::filesystem::create_directories(out_);
+  }
+  void TearDown() override { std::filesystem::remove_all(out_); }
+
+  Campaign campaign() const {
+    Campaign result;
+    result.recordings = two();
+    result.roles.assign(2, Role::unassigned);
+    result.model = "bingham";
+    result.by_current = {{"fc", 1}};
+    return result;
+  }
+  void diagnosed(const std::string& name, const std::string& verdict, const std::vector<std::string>& effects) const {
+    nlohmann::json diagnosis = {{"verdict", verdict},
+                                {"baseline", {{"nrmse_heldout", 0.1}}},
+                                {"augmented", {{"nrmse_heldout", 0.05}}},
+                                {"effects", nlohmann::json::array()}};
+    for (const std::string& id : effects) {
+      nlohmann::json others = nlohmann::json::array();
+      if (verdict == "ambiguous") others.push_back("something");
+      diagnosis["effects"].push_back({{"id", id},
+                                      {"indistinguishable_from", others},
+                                      {"parameters", {{{"name", "m"}, {"value", 2.0}, {"ci95", {1.0, 3.0}}}}}});
+    }
+    std::filesystem::create_directories(out_ / "diagnoses" / name);
+    write_file_atomically(out_ / "diagnoses" / name / "diagnosis.json", diagnosis.dump());
+  }
+
+  std::filesystem::path out_ = std::filesystem::temp_directory_path() / "hysteron_hide_test";
+};
+
+TEST_F(HideRun, WritesCampaignsThatDoNotTellAndScoresThem) {
+  const std::vector<std::string> ids = {"inertia", "swapped-forces"};
+  const std::string hash = hide_all(out_, campaign(), ids, 7);
+  EXPECT_EQ(hide_all(out_, campaign(), ids, 7), hash);
+  EXPECT_THROW(hide_all(out_, campaign(), ids, 8), InputError);
+  for (const char* name : {"campaign-0000", "campaign-0001", "campaign-0002"}) {
+    const Campaign read = load_campaign({(out_ / name).string()});
+    ASSERT_EQ(read.recordings.size(), 2U);
+    EXPECT_EQ(read.model, "bingham");
+    EXPECT_EQ(read.by_current.at("fc"), 1);
+    EXPECT_EQ(read_file(out_ / name / "campaign.toml").find("inertia"), std::string::npos);
+  }
+  const nlohmann::json answers = nlohmann::json::parse(read_file(out_ / "answers.sealed")).at("campaigns");
+  std::string inertia;
+  std::string placebo;
+  for (const nlohmann::json& answer : answers) {
+    (answer.at("hidden") == "inertia" ? inertia : placebo) = answer.at("campaign");
+  }
+  struct Case {
+    std::vector<std::string> plain, named, of_placebo;
+    const char* verdict;
+    const char* outcome;
+    const char* placebo_outcome;
+  };
+  const Case cases[] = {
+      {{}, {"inertia"}, {}, "missing-physics", "found", "refused"},
+      {{}, {"inertia"}, {"inertia"}, "missing-physics", "found", "wrong"},
+      {{"compliance"}, {"compliance"}, {"compliance"}, "missing-physics", "not found", "refused"},
+      {{}, {"compliance"}, {}, "missing-physics", "wrong", "refused"},
+      {{}, {"inertia", "sensor-delay"}, {}, "ambiguous", "in a set", "refused"},
+      {{}, {}, {}, "unattributed", "not found", "refused"},
+  };
+  for (const Case& one : cases) {
+    diagnosed("campaign-0000", "missing-physics", one.plain);
+    diagnosed(inertia, one.verdict, one.named);
+    diagnosed(placebo, one.of_placebo.empty() ? "unattributed" : "missing-physics", one.of_placebo);
+    const nlohmann::json result = score_hidden(out_, hash);
+    EXPECT_EQ(result.at("campaigns")[0].at("hidden"), "inertia");
+    EXPECT_EQ(result.at("campaigns")[0].at("outcome"), one.outcome);
+    EXPECT_EQ(result.at("campaigns")[1].at("outcome"), one.placebo_outcome);
+  }
+  std::filesystem::remove_all(out_ / "diagnoses" / inertia);
+  EXPECT_EQ(score_hidden(out_, hash).at("campaigns")[0].at("outcome"), "failed");
+}
+
+}  // namespace
+}  // namespace hysteron::challenge
