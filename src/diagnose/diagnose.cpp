@@ -195,7 +195,7 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const DiagnoseOpti
     diagnosis.notes.push_back(
         "effects that improved the fit made the prediction of the held-out recordings worse and were dropped");
   }
-  diagnosis.verdict = verdict_of(diagnosis.search);
+  diagnosis.verdict = verdict_of(diagnosis.search, velocity_channel_lag(diagnosis.bench.split().fit));
 
   double floor = 0.0;
   std::set<std::string> methods;

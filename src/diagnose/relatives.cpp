@@ -34,10 +34,8 @@ std::vector<std::string> relatives(const std::string& id) {
 
 bool is_limit(const std::string& effect, const std::string& wider) {
   static const std::vector<std::pair<std::string, std::string>> limits = {
-      {"offset-force", "gas-spring"},
-      {"linear-stiffness", "gas-spring"},
-      {"coulomb-friction", "seal-friction"},
-      {"compliance", "entrapped-gas"},
+      {"offset-force", "gas-spring"},  {"linear-stiffness", "gas-spring"}, {"coulomb-friction", "seal-friction"},
+      {"compliance", "entrapped-gas"}, {"compliance", "clearance"},        {"cubic-stiffness", "end-stop"},
   };
   return std::ranges::find(limits, std::pair{effect, wider}) != limits.end();
 }

@@ -25,6 +25,10 @@ constexpr double least_evidence = 10.0;
 // is structure, because the cause of that may be the cause of all.
 constexpr double least_gain_over_leftover = 1.0;
 constexpr double least_gain_over_structure = 3.0;
+// Where this many times the noise stays, the cause of what stays may be the cause of all, unless the effect explains
+// this many times as much.
+constexpr double far_from_noise = 6.0;
+constexpr double dominant = 10.0;
 // A gain below this share of the squared error must show in the judging recordings too, by this part of it.
 constexpr double plain_gain = 0.3;
 constexpr double confirmed_part = 0.25;
@@ -35,6 +39,8 @@ constexpr double doubtful_share = 0.2;
 // A further effect must explain this part of what the strongest does: the equations of that one are not exact, and what
 // they miss looks like an effect of its own.
 constexpr double least_share_of_strongest = 0.08;
+// A fitted lag of the velocity channel and the one between the channels agree within this share.
+constexpr double channel_agreement = 0.25;
 // Another damper law does as well when its squared error is within this factor of the augmented model's.
 constexpr double law_factor = 1.1;
 
@@ -43,6 +49,20 @@ bool confirmed(const Found& found, const Fit& augmented) {
   const double fit = 1.0 - squared(augmented.cost / found.without.cost);
   const double heldout = 1.0 - squared(augmented.heldout / found.without.heldout);
   return fit > plain_gain ? heldout > -0.01 : heldout > confirmed_part * fit;
+}
+
+// Whether the lag of the velocity channel that a fit found is the one that the channels show.
+bool as_channels_show(const Fit& fit, const std::optional<ChannelLag>& channel) {
+  const std::vector<std::string>& names = fit.layout->names();
+  const auto at = std::ranges::find(names, "velocity-lag.lag");
+  if (!channel || at == names.end()) {
+    return false;
+  }
+  const double lag =
+      parameters_at(fit.layout->held(), fit.terms, 0.0, 0.0)[static_cast<std::size_t>(at - names.begin())];
+  // The effect's lag is of the velocity that acts behind the recorded one.
+  return std::fabs(lag + channel->lag) <
+         std::max(channel_agreement * std::fabs(channel->lag), 3.0 * channel->std_error);
 }
 
 // A parameter that follows the drive in the base model: more curvature of it is what saturation is.
@@ -54,7 +74,7 @@ bool follows_drive(const Layout& layout, const std::string& parameter) {
 
 }  // namespace
 
-Verdict verdict_of(const Search& search) {
+Verdict verdict_of(const Search& search, const std::optional<ChannelLag>& channel) {
   Verdict verdict;
   verdict.remaining_structure = structured(search.misfit);
   // Coloured noise and structure that no motion variable tells look alike: part of what exceeds the white noise counts
@@ -63,8 +83,9 @@ Verdict verdict_of(const Search& search) {
   const double doubtful = doubtful_share * (search.misfit.squares - search.misfit.white);
   const double above_floor = search.misfit.squares - search.misfit.floor;
   const double leftover = std::max({surely, doubtful, above_floor});
-  const double wanted =
-      std::max({least_gain_over_structure * surely, doubtful, least_gain_over_leftover * above_floor});
+  const bool far = search.misfit.squares > far_from_noise * search.misfit.floor;
+  const double wanted = std::max(
+      {least_gain_over_structure * surely, doubtful, (far ? dominant : least_gain_over_leftover) * above_floor});
   if (search.found.empty()) {
     const bool laws = !search.richer.empty() && squared(search.augmented.cost / search.base.cost) < 1.0 - shown_gain &&
                       search.augmented.heldout < search.base.heldout;
@@ -104,6 +125,14 @@ Verdict verdict_of(const Search& search) {
       if (is_limit(found.id, rival.id) && rival.evidence > 0.0) {
         continue;
       }
+      // The channels tell a lag of one of them from a delay of the force.
+      if (rival.id == "velocity-lag" && !as_channels_show(rival.fit, channel)) {
+        continue;
+      }
+      if (found.id == "velocity-lag" && (rival.id == "sensor-delay" || rival.id == "inertia") &&
+          as_channels_show(search.augmented, channel)) {
+        continue;
+      }
       if (rival.share > 1.0 - margin || rival.evidence < least_evidence) {
         if (is_law(rival.id)) {
           if (found.id == "magnetic-saturation" && follows_drive(*search.base.layout, rival.id.substr(4))) {
@@ -117,6 +146,13 @@ Verdict verdict_of(const Search& search) {
       } else {
         best_share = std::max(best_share, rival.share);
       }
+    }
+    const auto shown_by_channels = std::ranges::find(as_good, "velocity-lag", [](const Rival* r) { return r->id; });
+    if (shown_by_channels != as_good.end() && (found.id == "sensor-delay" || found.id == "inertia")) {
+      named.id = "velocity-lag";
+      named.fit = &(*shown_by_channels)->fit;
+      named.indistinguishable_from.clear();
+      as_good.clear();
     }
     const bool alone = named.indistinguishable_from.empty() && named.laws_as_good.empty();
     const double clear = (1.0 - best_share) / margin;

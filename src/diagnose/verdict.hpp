@@ -1,9 +1,11 @@
 // What the evidence allows to say, and never more.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "diagnose/observe.hpp"
 #include "diagnose/search.hpp"
 
 namespace hysteron {
@@ -26,8 +28,8 @@ struct Verdict {
   std::string reason;  // why nothing, or not more, was named; may be empty
 };
 
-// Pointers refer into `search`.
-Verdict verdict_of(const Search& search);
+// Pointers refer into `search`. `channel`: what displacement and velocity tell of a lag between them, without a model.
+Verdict verdict_of(const Search& search, const std::optional<ChannelLag>& channel);
 
 // The recording that would separate an effect from its relatives.
 std::string next_experiment(const std::vector<std::string>& candidates);
