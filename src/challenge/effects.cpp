@@ -462,7 +462,7 @@ std::vector<HiddenEffect> make() {
        1.0,
        [](P& p, const D&, double s, Draws) { p.velocity_lag = 0.02 * s; },
        [](const P& p) -> Truths {
-         return {{"lag", -p.velocity_lag, "s"}};
+         return {{"lag", p.velocity_lag, "s"}};
        }});
   add({"force-drift",
        Group::slow,

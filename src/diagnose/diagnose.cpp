@@ -17,9 +17,6 @@ namespace {
 // What hypotheses are compared on.
 constexpr std::size_t quick_samples = 4000;
 constexpr std::size_t quick_recordings = 8;
-// Yield displacements below this part of the half stroke are travelled between two samples: they cost much and tell
-// nothing of what is missing.
-constexpr double least_yield = 0.004;
 // Effects that make the prediction of the judging recordings worse than this are no answer.
 constexpr double most_loss = 1.01;
 // What the base and the augmented model are then fitted on; every sample is predicted in the end.
@@ -138,10 +135,6 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const DiagnoseOpti
     }
   }
   const DataScale scale = scale_of(campaign.recordings);
-  const std::vector<std::string> names = make_model(options.model, {}).parameter_names();
-  if (std::ranges::find(names, "x_y") != names.end()) {
-    layout.bounds.try_emplace("x_y", least_yield * scale.length, scale.length);
-  }
   ObjectiveOptions objective = options.objective;
   objective.skip_run_in = true;
   Workbench bench(scale, split_of(campaign), layout, objective, options.seed, options.stopped);
@@ -195,7 +188,9 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const DiagnoseOpti
     diagnosis.notes.push_back(
         "effects that improved the fit made the prediction of the held-out recordings worse and were dropped");
   }
-  diagnosis.verdict = verdict_of(diagnosis.search, velocity_channel_lag(diagnosis.bench.split().fit));
+  diagnosis.verdict = verdict_of(
+      diagnosis.search, {[&](const Fit& fit, const std::string& effect) { return intervals_of(fine, fit, effect); },
+                         velocity_channel_lag(diagnosis.bench.split().fit)});
 
   double floor = 0.0;
   std::set<std::string> methods;

@@ -21,13 +21,6 @@ struct DiagnoseOptions {
   std::function<bool()> stopped = [] { return false; };
 };
 
-struct ParameterInterval {
-  std::string name;
-  std::string unit;
-  double value = 0.0;
-  std::optional<double> half_width;  // of the 95 % interval
-};
-
 struct Rejected {
   std::string id;
   std::string reason;

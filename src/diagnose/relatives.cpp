@@ -1,6 +1,8 @@
 #include "diagnose/relatives.hpp"
 
 #include <algorithm>
+#include <array>
+#include <string_view>
 
 namespace hysteron {
 
@@ -32,12 +34,34 @@ std::vector<std::string> relatives(const std::string& id) {
   return result;
 }
 
-bool is_limit(const std::string& effect, const std::string& wider) {
-  static const std::vector<std::pair<std::string, std::string>> limits = {
-      {"offset-force", "gas-spring"},  {"linear-stiffness", "gas-spring"}, {"coulomb-friction", "seal-friction"},
-      {"compliance", "entrapped-gas"}, {"compliance", "clearance"},        {"cubic-stiffness", "end-stop"},
-  };
-  return std::ranges::find(limits, std::pair{effect, wider}) != limits.end();
+namespace {
+
+struct Limit {
+  std::string_view effect;
+  std::string_view wider;
+  std::string_view parameter;
+};
+
+constexpr std::array<Limit, 6> limits = {{{"offset-force", "gas-spring", "g"},
+                                          {"linear-stiffness", "gas-spring", ""},
+                                          {"coulomb-friction", "seal-friction", "fb"},
+                                          {"compliance", "entrapped-gas", ""},
+                                          {"compliance", "clearance", "gap"},
+                                          {"cubic-stiffness", "end-stop", "x_up"}}};
+
+const Limit* find_limit(const std::string& effect, const std::string& wider) {
+  const auto* at =
+      std::ranges::find_if(limits, [&](const Limit& row) { return row.effect == effect && row.wider == wider; });
+  return at == limits.end() ? nullptr : at;
+}
+
+}  // namespace
+
+bool is_limit(const std::string& effect, const std::string& wider) { return find_limit(effect, wider) != nullptr; }
+
+std::string limit_parameter(const std::string& effect, const std::string& wider) {
+  const Limit* limit = find_limit(effect, wider);
+  return limit == nullptr ? std::string{} : std::string(limit->parameter);
 }
 
 }  // namespace hysteron

@@ -12,5 +12,7 @@ std::vector<std::string> relatives(const std::string& id);
 
 // Whether `wider` with further parameters at a limit is `effect` itself, in every motion.
 bool is_limit(const std::string& effect, const std::string& wider);
+// The parameter of `wider` that is zero at that limit; empty where none is, or where it is no limit.
+std::string limit_parameter(const std::string& effect, const std::string& wider);
 
 }  // namespace hysteron

@@ -26,9 +26,10 @@ constexpr double least_evidence = 10.0;
 constexpr double least_gain_over_leftover = 1.0;
 constexpr double least_gain_over_structure = 3.0;
 // Where this many times the noise stays, the cause of what stays may be the cause of all, unless the effect explains
-// this many times as much.
+// this many times as much, or has the same size in all recordings within this share.
 constexpr double far_from_noise = 6.0;
 constexpr double dominant = 10.0;
+constexpr double steady_share = 0.2;
 // A gain below this share of the squared error must show in the judging recordings too, by this part of it.
 constexpr double plain_gain = 0.3;
 constexpr double confirmed_part = 0.25;
@@ -52,17 +53,29 @@ bool confirmed(const Found& found, const Fit& augmented) {
 }
 
 // Whether the lag of the velocity channel that a fit found is the one that the channels show.
-bool as_channels_show(const Fit& fit, const std::optional<ChannelLag>& channel) {
-  const std::vector<std::string>& names = fit.layout->names();
-  const auto at = std::ranges::find(names, "velocity-lag.lag");
-  if (!channel || at == names.end()) {
+bool as_channels_show(const Fit& fit, const Circumstances& known) {
+  if (!known.channel) {
     return false;
   }
-  const double lag =
-      parameters_at(fit.layout->held(), fit.terms, 0.0, 0.0)[static_cast<std::size_t>(at - names.begin())];
-  // The effect's lag is of the velocity that acts behind the recorded one.
-  return std::fabs(lag + channel->lag) <
-         std::max(channel_agreement * std::fabs(channel->lag), 3.0 * channel->std_error);
+  const double error = std::fabs(known.intervals(fit, "velocity-lag").front().value - known.channel->lag);
+  return error < std::max(channel_agreement * std::fabs(known.channel->lag), 3.0 * known.channel->std_error);
+}
+
+// Whether the parameter by which a wider form differs from its limit is surely not at the limit.
+bool stands_apart(const Fit& fit, const std::string& wider, const std::string& parameter, const Circumstances& known) {
+  if (parameter.empty()) {
+    return true;
+  }
+  const std::vector<ParameterInterval> intervals = known.intervals(fit, wider);
+  const auto at = std::ranges::find(intervals, parameter, &ParameterInterval::name);
+  return at != intervals.end() && at->half_width && std::fabs(at->value) > *at->half_width;
+}
+
+// Whether the effect's size, its first parameter, is much the same whichever recordings it is taken from.
+bool steady(const Fit& fit, const std::string& effect, const Circumstances& known) {
+  const std::vector<ParameterInterval> intervals = known.intervals(fit, effect);
+  return !intervals.empty() && intervals.front().half_width &&
+         *intervals.front().half_width < steady_share * std::fabs(intervals.front().value);
 }
 
 // A parameter that follows the drive in the base model: more curvature of it is what saturation is.
@@ -74,7 +87,7 @@ bool follows_drive(const Layout& layout, const std::string& parameter) {
 
 }  // namespace
 
-Verdict verdict_of(const Search& search, const std::optional<ChannelLag>& channel) {
+Verdict verdict_of(const Search& search, const Circumstances& known) {
   Verdict verdict;
   verdict.remaining_structure = structured(search.misfit);
   // Coloured noise and structure that no motion variable tells look alike: part of what exceeds the white noise counts
@@ -84,8 +97,8 @@ Verdict verdict_of(const Search& search, const std::optional<ChannelLag>& channe
   const double above_floor = search.misfit.squares - search.misfit.floor;
   const double leftover = std::max({surely, doubtful, above_floor});
   const bool far = search.misfit.squares > far_from_noise * search.misfit.floor;
-  const double wanted = std::max(
-      {least_gain_over_structure * surely, doubtful, (far ? dominant : least_gain_over_leftover) * above_floor});
+  const double wanted =
+      std::max({least_gain_over_structure * surely, doubtful, least_gain_over_leftover * above_floor});
   if (search.found.empty()) {
     const bool laws = !search.richer.empty() && squared(search.augmented.cost / search.base.cost) < 1.0 - shown_gain &&
                       search.augmented.heldout < search.base.heldout;
@@ -110,6 +123,9 @@ Verdict verdict_of(const Search& search, const std::optional<ChannelLag>& channe
         !confirmed(found, search.augmented)) {
       continue;
     }
+    if (far && found.gain < dominant * above_floor && !steady(search.augmented, found.id, known)) {
+      continue;
+    }
     Named named;
     named.id = found.id;
     named.fit = &search.augmented;
@@ -119,21 +135,32 @@ Verdict verdict_of(const Search& search, const std::optional<ChannelLag>& channe
     const double margin = std::max(std::min(least_margin, clear_of_noise), margin_of_leftover * leftover / found.gain);
     double best_share = 0.0;
     std::vector<const Rival*> as_good;
+    const Rival* instead = nullptr;  // to be named in place of the effect
     for (const Rival& rival : found.rivals) {
+      const bool close = rival.share > 1.0 - margin || rival.evidence < least_evidence;
       // What holds the effect as a limit always explains as much; only more than its further parameters are worth
       // counts.
-      if (is_limit(found.id, rival.id) && rival.evidence > 0.0) {
+      if (is_limit(found.id, rival.id) &&
+          (rival.evidence > 0.0 ||
+           (close && !stands_apart(rival.fit, rival.id, limit_parameter(found.id, rival.id), known)))) {
+        continue;
+      }
+      if (close && is_limit(rival.id, found.id) &&
+          !stands_apart(search.augmented, found.id, limit_parameter(rival.id, found.id), known)) {
+        instead = &rival;
         continue;
       }
       // The channels tell a lag of one of them from a delay of the force.
-      if (rival.id == "velocity-lag" && !as_channels_show(rival.fit, channel)) {
+      const bool force_is_late = found.id == "sensor-delay" || found.id == "inertia";
+      if (close && rival.id == "velocity-lag" && force_is_late) {
+        instead = as_channels_show(rival.fit, known) ? &rival : instead;
         continue;
       }
-      if (found.id == "velocity-lag" && (rival.id == "sensor-delay" || rival.id == "inertia") &&
-          as_channels_show(search.augmented, channel)) {
+      if (close && found.id == "velocity-lag" && (rival.id == "sensor-delay" || rival.id == "inertia") &&
+          as_channels_show(search.augmented, known)) {
         continue;
       }
-      if (rival.share > 1.0 - margin || rival.evidence < least_evidence) {
+      if (close) {
         if (is_law(rival.id)) {
           if (found.id == "magnetic-saturation" && follows_drive(*search.base.layout, rival.id.substr(4))) {
             continue;
@@ -147,12 +174,10 @@ Verdict verdict_of(const Search& search, const std::optional<ChannelLag>& channe
         best_share = std::max(best_share, rival.share);
       }
     }
-    const auto shown_by_channels = std::ranges::find(as_good, "velocity-lag", [](const Rival* r) { return r->id; });
-    if (shown_by_channels != as_good.end() && (found.id == "sensor-delay" || found.id == "inertia")) {
-      named.id = "velocity-lag";
-      named.fit = &(*shown_by_channels)->fit;
-      named.indistinguishable_from.clear();
-      as_good.clear();
+    if (instead != nullptr) {
+      named.id = instead->id;
+      named.fit = &instead->fit;
+      named.share_of_misfit *= std::min(1.0, instead->share);
     }
     const bool alone = named.indistinguishable_from.empty() && named.laws_as_good.empty();
     const double clear = (1.0 - best_share) / margin;
@@ -168,7 +193,7 @@ Verdict verdict_of(const Search& search, const std::optional<ChannelLag>& channe
         other.id = rival->id;
         other.fit = &rival->fit;
         std::erase(other.indistinguishable_from, rival->id);
-        other.indistinguishable_from.insert(other.indistinguishable_from.begin(), found.id);
+        other.indistinguishable_from.insert(other.indistinguishable_from.begin(), named.id);
         other.share_of_misfit = named.share_of_misfit * std::min(1.0, rival->share);
         verdict.effects.push_back(other);
       }

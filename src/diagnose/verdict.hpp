@@ -1,6 +1,7 @@
 // What the evidence allows to say, and never more.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -28,8 +29,23 @@ struct Verdict {
   std::string reason;  // why nothing, or not more, was named; may be empty
 };
 
-// Pointers refer into `search`. `channel`: what displacement and velocity tell of a lag between them, without a model.
-Verdict verdict_of(const Search& search, const std::optional<ChannelLag>& channel);
+struct ParameterInterval {
+  std::string name;
+  std::string unit;
+  double value = 0.0;
+  std::optional<double> half_width;  // of the 95 % interval; absent on a bound and where the data do not tell it
+};
+
+// What is known beside the errors of the fits.
+struct Circumstances {
+  // Of an effect's parameters in a fit, in the order of its card.
+  std::function<std::vector<ParameterInterval>(const Fit& fit, const std::string& effect)> intervals;
+  // What displacement and velocity tell of a lag between them, without a model.
+  std::optional<ChannelLag> channel;
+};
+
+// Pointers refer into `search`.
+Verdict verdict_of(const Search& search, const Circumstances& known);
 
 // The recording that would separate an effect from its relatives.
 std::string next_experiment(const std::vector<std::string>& candidates);

@@ -39,67 +39,73 @@ Rival rival(const std::string& id, double share, double evidence) {
   return row;
 }
 
-Fit with_velocity_lag(double lag) {
-  Fit fit;
-  fit.what = {"viscous", {"velocity-lag"}, {}};
-  fit.layout = std::make_shared<const Layout>(make_model("viscous", {"velocity-lag"}), DataScale{}, LayoutOptions{});
-  fit.point = fit.layout->initial();
-  for (std::size_t c = 0; c < fit.layout->dimension(); ++c) {
-    if (fit.layout->names()[fit.layout->coordinates()[c].parameter] == "velocity-lag.lag") {
-      fit.point[c] = fit.layout->unit(c, lag);
-    }
-  }
-  fit.terms = fit.layout->terms(fit.point);
-  return fit;
+// Every fit has these intervals of every effect.
+Circumstances knowing(const std::vector<ParameterInterval>& intervals, std::optional<ChannelLag> channel = {}) {
+  return {[intervals](const Fit&, const std::string&) { return intervals; }, channel};
 }
 
+const Circumstances plain = knowing({{"size", "N", 1.0, 0.5}});
+
 TEST(Verdict, FarFromTheNoiseOnlyADominantEffectIsNamed) {
-  EXPECT_EQ(verdict_of(search_of("inertia", 1.5 * floor_squares, 20.0 * floor_squares), {}).word, "missing-physics");
+  EXPECT_EQ(verdict_of(search_of("inertia", 1.5 * floor_squares, 20.0 * floor_squares), plain).word, "missing-physics");
   // Fifteen times the noise stays: an effect of five times what stays is no answer, one of twenty times is.
   const double left = 16.0 * floor_squares;
-  EXPECT_EQ(verdict_of(search_of("inertia", left, 5.0 * 15.0 * floor_squares, true), {}).word, "unattributed");
-  EXPECT_EQ(verdict_of(search_of("inertia", left, 20.0 * 15.0 * floor_squares, true), {}).word, "missing-physics");
+  EXPECT_EQ(verdict_of(search_of("inertia", left, 5.0 * 15.0 * floor_squares, true), plain).word, "unattributed");
+  EXPECT_EQ(verdict_of(search_of("inertia", left, 20.0 * 15.0 * floor_squares, true), plain).word, "missing-physics");
 }
 
 TEST(Verdict, ARivalThatLeavesMuchMoreThanNoiseIsExcluded) {
   // One part in a hundred of the gain: eleven times what stays above the noise ...
   Search search = search_of("linear-stiffness", 1.2 * floor_squares, 220.0 * floor_squares);
   search.found[0].rivals = {rival("cubic-stiffness", 0.99, 500.0)};
-  const Verdict clear = verdict_of(search, {});
+  const Verdict clear = verdict_of(search, plain);
   ASSERT_EQ(clear.word, "missing-physics");
   EXPECT_TRUE(clear.effects[0].indistinguishable_from.empty());
   // ... and half of it where more stays.
   search = search_of("linear-stiffness", 5.0 * floor_squares, 220.0 * floor_squares);
   search.found[0].rivals = {rival("cubic-stiffness", 0.99, 500.0)};
-  EXPECT_EQ(verdict_of(search, {}).word, "ambiguous");
+  EXPECT_EQ(verdict_of(search, plain).word, "ambiguous");
+}
+
+TEST(Verdict, FarFromTheNoiseAnEffectOfOneSizeInAllRecordingsIsNamed) {
+  const Search search = search_of("inertia", 16.0 * floor_squares, 5.0 * 15.0 * floor_squares, true);
+  EXPECT_EQ(verdict_of(search, knowing({{"m", "kg", 2.0, 0.3}})).word, "missing-physics");
+  EXPECT_EQ(verdict_of(search, knowing({{"m", "kg", 2.0, 0.5}})).word, "unattributed");
+  EXPECT_EQ(verdict_of(search, knowing({{"m", "kg", 2.0, std::nullopt}})).word, "unattributed");
 }
 
 TEST(Verdict, AFormThatHoldsTheEffectAsItsLimitMustBeWorthItsParameters) {
+  const Circumstances curved = knowing({{"f_g", "N", 100.0, 1.0}, {"g", "1/m", 10.0, 3.0}});
+  const Circumstances straight = knowing({{"f_g", "N", 100.0, 1.0}, {"g", "1/m", 10.0, 12.0}});
   Search search = search_of("offset-force", 1.1 * floor_squares, 50.0 * floor_squares);
   search.found[0].rivals = {rival("gas-spring", 1.0, 5.0)};
-  EXPECT_EQ(verdict_of(search, {}).word, "missing-physics");
+  EXPECT_EQ(verdict_of(search, curved).word, "missing-physics");
   search.found[0].rivals = {rival("gas-spring", 1.0, -1.0)};
-  EXPECT_EQ(verdict_of(search, {}).word, "ambiguous");
+  EXPECT_EQ(verdict_of(search, curved).word, "ambiguous");
+  EXPECT_EQ(verdict_of(search, straight).word, "missing-physics");
+  search = search_of("gas-spring", 1.1 * floor_squares, 50.0 * floor_squares);
+  search.found[0].rivals = {rival("offset-force", 1.0, 30.0)};
+  EXPECT_EQ(verdict_of(search, curved).word, "ambiguous");
+  const Verdict verdict = verdict_of(search, straight);
+  ASSERT_EQ(verdict.word, "missing-physics");
+  EXPECT_EQ(verdict.effects[0].id, "offset-force");
 }
 
 TEST(Verdict, TheChannelsTellALagOfTheVelocityFromADelayOfTheForce) {
-  // The recorded velocity comes 5 ms late, so that the one that acts leads it.
+  // The recorded velocity comes 5 ms late.
   const ChannelLag channel{5e-3, 1e-5};
+  const Circumstances agreeing = knowing({{"lag", "s", 4.9e-3, 1e-5}}, channel);
+  const Circumstances contradicting = knowing({{"lag", "s", 2e-3, 1e-5}}, channel);
   Search search = search_of("sensor-delay", 1.1 * floor_squares, 50.0 * floor_squares);
   search.found[0].rivals = {rival("velocity-lag", 1.0, 1.0)};
-  search.found[0].rivals[0].fit = with_velocity_lag(-4.9e-3);
-  Verdict verdict = verdict_of(search, channel);
-  ASSERT_EQ(verdict.word, "missing-physics");
-  EXPECT_EQ(verdict.effects[0].id, "velocity-lag");
-  search.found[0].rivals[0].fit = with_velocity_lag(2e-3);
-  verdict = verdict_of(search, channel);
-  ASSERT_EQ(verdict.word, "missing-physics");
-  EXPECT_EQ(verdict.effects[0].id, "sensor-delay");
+  ASSERT_EQ(verdict_of(search, agreeing).word, "missing-physics");
+  EXPECT_EQ(verdict_of(search, agreeing).effects[0].id, "velocity-lag");
+  ASSERT_EQ(verdict_of(search, contradicting).word, "missing-physics");
+  EXPECT_EQ(verdict_of(search, contradicting).effects[0].id, "sensor-delay");
   search = search_of("velocity-lag", 1.1 * floor_squares, 50.0 * floor_squares);
-  search.augmented.layout = with_velocity_lag(-4.9e-3).layout;
-  search.augmented.terms = with_velocity_lag(-4.9e-3).terms;
   search.found[0].rivals = {rival("sensor-delay", 1.0, 1.0)};
-  EXPECT_EQ(verdict_of(search, channel).word, "missing-physics");
+  EXPECT_EQ(verdict_of(search, agreeing).word, "missing-physics");
+  EXPECT_EQ(verdict_of(search, contradicting).word, "ambiguous");
 }
 
 }  // namespace

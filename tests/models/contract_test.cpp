@@ -551,12 +551,12 @@ TEST(Effects, SensorDelayShiftsTheForce) {
   }
 }
 
-TEST(Effects, VelocityLagIsTheFirstOrderLagAtItsTimeConstant) {
+TEST(Effects, VelocityLagIsTheFirstOrderFilterAtMinusItsTimeConstant) {
   const double w = 4.0 * std::numbers::pi;
   const double tau = 0.002;
   const Series motion = sine(2.0, 0.025, 500.0, 1.0);
   const CompositeModel model = make_model("viscous", {"velocity-lag"});
-  const Vector force = simulate(model, motion.motion(), with(model, {{"velocity-lag.lag", tau}}));
+  const Vector force = simulate(model, motion.motion(), with(model, {{"velocity-lag.lag", -tau}}));
   for (std::size_t n = 20; n < motion.size(); ++n) {
     const double t = motion.time[n];
     const double lagged = 0.025 * w * (std::cos(w * t) + w * tau * std::sin(w * t)) / (1.0 + w * w * tau * tau);
