@@ -12,6 +12,10 @@ namespace hysteron {
 // What the drive channel of a recording measures. `none` when the recording has neither.
 enum class DriveKind { none, current, voltage };
 
+// How the force of a recording that begins in mid-motion begins: as in the periods after it, or building up from nothing,
+// as that of a damper that was at rest in the first sample's position (start_of, fit/start.hpp).
+enum class Start { unknown, in_cycle, from_nothing };
+
 // One test of one damper. All channels have the length of `time`; absent optional channels are empty.
 struct Recording {
   std::string file;                  // as the user named it, relative to the campaign folder, forward slashes
@@ -25,6 +29,7 @@ struct Recording {
   std::vector<double> temperature;   // degC, optional
   DriveKind drive_kind = DriveKind::none;
   bool velocity_measured = false;
+  Start start = Start::unknown;  // known of copies with fewer samples, which no longer show it
 
   [[nodiscard]] std::size_t size() const { return time.size(); }
 };

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "fit/start.hpp"
 #include "simulate/motion.hpp"
 
 namespace hysteron {
@@ -63,6 +64,7 @@ std::vector<Recording> thinned(const std::vector<Recording>& recordings, std::si
           break;
         }
         Recording part = every_kth(recording, k);
+        part.start = start_of(recording);
         if (part.size() < 100 || !recovers(recording, part, k)) {
           break;
         }

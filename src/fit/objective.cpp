@@ -10,6 +10,7 @@
 #include <tuple>
 
 #include "core/error.hpp"
+#include "fit/start.hpp"
 #include "simulate/march.hpp"
 
 namespace hysteron {
@@ -157,49 +158,9 @@ void march_target(const CompositeModel& model, const Target& target, const Param
   march_window<T>(model, target, parameters_at_drive, 0, target.force.size(), state, sink, before);
 }
 
-// Samples of the first period when a recording starts in mid-motion and the motion comes back to where it started, so
-// that marching them first brings the hysteresis into its cycle; 0 when it starts at rest or never returns.
-std::size_t preroll_samples(const Recording& recording, double frequency) {
-  if (!(frequency > 0.0)) {
-    return 0;
-  }
-  double peak = 0.0;
-  for (const double velocity : recording.velocity) {
-    peak = std::max(peak, std::fabs(velocity));
-  }
-  const auto [low, high] = std::ranges::minmax(recording.displacement);
-  const double stroke = high - low;
-  if (std::fabs(recording.velocity[0]) < 0.05 * peak) {
-    // At a turning point of a running motion the velocity is small too: at rest it stays small.
-    const double quarter = recording.time[0] + 0.125 / frequency;
-    bool moves = false;
-    for (std::size_t n = 0; n < recording.size() && recording.time[n] < quarter; ++n) {
-      moves = moves || std::fabs(recording.velocity[n]) > 0.3 * peak;
-    }
-    if (!moves) {
-      return 0;
-    }
-  }
-  const double expected = recording.time[0] + 1.0 / frequency;
-  std::size_t best = 0;
-  double best_distance = 0.1;
-  for (std::size_t n = 1; n < recording.size() && recording.time[n] < expected + 0.25 / frequency; ++n) {
-    if (recording.time[n] < expected - 0.25 / frequency) {
-      continue;
-    }
-    const double distance = std::fabs(recording.displacement[n] - recording.displacement[0]) / stroke +
-                            std::fabs(recording.velocity[n] - recording.velocity[0]) / peak;
-    if (distance < best_distance) {
-      best_distance = distance;
-      best = n;
-    }
-  }
-  return best;
-}
-
 // The period to march beforehand, if any, so that the recording goes on from its end.
 void lead_in(Target& target, const Recording& recording) {
-  target.preroll = preroll_samples(recording, target.frequency);
+  target.preroll = start_of(recording) == Start::from_nothing ? 0 : returns_after(recording, target.frequency);
   if (target.preroll == 0) {
     return;
   }

@@ -1,0 +1,70 @@
+#include "fit/start.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "fit/objective.hpp"
+
+namespace hysteron {
+namespace {
+
+constexpr double frequency = 2.0;
+
+// Under way at the first sample; the force of a rate-independent damper that needs `building` seconds to build up.
+Recording moving(double building, double duration = 2.0) {
+  Recording recording;
+  recording.file = "moving.csv";
+  const double w = 2.0 * std::numbers::pi * frequency;
+  for (int n = 0; n <= static_cast<int>(500.0 * duration); ++n) {
+    const double t = n / 500.0;
+    recording.time.push_back(t);
+    recording.displacement.push_back(0.01 * std::sin(w * t));
+    recording.velocity.push_back(0.01 * w * std::cos(w * t));
+    const double built = building > 0.0 ? 1.0 - std::exp(-t / building) : 1.0;
+    recording.force.push_back(1000.0 * built * std::tanh(10.0 * std::cos(w * t)) + 3.0 * std::sin(7.1 * n));
+  }
+  return recording;
+}
+
+TEST(Start, IsSeenInTheForce) {
+  EXPECT_EQ(start_of(moving(0.0)), Start::in_cycle);
+  EXPECT_EQ(start_of(moving(0.008)), Start::from_nothing);
+  EXPECT_EQ(start_of(moving(0.008, 0.9)), Start::in_cycle);  // less than two periods
+  Recording outlier = moving(0.0);
+  outlier.force[5] = 0.0;
+  EXPECT_EQ(start_of(outlier), Start::in_cycle);
+  Recording motion_only = moving(0.008);
+  motion_only.force.clear();
+  EXPECT_EQ(start_of(motion_only), Start::in_cycle);
+  // A copy of every 40th sample no longer shows it.
+  Recording copy = every_kth(moving(0.008), 40);
+  EXPECT_EQ(start_of(copy), Start::in_cycle);
+  copy.start = Start::from_nothing;
+  EXPECT_EQ(start_of(copy), Start::from_nothing);
+}
+
+// A recording simulated from the neutral state at full speed is predicted as it was simulated.
+TEST(Start, FromNothingNothingIsMarchedBeforehand) {
+  Recording recording = moving(0.0);
+  const CompositeModel model = make_model("bouc-wen", {});
+  std::vector<double> values;
+  for (const Parameter& card : model.parameters()) values.push_back(card.initial);
+  Target target = make_target(recording, {});
+  EXPECT_GT(target.preroll, 0U);
+  const std::vector<double> in_cycle = predict(model, values, {}, target);
+  recording.start = Start::from_nothing;
+  target = make_target(recording, {});
+  EXPECT_EQ(target.preroll, 0U);
+  recording.force = predict(model, values, {}, target);
+  recording.start = Start::unknown;
+  EXPECT_EQ(start_of(recording), Start::from_nothing);
+  EXPECT_EQ(predict(model, values, {}, make_target(recording, {})), recording.force);
+  EXPECT_GT(std::fabs(in_cycle[0] - recording.force[0]), 0.1 * std::fabs(in_cycle[0]));
+  recording.force = in_cycle;
+  EXPECT_EQ(start_of(recording), Start::in_cycle);
+}
+
+}  // namespace
+}  // namespace hysteron
