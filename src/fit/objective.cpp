@@ -1,7 +1,5 @@
 #include "fit/objective.hpp"
 
-#include <omp.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,6 +8,7 @@
 #include <tuple>
 
 #include "core/error.hpp"
+#include "fit/parallel.hpp"
 #include "simulate/march.hpp"
 
 namespace hysteron {
@@ -646,9 +645,7 @@ Response Objective::evaluate(const Request& request) const {
   const std::size_t tasks = packs * targets.size();
   const std::vector<std::size_t> order = packing(request.points);
   std::vector<double> sums(tasks * size);
-  const int threads = threads_ > 0 ? threads_ : omp_get_max_threads();
-#pragma omp parallel for schedule(dynamic) num_threads(threads)
-  for (std::size_t task = 0; task < tasks; ++task) {
+  parallel_for(tasks, threads_, [&](std::size_t task) {
     const std::size_t first = task / targets.size() * lane_count;
     const Rows rows = Rows(order).subspan(first, std::min<std::size_t>(lane_count, points - first));
     const Target& target = targets[task % targets.size()];
@@ -657,7 +654,7 @@ Response Objective::evaluate(const Request& request) const {
     } else {
       run_pack<Lanes>(request.points, rows, target, sums.data() + task * size);
     }
-  }
+  });
   double total = 0.0;
   for (const Target& target : targets) {
     total += static_cast<double>(target.force.size() + target.preroll);
