@@ -104,10 +104,8 @@ json trace_json(const RunResult& run) {
 json solver_json(const Identification& result, const Campaign& campaign, std::size_t k) {
   const SolverOutcome& outcome = result.solvers[k];
   std::vector<const Recording*> followed;
-  for (std::size_t r = 0; r < campaign.recordings.size(); ++r) {
-    if (std::ranges::find(result.heldout, r) == result.heldout.end()) {
-      followed.push_back(&campaign.recordings[r]);
-    }
+  for (const std::size_t index : result.compared_on(campaign.recordings.size())) {
+    followed.push_back(&campaign.recordings[index]);
   }
   return {{"id", outcome.run.solver},
           {"title", find_solver(outcome.run.solver)->title},
@@ -158,13 +156,7 @@ void run(const FitOptions& options) {
   const Identification result = identify(campaign, model, identify_with, show);
   std::optional<TwoStage> two;
   if (options.stages == "two" && !interrupted()) {
-    std::vector<std::size_t> fitted;
-    for (std::size_t k = 0; k < campaign.recordings.size(); ++k) {
-      if (std::ranges::find(result.heldout, k) == result.heldout.end()) {
-        fitted.push_back(k);
-      }
-    }
-    two = fit_two_stage(campaign, result.layout, fitted, result.heldout,
+    two = fit_two_stage(campaign, result.layout, result.compared_on(campaign.recordings.size()), result.heldout,
                         *find_solver(result.solvers[result.chosen].run.solver), identify_with, show);
   }
   progress.finish();

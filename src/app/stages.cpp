@@ -12,7 +12,7 @@ namespace {
 
 constexpr int curve_points = 41;
 
-// Unit point of the joint fit that the two stages are compared with.
+// What the two stages are compared with.
 const RunResult& joint_run(const Identification& joint) { return joint.solvers[joint.chosen].run; }
 
 std::string order_text(const ParameterLaw& law) {

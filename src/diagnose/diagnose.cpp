@@ -20,6 +20,8 @@ constexpr std::size_t quick_recordings = 8;
 // Yield displacements below this part of the half stroke are travelled between two samples: they cost much and tell
 // nothing of what is missing.
 constexpr double least_yield = 0.004;
+// Effects that make the prediction of the judging recordings worse than this are no answer.
+constexpr double most_loss = 1.01;
 // What the base and the augmented model are then fitted on; every sample is predicted in the end.
 constexpr std::size_t fine_samples = 12000;
 
@@ -184,7 +186,7 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const DiagnoseOpti
       }
     }
   }
-  if (found.augmented.heldout > 1.01 * found.base.heldout) {
+  if (found.augmented.heldout > most_loss * found.base.heldout) {
     found.augmented = found.base;
     found.quick_augmented = found.quick_base;
     found.misfit = found.base_misfit;

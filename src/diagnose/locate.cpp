@@ -50,7 +50,7 @@ const std::vector<Variable>& variables() {
        [](const Recording&, const Features& f, std::size_t n) {
          return f.since_drive_change.empty() || f.drive_step[n] == 0.0 ? std::nan("") : f.since_drive_change[n];
        }},
-      {"drive", "A or V", 1.0, "A or V",
+      {"drive", "", 1.0, "",  // A or V as recorded
        [](const Recording& r, const Features&, std::size_t n) { return r.drive.empty() ? std::nan("") : r.drive[n]; }},
       {"travelled distance", "m", 1.0, "m",
        [](const Recording&, const Features& f, std::size_t n) { return f.travelled[n]; }},

@@ -4,10 +4,7 @@
 #include <cmath>
 #include <set>
 
-#include "diagnose/noise.hpp"
 #include "diagnose/relatives.hpp"
-#include "diagnose/structure.hpp"
-#include "diagnose/verdict.hpp"
 
 namespace hysteron {
 namespace {
@@ -26,11 +23,9 @@ constexpr double least_gain = 0.01;
 // last one added: the next could not be named.
 constexpr double negligible = 0.05;
 
-bool is_law(const std::string& id) { return id.starts_with("law:"); }
-
 bool is_series(const std::string& id) {
   const Part* part = find_effect(id);
-  return part != nullptr && part->on_double.yield != nullptr;
+  return part != nullptr && part->in_series();
 }
 
 Hypothesis with(const Hypothesis& what, const std::string& id) {
@@ -82,8 +77,6 @@ std::vector<std::string> law_candidates(const Workbench& bench, const Hypothesis
   }
   return result;
 }
-
-double squared(double value) { return value * value; }
 
 Tried weighed(const std::string& id, const Fit& fit, const Fit& before, double effective) {
   Tried tried;
@@ -137,54 +130,6 @@ bool worth(const Tried& tried, const Fit& before, double candidates) {
          tried.gain > least_gain * squared(before.cost) && tried.heldout_gain > -bearable;
 }
 
-}  // namespace
-
-double evidence(double before, double after, double more, double effective) {
-  return effective * std::log(before / after) - more * std::log(effective);
-}
-
-Misfit misfit_of(const Workbench& bench, const Fit& fit) {
-  Misfit result;
-  double cross = 0.0;
-  double energy = 0.0;
-  double predictable = 0.0;
-  double structure = 0.0;
-  double counted = 0.0;
-  const std::vector<Recording>& recordings = bench.split().fit;
-  for (const Recording& recording : recordings) {
-    const Residual residual = bench.residual(fit, recording);
-    const std::vector<double>& r = residual.force;
-    const double norm = normaliser(recording, bench.options().normalisation);
-    for (std::size_t n = residual.from; n < r.size(); ++n) {
-      energy += r[n] * r[n] / (norm * norm);
-      if (n > residual.from) {
-        cross += r[n] * r[n - 1] / (norm * norm);
-      }
-    }
-    counted += static_cast<double>(r.size() - residual.from);
-    const double mean = residual.mean_square() / (norm * norm);
-    const double share = std::max(0.0, predictable_share(recording, r));
-    predictable += share * mean;
-    const NoiseFloor floor = noise_floor(recording);
-    const double noise = squared(floor.sigma / norm);
-    // Periods tell the noise whatever its colour; without them only what repeats with the motion is surely not noise.
-    structure += floor.method == "cycles" ? std::max(0.0, mean - noise) : share * mean;
-    result.squares += mean;
-    result.white += std::min(mean, squared(floor.white / norm));
-    result.floor += std::min(mean, noise);
-  }
-  const auto count = static_cast<double>(recordings.size());
-  result.squares /= count;
-  result.white /= count;
-  result.floor /= count;
-  result.structure = structure / count;
-  result.predictable = predictable / count / result.squares;
-  result.noise = result.squares - result.structure;
-  result.correlation = std::clamp(cross / energy, 0.0, 0.999);
-  result.effective = std::max(counted * (1.0 - result.correlation) / (1.0 + result.correlation), 20.0);
-  return result;
-}
-
 // The hypotheses that came closest at any stage.
 std::vector<std::string> closest(const std::vector<std::vector<Tried>>& stages, std::size_t count) {
   std::vector<std::pair<double, std::string>> ranked;
@@ -205,6 +150,14 @@ std::vector<std::string> closest(const std::vector<std::vector<Tried>>& stages, 
     result.push_back(ranked[k].second);
   }
   return result;
+}
+
+}  // namespace
+
+bool is_law(const std::string& id) { return id.starts_with("law:"); }
+
+double evidence(double before, double after, double more, double effective) {
+  return effective * std::log(before / after) - more * std::log(effective);
 }
 
 Search search(const Workbench& bench, const Workbench& fine, const Hypothesis& base, const SearchOptions& options,
@@ -337,7 +290,7 @@ Search search(const Workbench& bench, const Workbench& fine, const Hypothesis& b
     }
   }
 
-  progress(0.8, "fitting the augmented model to all samples");
+  progress(0.8, "fitting the augmented model to more samples");
   result.effective = effective;
   result.quick_augmented = current;
   result.augmented = current.what == base ? result.base : fine.polished(current, screening_rounds);

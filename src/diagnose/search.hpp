@@ -7,21 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "diagnose/workbench.hpp"
+#include "diagnose/misfit.hpp"
 
 namespace hysteron {
-
-// Sums of squares are of NRMSE: cost^2 over the fitted recordings.
-struct Misfit {
-  double squares = 0.0;      // cost^2
-  double structure = 0.0;    // the part that is not noise
-  double noise = 0.0;        // squares - structure
-  double white = 0.0;        // squares of the noise by fourth differences: a lower bound of the noise
-  double floor = 0.0;        // squares of the noise as noise_floor estimates it
-  double predictable = 0.0;  // share that repeats with the motion (structure.hpp)
-  double correlation = 0.0;  // lag-one correlation of the residual
-  double effective = 0.0;    // samples worth of independent information
-};
 
 // A hypothesis tried at one stage, against what stood before it.
 struct Tried {
@@ -77,8 +65,8 @@ struct SearchOptions {
 Search search(const Workbench& quick, const Workbench& fine, const Hypothesis& base, const SearchOptions& options,
               const SearchProgress& progress);
 
-// Over the fitted recordings of the workbench.
-Misfit misfit_of(const Workbench& bench, const Fit& fit);
+// Whether an id of Tried, Rival or Found is of a richer parameter law: "law:PARAMETER".
+bool is_law(const std::string& id);
 
 // Gain of the Bayesian information criterion from squares `before` to `after` for `more` parameters.
 double evidence(double before, double after, double more, double effective);

@@ -34,14 +34,10 @@ constexpr double least_share_of_strongest = 0.08;
 // Another damper law does as well when its squared error is within this factor of the augmented model's.
 constexpr double law_factor = 1.1;
 
-double squared(double value) { return value * value; }
-
-bool is_law(const std::string& id) { return id.starts_with("law:"); }
-
 // Whether the judging recordings bear the gain out. A plain gain may be of something they do not excite.
 bool confirmed(const Found& found, const Fit& augmented) {
-  const double fit = 1.0 - std::pow(augmented.cost / found.without.cost, 2);
-  const double heldout = 1.0 - std::pow(augmented.heldout / found.without.heldout, 2);
+  const double fit = 1.0 - squared(augmented.cost / found.without.cost);
+  const double heldout = 1.0 - squared(augmented.heldout / found.without.heldout);
   return fit > plain_gain ? heldout > -0.01 : heldout > confirmed_part * fit;
 }
 
@@ -53,11 +49,6 @@ bool follows_drive(const Layout& layout, const std::string& parameter) {
 }
 
 }  // namespace
-
-bool structured(const Misfit& misfit) {
-  const double ratio = misfit.structure / std::max(misfit.noise, 1e-300);
-  return ratio > 0.3 || (ratio > 0.08 && misfit.predictable > 0.1);
-}
 
 Verdict verdict_of(const Search& search) {
   Verdict verdict;

@@ -29,9 +29,6 @@ struct Verdict {
 // Pointers refer into `search`.
 Verdict verdict_of(const Search& search);
 
-// Structure beyond what noise and its estimate explain.
-bool structured(const Misfit& misfit);
-
 // The recording that would separate an effect from its relatives.
 std::string next_experiment(const std::vector<std::string>& candidates);
 

@@ -198,9 +198,12 @@ Fit Workbench::from_fit(const Hypothesis& what, const Fit& warm, int rounds, con
   }
   std::vector<std::vector<double>> starts;
   std::array<double, start_count> pushes = {0.01, -0.02, 0.05, -0.1, 0.003, -0.005, 0.3, -0.3};
-  const Part* newest = what.effects.empty() ? nullptr : find_effect(what.effects.back());
-  if (newest != nullptr && !newest->starts.empty()) {
-    std::ranges::copy(newest->starts, pushes.begin());
+  // The effect that is new, if it is one and not a richer law.
+  const bool known_before =
+      what.effects.empty() || std::ranges::find(warm.what.effects, what.effects.back()) != warm.what.effects.end();
+  const Part* added_effect = known_before ? nullptr : find_effect(what.effects.back());
+  if (added_effect != nullptr && !added_effect->starts.empty()) {
+    std::ranges::copy(added_effect->starts, pushes.begin());
   }
   constexpr std::array<std::size_t, 4> bases = {2, 3, 5, 7};
   for (std::size_t k = 0; k < start_count; ++k) {
@@ -227,7 +230,7 @@ Fit Workbench::from_fit(const Hypothesis& what, const Fit& warm, int rounds, con
   const auto added = static_cast<std::size_t>(std::ranges::count(fresh, true));
   if (added == 0) {
     starts.resize(1);
-  } else if (added == 1 && also == nullptr && newest != nullptr && newest->starts.empty()) {
+  } else if (added == 1 && also == nullptr && added_effect != nullptr && added_effect->starts.empty()) {
     starts.resize(survivors_of(layout.dimension()));  // one size: where it starts from matters little
   }
   return descended(what, layout, objective, starts, rounds);

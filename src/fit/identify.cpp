@@ -51,6 +51,16 @@ std::string final_stage(bool refit) {
 
 }  // namespace
 
+std::vector<std::size_t> Identification::compared_on(std::size_t count) const {
+  std::vector<std::size_t> result;
+  for (std::size_t k = 0; k < count; ++k) {
+    if (std::ranges::find(heldout, k) == heldout.end()) {
+      result.push_back(k);
+    }
+  }
+  return result;
+}
+
 std::vector<Recording> pick(const std::vector<Recording>& recordings, const std::vector<std::size_t>& indices) {
   std::vector<Recording> result;
   for (const std::size_t index : indices) {

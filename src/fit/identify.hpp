@@ -40,6 +40,9 @@ struct SolverOutcome {
 };
 
 struct Identification {
+  // Recordings the solvers were compared on: all of `count` but those held out.
+  [[nodiscard]] std::vector<std::size_t> compared_on(std::size_t count) const;
+
   Layout layout;
   std::vector<Term> terms;
   std::vector<Estimate> estimates;

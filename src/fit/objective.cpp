@@ -202,17 +202,13 @@ void lead_in(Target& target, const Recording& recording) {
   if (target.preroll == 0) {
     return;
   }
-  const auto first = [&](const std::vector<double>& channel) {
-    return std::vector<double>(
-        channel.begin(), channel.begin() + static_cast<std::ptrdiff_t>(
-                                               channel.empty() ? 0 : std::min(target.preroll + 1, channel.size())));
-  };
   target.lead_in = target.motion;
-  target.lead_in.time = first(target.motion.time);
-  target.lead_in.x = first(target.motion.x);
-  target.lead_in.v = first(target.motion.v);
-  target.lead_in.drive = first(target.motion.drive);
-  target.lead_in.intervals.resize(target.lead_in.time.size() - 1);
+  const std::size_t count = std::min(target.preroll + 1, recording.size());
+  for (std::vector<double>* channel :
+       {&target.lead_in.time, &target.lead_in.x, &target.lead_in.v, &target.lead_in.drive}) {
+    channel->resize(std::min(count, channel->size()));
+  }
+  target.lead_in.intervals.resize(count - 1);
   target.motion.lead = target.lead_in.time.back();
 }
 

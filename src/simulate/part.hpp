@@ -116,6 +116,9 @@ struct Part {
   PartOperations<Lanes> on_lanes;
   PartOperations<LaneDual> on_dual;
 
+  // Shares its force with what is below and takes part of the motion.
+  [[nodiscard]] bool in_series() const { return on_double.yield != nullptr; }
+
   template <class T>
   [[nodiscard]] const PartOperations<T>& on() const {
     if constexpr (std::is_same_v<T, double>) {

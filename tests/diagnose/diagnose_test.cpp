@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "diagnose/record.hpp"
+#include "diagnose/relatives.hpp"
 #include "diagnose/thin.hpp"
 #include "fit/synthetic.hpp"
 
@@ -132,6 +133,19 @@ TEST(Thinned, KeepsTheMotionAndStaysNearTheTotal) {
   EXPECT_LE(few_samples[0].size(), 1500U);
   EXPECT_GE(few_samples[0].size(), 600U);
   EXPECT_EQ(thinned({recording}, 20000)[0].size(), recording.size());
+}
+
+TEST(Relatives, AreEffectsAndMutual) {
+  for (const Part* effect : effect_catalogue()) {
+    for (const std::string& other : relatives(std::string(effect->id))) {
+      EXPECT_NE(find_effect(other), nullptr) << other;
+      const std::vector<std::string> back = relatives(other);
+      EXPECT_NE(std::ranges::find(back, effect->id), back.end()) << effect->id << " " << other;
+    }
+  }
+  EXPECT_TRUE(relatives("no-such-effect").empty());
+  EXPECT_TRUE(is_limit("offset-force", "gas-spring"));
+  EXPECT_FALSE(is_limit("gas-spring", "offset-force"));
 }
 
 }  // namespace

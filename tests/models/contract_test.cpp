@@ -642,7 +642,7 @@ TEST(Effects, ForcesInClosedForm) {
   const Vector stop = effect_alone("end-stop", motion, {{"k_b", 2e5}, {"x_up", 0.02}, {"x_low", 0.023}, {"p", 2.0}});
   const Vector orifice = effect_alone("quadratic-damping", motion, {{"d2", 3000.0}});
   const Vector thin = effect_alone("shear-thinning", motion, {{"c_t", 700.0}, {"v_c", 0.05}, {"m", 0.4}});
-  const Vector seal = effect_alone("seal-friction", motion, {{"fc", 60.0}, {"fb", 25.0}, {"v_st", 0.02}});
+  const Vector seal = effect_alone("seal-friction", motion, {{"fc", 60.0}, {"fb", 25.0}, {"v_st", 0.3}});
   const Vector drift = effect_alone("force-drift", motion, {{"r", 7.0}});
   for (std::size_t n = 0; n < motion.size(); ++n) {
     const double x = motion.x[n];
@@ -655,7 +655,7 @@ TEST(Effects, ForcesInClosedForm) {
     EXPECT_NEAR(thin[n], -700.0 * v * (1.0 - std::pow(1.0 + v * v / 0.0025, -0.3)), 1e-9);
     // Sliding long since the last turn: the sign is the velocity's.
     if (std::fabs(v) > 0.2 && n > motion.size() / 4) {
-      EXPECT_NEAR(seal[n], (60.0 + 25.0 * std::exp(-v * v / 0.0004)) * std::copysign(1.0, v), 1e-5);
+      EXPECT_NEAR(seal[n], (60.0 + 25.0 * std::exp(-v * v / 0.09)) * std::copysign(1.0, v), 1e-5);
     }
     EXPECT_NEAR(drift[n], 7.0 * motion.time[n], 1e-9);
   }

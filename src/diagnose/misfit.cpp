@@ -1,0 +1,57 @@
+#include "diagnose/misfit.hpp"
+
+#include <algorithm>
+
+#include "diagnose/noise.hpp"
+#include "diagnose/structure.hpp"
+
+namespace hysteron {
+
+Misfit misfit_of(const Workbench& bench, const Fit& fit) {
+  Misfit result;
+  double cross = 0.0;
+  double energy = 0.0;
+  double predictable = 0.0;
+  double structure = 0.0;
+  double counted = 0.0;
+  const std::vector<Recording>& recordings = bench.split().fit;
+  for (const Recording& recording : recordings) {
+    const Residual residual = bench.residual(fit, recording);
+    const std::vector<double>& r = residual.force;
+    const double norm = normaliser(recording, bench.options().normalisation);
+    for (std::size_t n = residual.from; n < r.size(); ++n) {
+      energy += r[n] * r[n] / (norm * norm);
+      if (n > residual.from) {
+        cross += r[n] * r[n - 1] / (norm * norm);
+      }
+    }
+    counted += static_cast<double>(r.size() - residual.from);
+    const double mean = residual.mean_square() / (norm * norm);
+    const double share = std::max(0.0, predictable_share(recording, r));
+    predictable += share * mean;
+    const NoiseFloor floor = noise_floor(recording);
+    const double noise = squared(floor.sigma / norm);
+    // Periods tell the noise whatever its colour; without them only what repeats with the motion is surely not noise.
+    structure += floor.method == "cycles" ? std::max(0.0, mean - noise) : share * mean;
+    result.squares += mean;
+    result.white += std::min(mean, squared(floor.white / norm));
+    result.floor += std::min(mean, noise);
+  }
+  const auto count = static_cast<double>(recordings.size());
+  result.squares /= count;
+  result.white /= count;
+  result.floor /= count;
+  result.structure = structure / count;
+  result.predictable = predictable / count / result.squares;
+  result.noise = result.squares - result.structure;
+  result.correlation = std::clamp(cross / energy, 0.0, 0.999);
+  result.effective = std::max(counted * (1.0 - result.correlation) / (1.0 + result.correlation), 20.0);
+  return result;
+}
+
+bool structured(const Misfit& misfit) {
+  const double ratio = misfit.structure / std::max(misfit.noise, 1e-300);
+  return ratio > 0.3 || (ratio > 0.08 && misfit.predictable > 0.1);
+}
+
+}  // namespace hysteron
