@@ -58,7 +58,7 @@ fit_and_simulate() {
   row "simulate $name" "$name.csv"
 }
 
-"${programs[0]}" generate rd8040-twin --only 2.0Hz --out twin --quiet >/dev/null
+"${programs[0]}" generate rd8040-twin --only 2.0Hz --out twin >/dev/null
 echo "| what | same bytes | largest relative difference of a parameter |"
 echo "|---|---|--:|"
 for solver in $(ids solvers); do
