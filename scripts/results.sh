@@ -8,7 +8,7 @@ root=$(cd "$(dirname "$0")/.." && pwd)
 hysteron=${2:-$root/build/release/hysteron}
 out=$root/build/results/$name
 "$hysteron" bench "$root/bench/studies/$name.toml" --out "$out" --quiet
-"$hysteron" report "$out" > /dev/null
+"$hysteron" report "$out" --times > /dev/null
 {
   head -n 2 "$out/report.md"
   # shellcheck disable=SC2016

@@ -1,7 +1,6 @@
 #include "app/command.hpp"
 
 #include <fmt/format.h>
-#include <omp.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -9,6 +8,7 @@
 #include <cstdlib>
 
 #include "core/error.hpp"
+#include "fit/parallel.hpp"
 #include "io/campaign.hpp"
 #include "io/campaign_file.hpp"
 
@@ -144,7 +144,7 @@ nlohmann::json environment(int threads, double seconds) {
   gethostname(host, sizeof host - 1);
   return {{"schema", "hysteron.environment/1"},
           {"host", host},
-          {"threads", threads > 0 ? threads : omp_get_max_threads()},
+          {"threads", team_size(threads)},
           {"wall_seconds", seconds},
           {"lanes_vector_bytes", vector_bytes},
           {"compiler", __VERSION__}};

@@ -45,7 +45,7 @@ StudyView view_of(const Store& store, const std::filesystem::path& folder) {
   view.plan = json::parse(*text);
   const std::vector<RunRecord> records = store.records();
   view.analysis = analyse(view.plan, records);
-  view.times = analyse_times(view.plan, records, store.timings());
+  view.times = analyse_times(view.plan, view.analysis, records, store.timings());
   return view;
 }
 

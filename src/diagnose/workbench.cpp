@@ -1,12 +1,11 @@
 #include "diagnose/workbench.hpp"
 
-#include <omp.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include "fit/driver.hpp"
 #include "fit/identify.hpp"
+#include "fit/parallel.hpp"
 
 namespace hysteron {
 namespace {
@@ -259,11 +258,8 @@ std::vector<Fit> Workbench::from_fit(const std::vector<Hypothesis>& what, const 
   std::vector<Fit> fits(what.size());
   Workbench single = *this;
   single.options_.threads = 1;
-  const int threads = options_.threads > 0 ? options_.threads : omp_get_max_threads();
-#pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
-  for (std::size_t k = 0; k < what.size(); ++k) {
-    fits[k] = single.from_fit(what[k], warm, rounds, also);
-  }
+  parallel_for(what.size(), options_.threads,
+               [&](std::size_t k) { fits[k] = single.from_fit(what[k], warm, rounds, also); });
   return fits;
 }
 
@@ -271,11 +267,7 @@ std::vector<Fit> Workbench::polished(const std::vector<Fit>& fits, int rounds) c
   std::vector<Fit> result(fits.size());
   Workbench single = *this;
   single.options_.threads = 1;
-  const int threads = options_.threads > 0 ? options_.threads : omp_get_max_threads();
-#pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
-  for (std::size_t k = 0; k < fits.size(); ++k) {
-    result[k] = single.polished(fits[k], rounds);
-  }
+  parallel_for(fits.size(), options_.threads, [&](std::size_t k) { result[k] = single.polished(fits[k], rounds); });
   return result;
 }
 

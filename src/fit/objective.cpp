@@ -1,7 +1,5 @@
 #include "fit/objective.hpp"
 
-#include <omp.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,6 +8,7 @@
 #include <tuple>
 
 #include "core/error.hpp"
+#include "fit/parallel.hpp"
 #include "fit/start.hpp"
 #include "simulate/march.hpp"
 
@@ -613,9 +612,7 @@ Response Objective::evaluate(const Request& request) const {
   const std::size_t tasks = packs * targets.size();
   const std::vector<std::size_t> order = packing(request.points);
   std::vector<double> sums(tasks * size);
-  const int threads = threads_ > 0 ? threads_ : omp_get_max_threads();
-#pragma omp parallel for schedule(dynamic) num_threads(threads)
-  for (std::size_t task = 0; task < tasks; ++task) {
+  parallel_for(tasks, threads_, [&](std::size_t task) {
     const std::size_t first = task / targets.size() * lane_count;
     const Rows rows = Rows(order).subspan(first, std::min<std::size_t>(lane_count, points - first));
     const Target& target = targets[task % targets.size()];
@@ -624,7 +621,7 @@ Response Objective::evaluate(const Request& request) const {
     } else {
       run_pack<Lanes>(request.points, rows, target, sums.data() + task * size);
     }
-  }
+  });
   double total = 0.0;
   for (const Target& target : targets) {
     total += static_cast<double>(target.force.size() + target.preroll);
@@ -677,9 +674,7 @@ std::vector<Linearised> Objective::linearised(const std::vector<double>& point) 
   const std::size_t d = layout_.dimension();
   const std::array<std::size_t, 1> row = {0};
   std::vector<Linearised> result(targets_.size());
-  const int threads = threads_ > 0 ? threads_ : omp_get_max_threads();
-#pragma omp parallel for schedule(dynamic) num_threads(threads)
-  for (std::size_t r = 0; r < targets_.size(); ++r) {
+  parallel_for(targets_.size(), threads_, [&](std::size_t r) {
     const Target& target = targets_[r];
     const PackDerivatives pack = differentiated(point, row, target);
     const double scale = std::sqrt(target.weight);
@@ -691,7 +686,7 @@ std::vector<Linearised> Objective::linearised(const std::vector<double>& point) 
         result[r].jacobian[n * d + c] = scale * pack.jacobian[n * d + c].lane(0);
       }
     }
-  }
+  });
   return result;
 }
 

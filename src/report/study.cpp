@@ -180,15 +180,19 @@ StudyTable problem_table(const json& analysis) {
 }
 
 StudyTable time_table(const json& times, const Names& names) {
-  StudyTable table{"times",
-                   "Wall time beside evaluations",
-                   "Of one run on one thread, as measured; it varies with machine and load and is no result.",
-                   {"problem", "solver", "runs", "median [s]", "total [s]", "per evaluation [us]"},
-                   {}};
+  StudyTable table{
+      "times",
+      "Time beside evaluations",
+      "Processor time of a run's thread, which is the time on the clock where the machine does nothing "
+      "else; it varies with the machine and is no result. To target: ERT to the first target (" +
+          (times.at("target").is_null() ? "none" : times.at("target").get<std::string>()) +
+          ") times the time of an evaluation.",
+      {"problem", "solver", "runs", "run, median [s]", "all runs [s]", "per evaluation [us]", "to target [s]"},
+      {}};
   for (const json& row : times.at("rows")) {
     table.rows.push_back({names.problem(row.at("problem")), names.solver(row.at("solver")), whole(row.at("runs")),
                           shown(row.at("seconds_median"), 3), shown(row.at("seconds_total"), 3),
-                          shown(row.at("microseconds_per_evaluation"), 3)});
+                          shown(row.at("microseconds_per_evaluation"), 3), shown(row.at("seconds_to_target"), 3)});
   }
   return table;
 }

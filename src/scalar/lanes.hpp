@@ -147,11 +147,12 @@ struct Lanes {
 }
 [[gnu::always_inline]] inline double fma(double a, double b, double c) { return std::fma(a, b, c); }
 
-// b < a ? b : a and a < b ? b : a, also for NaN and signed zeros: what the instructions do, operands swapped.
+// b < a ? b : a and a < b ? b : a, also for NaN and signed zeros: what the instructions do, operands swapped. The masks
+// leave no lane out: GCC 12 takes the unmasked forms for uses of an uninitialised variable (GCC bug 105593).
 [[gnu::always_inline]] inline Lanes smaller(Lanes a, const Lanes& b) {
   repeat<vectors_per_pack>([&](auto i) __attribute__((always_inline)) {
 #if defined(__AVX512F__)
-    a.v[i] = _mm512_min_pd(b.v[i], a.v[i]);
+    a.v[i] = _mm512_mask_min_pd(b.v[i], 0xff, b.v[i], a.v[i]);
 #elif defined(__AVX__)
     a.v[i] = _mm256_min_pd(b.v[i], a.v[i]);
 #else
@@ -163,7 +164,7 @@ struct Lanes {
 [[gnu::always_inline]] inline Lanes larger(Lanes a, const Lanes& b) {
   repeat<vectors_per_pack>([&](auto i) __attribute__((always_inline)) {
 #if defined(__AVX512F__)
-    a.v[i] = _mm512_max_pd(b.v[i], a.v[i]);
+    a.v[i] = _mm512_mask_max_pd(b.v[i], 0xff, b.v[i], a.v[i]);
 #elif defined(__AVX__)
     a.v[i] = _mm256_max_pd(b.v[i], a.v[i]);
 #else

@@ -1,12 +1,9 @@
 #include "study/run.hpp"
 
-#include <omp.h>
 #include <unistd.h>
 
 #include <atomic>
-#include <chrono>
 #include <ctime>
-#include <exception>
 #include <memory>
 #include <mutex>
 #include <nlohmann/json.hpp>
@@ -14,6 +11,7 @@
 
 #include "core/error.hpp"
 #include "fit/driver.hpp"
+#include "fit/parallel.hpp"
 
 namespace hysteron {
 namespace {
@@ -36,6 +34,13 @@ double heldout_nrmse(const StudyProblem& problem, const std::vector<Term>& terms
               options.normalisation));
   }
   return overall(scores, problem.heldout, options.normalisation, options.weighting);
+}
+
+// Processor time of the calling thread: what the clock on the wall says where the machine does nothing else.
+double thread_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
 // Objectives of the problems under way: made when the first run of a problem starts, dropped after its last.
@@ -125,39 +130,36 @@ RunProgress run_plan(const Plan& plan, Store& store, const RunOptions& options, 
     todo.push_back(&run);
     ++uses[run.problem];
   }
-  const int wanted = options.threads > 0 ? options.threads : omp_get_max_threads();
+  const int wanted = team_size(options.threads);
   const std::string host = host_name();
   Objectives objectives(plan, std::move(uses));
   std::mutex writer;
+  // What fails in one run ends the others at their next evaluation.
   std::atomic<bool> halted{false};
-  std::exception_ptr failure;
   const auto stopped = [&] { return halted.load(std::memory_order_relaxed) || (stop && stop()); };
-  const auto count = static_cast<std::ptrdiff_t>(todo.size());
-#pragma omp parallel for schedule(dynamic, 1) num_threads(wanted)
-  for (std::ptrdiff_t k = 0; k < count; ++k) {
-    if (stopped()) continue;
+  const auto run_and_record = [&](const PlannedRun& run) {
+    const double begun = thread_seconds();
+    const auto objective = objectives.take(run.problem);
+    const std::optional<RunRecord> record = do_run(plan, run, *objective, stopped);
+    if (!record) return;
+    RunTiming timing{run.key, thread_seconds() - begun, host, wanted, static_cast<std::int64_t>(std::time(nullptr))};
+    const std::lock_guard guard(writer);
+    if (halted) return;
+    store.add(*record, timing);
+    ++progress.done;
+    progress.last = plan.study.solvers[run.solver].label + " on " + plan.problems[run.problem].label;
+    progress.nrmse = record->nrmse;
+    if (observer) observer(progress);
+  };
+  parallel_for(todo.size(), wanted, [&](std::size_t k) {
+    if (stopped()) return;
     try {
-      const PlannedRun& run = *todo[static_cast<std::size_t>(k)];
-      const auto begun = std::chrono::steady_clock::now();
-      const auto objective = objectives.take(run.problem);
-      const std::optional<RunRecord> record = do_run(plan, run, *objective, stopped);
-      if (!record) continue;
-      RunTiming timing{run.key, std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count(), host,
-                       wanted, static_cast<std::int64_t>(std::time(nullptr))};
-      const std::lock_guard guard(writer);
-      if (halted) continue;
-      store.add(*record, timing);
-      ++progress.done;
-      progress.last = plan.study.solvers[run.solver].label + " on " + plan.problems[run.problem].label;
-      progress.nrmse = record->nrmse;
-      if (observer) observer(progress);
+      run_and_record(*todo[k]);
     } catch (...) {
-      const std::lock_guard guard(writer);
-      if (!failure) failure = std::current_exception();
       halted = true;
+      throw;
     }
-  }
-  if (failure) std::rethrow_exception(failure);
+  });
   return progress;
 }
 
