@@ -2,9 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
-
-#include "app/command.hpp"
 #include "core/error.hpp"
 #include "io/output.hpp"
 #include "report/study.hpp"
@@ -16,23 +13,27 @@ namespace hysteron::app {
 
 using nlohmann::json;
 
+StudyProgress::StudyProgress(const Plan& plan, bool quiet) : plan_(plan), line_(quiet) {
+  line_.show(plan.study.title, 0.0, fmt::format("{} runs", plan.runs.size()));
+}
+
+void StudyProgress::show(const RunProgress& now) {
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun_).count();
+  const std::size_t todo = now.planned - now.found;
+  if (now.nrmse) best_ = std::min(best_, *now.nrmse);
+  line_.show(plan_.study.title, static_cast<double>(now.done) / static_cast<double>(todo),
+             fmt::format("{} of {} runs{}, {:.1f} runs/s, best NRMSE {}, last {}", now.found + now.done, now.planned,
+                         now.found > 0 ? fmt::format(" ({} found)", now.found) : "",
+                         static_cast<double>(now.done) / std::max(seconds, 1e-9),
+                         best_ < diverged_cost ? format_number(best_, 4) : "-", label_of(plan_, now.index)));
+}
+
 RunProgress run_with_progress(const Plan& plan, Store& store, const RunOptions& options, bool quiet) {
   for (const StudyProblem& problem : plan.problems) store.add_problem(problem.hash, problem.config);
   store.set_plan(plan_json(plan).dump());
-  ProgressLine line(quiet);
-  const auto begun = std::chrono::steady_clock::now();
-  double best = diverged_cost;
-  line.show(plan.study.title, 0.0, fmt::format("{} runs", plan.runs.size()));
-  const RunProgress progress = run_plan(plan, store, options, interrupted, [&](const RunProgress& now) {
-    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
-    const std::size_t todo = now.planned - now.found;
-    if (now.nrmse) best = std::min(best, *now.nrmse);
-    line.show(plan.study.title, static_cast<double>(now.done) / static_cast<double>(todo),
-              fmt::format("{} of {} runs{}, {:.1f} runs/s, best NRMSE {}, last {}", now.found + now.done, now.planned,
-                          now.found > 0 ? fmt::format(" ({} found)", now.found) : "",
-                          static_cast<double>(now.done) / std::max(seconds, 1e-9),
-                          best < diverged_cost ? format_number(best, 4) : "-", now.last));
-  });
+  StudyProgress line(plan, quiet);
+  const RunProgress progress =
+      run_plan(plan, store, options, interrupted, [&](const RunProgress& now) { line.show(now); });
   line.finish();
   return progress;
 }

@@ -3,6 +3,7 @@
 #include <omp.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <ctime>
@@ -38,29 +39,36 @@ double heldout_nrmse(const StudyProblem& problem, const std::vector<Term>& terms
   return overall(scores, problem.heldout, options.normalisation, options.weighting);
 }
 
-// Objectives of the problems under way: made when the first run of a problem starts, dropped after its last.
+// Objectives of the problems worked on last: making one takes longer than a short run, keeping all of a large study
+// takes too much memory.
 class Objectives {
  public:
-  Objectives(const Plan& plan, std::vector<std::size_t> uses)
-      : plan_(plan), uses_(std::move(uses)), made_(uses_.size()) {}
+  Objectives(const Plan& plan, std::size_t kept) : plan_(plan), kept_(kept) {}
 
   std::shared_ptr<const Objective> take(std::size_t problem) {
     const std::lock_guard guard(mutex_);
-    if (!made_[problem]) {
-      ObjectiveOptions options = plan_.study.objective;
-      options.threads = 1;
-      made_[problem] = std::make_shared<const Objective>(plan_.problems[problem].layout,
-                                                         plan_.problems[problem].recordings, options);
+    const auto found = std::ranges::find(made_, problem, &Made::problem);
+    if (found != made_.end()) {
+      std::rotate(made_.begin(), found, found + 1);
+      return made_.front().objective;
     }
-    auto result = made_[problem];
-    if (--uses_[problem] == 0) made_[problem].reset();
-    return result;
+    ObjectiveOptions options = plan_.study.objective;
+    options.threads = 1;
+    auto objective =
+        std::make_shared<const Objective>(plan_.problems[problem].layout, plan_.problems[problem].recordings, options);
+    made_.insert(made_.begin(), Made{problem, objective});
+    if (made_.size() > kept_) made_.pop_back();
+    return objective;
   }
 
  private:
+  struct Made {
+    std::size_t problem;
+    std::shared_ptr<const Objective> objective;
+  };
   const Plan& plan_;
-  std::vector<std::size_t> uses_;
-  std::vector<std::shared_ptr<const Objective>> made_;
+  std::size_t kept_;
+  std::vector<Made> made_;  // last used first
   std::mutex mutex_;
 };
 
@@ -109,48 +117,60 @@ std::optional<RunRecord> do_run(const Plan& plan, const PlannedRun& run, const O
   return record;
 }
 
-RunProgress run_plan(const Plan& plan, Store& store, const RunOptions& options, const std::function<bool()>& stop,
-                     const RunObserver& observer) {
-  RunProgress progress;
-  const std::set<std::string> have = store.keys();
-  std::vector<const PlannedRun*> todo;
-  std::vector<std::size_t> uses(plan.problems.size(), 0);
-  for (const PlannedRun& run : plan.runs) {
-    if (!in_shard(run.key, options.shard_index, options.shard_count)) continue;
+std::vector<std::size_t> missing_runs(const Plan& plan, const std::set<std::string>& have, const RunOptions& options,
+                                      RunProgress& progress) {
+  std::vector<std::size_t> todo;
+  for (std::size_t k = 0; k < plan.runs.size(); ++k) {
+    if (!in_shard(plan.runs[k].key, options.shard_index, options.shard_count)) continue;
     ++progress.planned;
-    if (have.contains(run.key)) {
+    if (have.contains(plan.runs[k].key)) {
       ++progress.found;
-      continue;
+    } else {
+      todo.push_back(k);
     }
-    todo.push_back(&run);
-    ++uses[run.problem];
   }
-  const int wanted = options.threads > 0 ? options.threads : omp_get_max_threads();
+  return todo;
+}
+
+RunProgress run_from(const Plan& plan, Store& store, int threads, RunProgress progress, const RunSource& next,
+                     const std::function<bool()>& stop, const RunObserver& observer) {
+  const int wanted = threads > 0 ? threads : omp_get_max_threads();
   const std::string host = host_name();
-  Objectives objectives(plan, std::move(uses));
+  Objectives objectives(plan, static_cast<std::size_t>(wanted) + 1);
+  std::mutex source;
   std::mutex writer;
   std::atomic<bool> halted{false};
   std::exception_ptr failure;
   const auto stopped = [&] { return halted.load(std::memory_order_relaxed) || (stop && stop()); };
-  const auto count = static_cast<std::ptrdiff_t>(todo.size());
-#pragma omp parallel for schedule(dynamic, 1) num_threads(wanted)
-  for (std::ptrdiff_t k = 0; k < count; ++k) {
-    if (stopped()) continue;
-    try {
-      const PlannedRun& run = *todo[static_cast<std::size_t>(k)];
+  const auto work = [&] {
+    while (!stopped()) {
+      std::optional<std::size_t> index;
+      {
+        const std::lock_guard guard(source);
+        index = next();
+      }
+      if (!index) return;
+      const PlannedRun& run = plan.runs[*index];
       const auto begun = std::chrono::steady_clock::now();
       const auto objective = objectives.take(run.problem);
       const std::optional<RunRecord> record = do_run(plan, run, *objective, stopped);
-      if (!record) continue;
-      RunTiming timing{run.key, std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count(), host,
-                       wanted, static_cast<std::int64_t>(std::time(nullptr))};
+      if (!record) return;
+      const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+      const RunTiming timing{run.key, seconds, host, wanted, static_cast<std::int64_t>(std::time(nullptr))};
       const std::lock_guard guard(writer);
-      if (halted) continue;
+      if (halted) return;
       store.add(*record, timing);
       ++progress.done;
-      progress.last = plan.study.solvers[run.solver].label + " on " + plan.problems[run.problem].label;
+      progress.index = *index;
+      progress.seconds = seconds;
       progress.nrmse = record->nrmse;
       if (observer) observer(progress);
+    }
+  };
+#pragma omp parallel num_threads(wanted)
+  {
+    try {
+      work();
     } catch (...) {
       const std::lock_guard guard(writer);
       if (!failure) failure = std::current_exception();
@@ -159,6 +179,22 @@ RunProgress run_plan(const Plan& plan, Store& store, const RunOptions& options, 
   }
   if (failure) std::rethrow_exception(failure);
   return progress;
+}
+
+RunProgress run_plan(const Plan& plan, Store& store, const RunOptions& options, const std::function<bool()>& stop,
+                     const RunObserver& observer) {
+  RunProgress progress;
+  const std::vector<std::size_t> todo = missing_runs(plan, store.keys(), options, progress);
+  std::size_t taken = 0;
+  const auto next = [&]() -> std::optional<std::size_t> {
+    if (taken == todo.size()) return {};
+    return todo[taken++];
+  };
+  return run_from(plan, store, options.threads, progress, next, stop, observer);
+}
+
+std::string label_of(const Plan& plan, std::size_t run) {
+  return plan.study.solvers[plan.runs[run].solver].label + " on " + plan.problems[plan.runs[run].problem].label;
 }
 
 }  // namespace hysteron

@@ -331,33 +331,55 @@ std::vector<std::pair<std::string, std::string>> Store::problems() const {
   return result;
 }
 
-void Store::add(const RunRecord& record, const RunTiming& timing) {
-  state_->execute("BEGIN IMMEDIATE");
+namespace {
+
+template <class State>
+void insert(const State& state, const RunRecord& record, const RunTiming& timing) {
+  {
+    Statement<State> statement(state, "INSERT OR IGNORE INTO runs VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+    statement.bind(record.key)
+        .bind(record.config)
+        .bind(record.nrmse)
+        .bind(record.nrmse_tight)
+        .bind(record.nrmse_heldout);
+    statement.bind(static_cast<std::int64_t>(record.evaluations)).bind(static_cast<std::int64_t>(record.diverged));
+    statement.bind(record.stopped)
+        .bind(json(record.best).dump())
+        .bind(record.parameters)
+        .bind(trace_text(record.trace));
+    statement.bind(sha256_hex(record_text(record))).step();
+  }
+  Statement<State> statement(state, "INSERT OR IGNORE INTO environment VALUES (?, ?, ?, ?, ?)");
+  statement.bind(timing.key).bind(timing.seconds).bind(timing.host).bind(static_cast<std::int64_t>(timing.threads));
+  statement.bind(timing.finished).step();
+}
+
+// All of what `work` does or, when it throws, nothing.
+template <class State, class Work>
+void in_transaction(const State& state, const Work& work) {
+  state.execute("BEGIN IMMEDIATE");
   try {
-    {
-      Statement<State> statement(*state_, "INSERT OR IGNORE INTO runs VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
-      statement.bind(record.key)
-          .bind(record.config)
-          .bind(record.nrmse)
-          .bind(record.nrmse_tight)
-          .bind(record.nrmse_heldout);
-      statement.bind(static_cast<std::int64_t>(record.evaluations)).bind(static_cast<std::int64_t>(record.diverged));
-      statement.bind(record.stopped)
-          .bind(json(record.best).dump())
-          .bind(record.parameters)
-          .bind(trace_text(record.trace));
-      statement.bind(sha256_hex(record_text(record))).step();
-    }
-    {
-      Statement<State> statement(*state_, "INSERT OR IGNORE INTO environment VALUES (?, ?, ?, ?, ?)");
-      statement.bind(timing.key).bind(timing.seconds).bind(timing.host).bind(static_cast<std::int64_t>(timing.threads));
-      statement.bind(timing.finished).step();
-    }
-    state_->execute("COMMIT");
+    work();
+    state.execute("COMMIT");
   } catch (...) {
-    sqlite3_exec(state_->database, "ROLLBACK", nullptr, nullptr, nullptr);
+    sqlite3_exec(state.database, "ROLLBACK", nullptr, nullptr, nullptr);
     throw;
   }
+}
+
+}  // namespace
+
+void Store::add(const RunRecord& record, const RunTiming& timing) {
+  in_transaction(*state_, [&] { insert(*state_, record, timing); });
+}
+
+void Store::add(std::span<const Entry> entries) {
+  if (entries.empty()) return;
+  state_->execute("PRAGMA synchronous=FULL");
+  in_transaction(*state_, [&] {
+    for (const Entry& entry : entries) insert(*state_, entry.record, entry.timing);
+  });
+  state_->execute("PRAGMA synchronous=NORMAL");
 }
 
 std::set<std::string> Store::keys() const {

@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -39,6 +40,11 @@ struct RunTiming {
   std::int64_t finished = 0;  // seconds since 1970
 };
 
+struct Entry {
+  RunRecord record;
+  RunTiming timing;
+};
+
 class Store {
  public:
   enum class Mode { read, write };
@@ -61,6 +67,8 @@ class Store {
   [[nodiscard]] std::vector<std::pair<std::string, std::string>> problems() const;
   // In one transaction; a record whose key is there already is left alone.
   void add(const RunRecord& record, const RunTiming& timing);
+  // Likewise, and on the disk when this returns: their other copy may go.
+  void add(std::span<const Entry> entries);
   [[nodiscard]] std::set<std::string> keys() const;
   // In the order of keys. Throws InputError for a row whose checksum does not fit.
   [[nodiscard]] std::vector<RunRecord> records() const;
