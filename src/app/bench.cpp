@@ -64,6 +64,10 @@ void run_together(const std::string& study, const std::string& out, RunOptions o
     if (first && own.plan) line.emplace(*own.plan, quiet);
     outcome = run_ranks(own, out, options, *peers, interrupted, [&](const RunProgress& now) { line->show(now); });
     if (line) line->finish();
+    if (line && !quiet) {
+      fmt::print(stderr, "{} ranks: {} questions answered in {:.6f} s, stores taken in in {:.6f} s\n", peers->size(),
+                 outcome.questions, outcome.answering, outcome.gathering);
+    }
   }
   if (first && outcome.status == 0) {
     tell_done(outcome.progress, Store::open(out, Store::Mode::read), out);

@@ -39,32 +39,36 @@ double heldout_nrmse(const StudyProblem& problem, const std::vector<Term>& terms
   return overall(scores, problem.heldout, options.normalisation, options.weighting);
 }
 
-// Objectives of the problems worked on last: making one takes longer than a short run, keeping all of a large study
-// takes too much memory.
-class Objectives {
- public:
-  Objectives(const Plan& plan, std::size_t kept) : plan_(plan), kept_(kept) {}
+ObjectiveOptions options_of(const Plan& plan, double tolerance_share) {
+  ObjectiveOptions options = plan.study.objective;
+  options.threads = 1;
+  options.tolerance *= tolerance_share;
+  return options;
+}
 
-  std::shared_ptr<const Objective> take(std::size_t problem) {
+// Objectives of the problems worked on last: making them takes longer than a short run, keeping all of a large study
+// takes too much memory.
+class LastObjectives {
+ public:
+  LastObjectives(const Plan& plan, std::size_t kept) : plan_(plan), kept_(kept) {}
+
+  std::shared_ptr<const Objectives> take(std::size_t problem) {
     const std::lock_guard guard(mutex_);
     const auto found = std::ranges::find(made_, problem, &Made::problem);
     if (found != made_.end()) {
       std::rotate(made_.begin(), found, found + 1);
-      return made_.front().objective;
+      return made_.front().objectives;
     }
-    ObjectiveOptions options = plan_.study.objective;
-    options.threads = 1;
-    auto objective =
-        std::make_shared<const Objective>(plan_.problems[problem].layout, plan_.problems[problem].recordings, options);
-    made_.insert(made_.begin(), Made{problem, objective});
+    auto objectives = std::make_shared<const Objectives>(plan_, problem);
+    made_.insert(made_.begin(), Made{problem, objectives});
     if (made_.size() > kept_) made_.pop_back();
-    return objective;
+    return objectives;
   }
 
  private:
   struct Made {
     std::size_t problem;
-    std::shared_ptr<const Objective> objective;
+    std::shared_ptr<const Objectives> objectives;
   };
   const Plan& plan_;
   std::size_t kept_;
@@ -74,15 +78,19 @@ class Objectives {
 
 }  // namespace
 
-std::optional<RunRecord> do_run(const Plan& plan, const PlannedRun& run, const Objective& objective,
+Objectives::Objectives(const Plan& plan, std::size_t problem)
+    : search(plan.problems[problem].layout, plan.problems[problem].recordings, options_of(plan, 1.0)),
+      tight(plan.problems[problem].layout, plan.problems[problem].recordings, options_of(plan, tight_share)) {}
+
+std::optional<RunRecord> do_run(const Plan& plan, const PlannedRun& run, const Objectives& objectives,
                                 const std::function<bool()>& stop) {
   const StudyProblem& problem = plan.problems[run.problem];
   const SolverEntry* entry = find_solver(plan.study.solvers[run.solver].id);
   if (entry == nullptr) throw InputError("unknown solver '" + plan.study.solvers[run.solver].id + "'");
   Problem solved = solver_problem(problem, run, plan.study);
-  objective.describe_data(solved);
+  objectives.search.describe_data(solved);
   const RunResult result = run_solver(
-      *entry, solved, [&](const Request& request) { return objective.evaluate(request); },
+      *entry, solved, [&](const Request& request) { return objectives.search.evaluate(request); },
       [&](const RunResult&) { return !stop || !stop(); });
   if (result.stopped == "interrupted") return {};
   RunRecord record;
@@ -103,14 +111,11 @@ std::optional<RunRecord> do_run(const Plan& plan, const PlannedRun& run, const O
       parameters[term_name(problem.layout.names()[term.parameter], term.drive_power, term.frequency_power)] =
           term.value;
     }
-    ObjectiveOptions options = plan.study.objective;
-    options.threads = 1;
     if (!problem.heldout.empty()) {
-      const double heldout = heldout_nrmse(problem, terms, options);
+      const double heldout = heldout_nrmse(problem, terms, options_of(plan, 1.0));
       if (heldout < diverged_cost) record.nrmse_heldout = heldout;
     }
-    options.tolerance *= tight_share;
-    const double tight = Objective(problem.layout, problem.recordings, options).evaluate({result.best, false}).cost[0];
+    const double tight = objectives.tight.evaluate({result.best, false}).cost[0];
     if (tight < diverged_cost) record.nrmse_tight = tight;
   }
   record.parameters = parameters.dump();
@@ -136,7 +141,7 @@ RunProgress run_from(const Plan& plan, Store& store, int threads, RunProgress pr
                      const std::function<bool()>& stop, const RunObserver& observer) {
   const int wanted = threads > 0 ? threads : omp_get_max_threads();
   const std::string host = host_name();
-  Objectives objectives(plan, static_cast<std::size_t>(wanted) + 1);
+  LastObjectives last(plan, static_cast<std::size_t>(wanted) + 1);
   std::mutex source;
   std::mutex writer;
   std::atomic<bool> halted{false};
@@ -152,8 +157,8 @@ RunProgress run_from(const Plan& plan, Store& store, int threads, RunProgress pr
       if (!index) return;
       const PlannedRun& run = plan.runs[*index];
       const auto begun = std::chrono::steady_clock::now();
-      const auto objective = objectives.take(run.problem);
-      const std::optional<RunRecord> record = do_run(plan, run, *objective, stopped);
+      const auto objectives = last.take(run.problem);
+      const std::optional<RunRecord> record = do_run(plan, run, *objectives, stopped);
       if (!record) return;
       const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
       const RunTiming timing{run.key, seconds, host, wanted, static_cast<std::int64_t>(std::time(nullptr))};

@@ -31,8 +31,16 @@ struct RunProgress {
 // Called from one thread at a time, after every run.
 using RunObserver = std::function<void(const RunProgress&)>;
 
+// What runs of one problem share: the objective of the search, and the one with a finer integration that scores the
+// result again.
+struct Objectives {
+  Objectives(const Plan& plan, std::size_t problem);
+  Objective search;
+  Objective tight;
+};
+
 // One run from its configuration; absent when `stop` said so before the end.
-[[nodiscard]] std::optional<RunRecord> do_run(const Plan& plan, const PlannedRun& run, const Objective& objective,
+[[nodiscard]] std::optional<RunRecord> do_run(const Plan& plan, const PlannedRun& run, const Objectives& objectives,
                                               const std::function<bool()>& stop);
 
 // Indices of the runs of a shard that are not among the keys, in the order of the plan; counts planned and found.

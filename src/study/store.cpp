@@ -7,6 +7,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -92,6 +93,8 @@ struct Store::State {
   sqlite3* database = nullptr;
   Descriptor lock;
   bool writing = false;
+  // By the address of their text, a literal; one use of each at a time.
+  mutable std::map<const char*, sqlite3_stmt*> statements;
 
   State() = default;
   State(const State&) = delete;
@@ -100,6 +103,7 @@ struct Store::State {
   State& operator=(State&&) = delete;
   ~State() {
     if (database == nullptr) return;
+    for (const auto& [sql, statement] : statements) sqlite3_finalize(statement);
     // One plain file at rest, readable from read-only folders; where that fails the log beside it stays valid.
     if (writing) sqlite3_exec(database, "PRAGMA journal_mode=DELETE", nullptr, nullptr, nullptr);
     sqlite3_close_v2(database);
@@ -129,14 +133,19 @@ struct Store::State {
 
 namespace {
 
-// A prepared statement for one use.
+// A use of a prepared statement, which the store keeps for the next one: parsing SQL takes longer than a row.
 template <class State>
 class Statement {
  public:
   Statement(const State& state, const char* sql) : state_(state) {
-    state_.check(sqlite3_prepare_v2(state_.database, sql, -1, &statement_, nullptr));
+    sqlite3_stmt*& kept = state_.statements[sql];
+    if (kept == nullptr) state_.check(sqlite3_prepare_v2(state_.database, sql, -1, &kept, nullptr));
+    statement_ = kept;
   }
-  ~Statement() { sqlite3_finalize(statement_); }
+  ~Statement() {
+    sqlite3_reset(statement_);
+    sqlite3_clear_bindings(statement_);
+  }
   Statement(const Statement&) = delete;
   Statement& operator=(const Statement&) = delete;
   Statement(Statement&&) = delete;

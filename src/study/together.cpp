@@ -1,6 +1,7 @@
 #include "study/together.hpp"
 
 #include <chrono>
+#include <ctime>
 #include <deque>
 #include <mutex>
 #include <nlohmann/json.hpp>
@@ -27,6 +28,16 @@ enum Kind {
 };
 
 constexpr int interrupted_status = 130;
+
+using Clock = std::chrono::steady_clock;
+double seconds_since(Clock::time_point begun) { return std::chrono::duration<double>(Clock::now() - begun).count(); }
+
+// Processor time of this thread: what a question costs, also on a machine that does other things.
+double processor_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
 
 std::string pack(const json& message) {
   const std::vector<std::uint8_t> bytes = json::to_msgpack(message);
@@ -262,6 +273,7 @@ class Leader {
         continue;
       }
       pause.reset();
+      const double asked = processor_seconds();
       const json said = unpack(message->bytes);
       const std::lock_guard guard(mutex);
       for (const json& row : said.at("ended")) {
@@ -269,6 +281,8 @@ class Leader {
       }
       if (said.at("kind") == ask) {
         tell(message->from, {{"kind", batch}, {"runs", dispatcher.take()}});
+        ++outcome_.questions;
+        outcome_.answering += processor_seconds() - asked;
         continue;
       }
       --there;
@@ -283,7 +297,9 @@ class Leader {
       keep({1, "internal: the ranks left runs undone; the same command continues"});
     }
     // Also after a failure: what the others did is in one place then. Its own failure comes after the first.
+    const auto begun = Clock::now();
     absorb_ranks(store, folder_);
+    outcome_.gathering = seconds_since(begun);
   }
 
   const PlanOrFailure& own_;

@@ -34,11 +34,14 @@ class Peers {
   virtual std::optional<Message> poll() = 0;
 };
 
-// How a study by several ranks ended, the same on all of them.
+// How a study by several ranks ended, the same on all of them; what follows the status on the first only.
 struct RanksOutcome {
-  int status = 0;        // exit status: 0, 1 and 2 as everywhere, 130 interrupted
-  std::string message;   // on the first rank: what failed, and on which rank
-  RunProgress progress;  // on the first rank, over all of them
+  int status = 0;             // exit status: 0, 1 and 2 as everywhere, 130 interrupted
+  std::string message;        // what failed, and on which rank
+  RunProgress progress;       // over all ranks
+  std::size_t questions = 0;  // of the other ranks
+  double answering = 0.0;     // s of processor time, spent on them
+  double gathering = 0.0;     // s, spent on taking in the stores of the others
 };
 
 // The same call on every rank: a plan, or why there is none (an error's text and exit status). Throws nothing that a
