@@ -56,10 +56,11 @@ void run_together(const std::string& study, const std::string& out, RunOptions o
   if (options.threads == 0) options.threads = 1;
   RanksOutcome outcome;
   bool first = false;
+  std::optional<Plan> plan;
   {
     const std::unique_ptr<Peers> peers = start_mpi();
     first = peers->rank() == 0;
-    const PlanOrFailure own = try_plan([&] { return make_plan(read_study_file(study), HYSTERON_VERSION); });
+    PlanOrFailure own = try_plan([&] { return make_plan(read_study_file(study), HYSTERON_VERSION); });
     std::optional<StudyProgress> line;
     if (first && own.plan) line.emplace(*own.plan, quiet);
     outcome = run_ranks(own, out, options, *peers, interrupted, [&](const RunProgress& now) { line->show(now); });
@@ -68,9 +69,13 @@ void run_together(const std::string& study, const std::string& out, RunOptions o
       fmt::print(stderr, "{} ranks: {} questions answered in {:.6f} s, stores taken in in {:.6f} s\n", peers->size(),
                  outcome.questions, outcome.answering, outcome.gathering);
     }
+    line.reset();
+    plan = std::move(own.plan);
   }
   if (first && outcome.status == 0) {
-    tell_done(outcome.progress, Store::open(out, Store::Mode::read), out);
+    Store store = Store::open(out, Store::Mode::write);
+    if (options.shard_count == 1) add_identifiability(*plan, store, options.threads, quiet);
+    tell_done(outcome.progress, store, out);
   } else if (first && !outcome.message.empty()) {
     fmt::print(stderr, "error: {}\n", outcome.message);
   } else if (first) {
@@ -138,7 +143,10 @@ void add_bench(CLI::App& program) {
     Store store = Store::open(options->out, Store::Mode::write);
     absorb_ranks(store, options->out);
     const RunProgress progress = run_with_progress(plan, store, run, options->quiet);
-    if (!tell_interrupted(progress, options->out)) tell_done(progress, store, options->out);
+    if (tell_interrupted(progress, options->out)) return;
+    // A shard knows a part of the runs only: the best may be elsewhere.
+    if (run.shard_count == 1) add_identifiability(plan, store, run.threads, options->quiet);
+    tell_done(progress, store, options->out);
   });
 }
 

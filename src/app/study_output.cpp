@@ -1,6 +1,7 @@
 #include "app/study_output.hpp"
 
 #include <fmt/format.h>
+#include <omp.h>
 
 #include "core/error.hpp"
 #include "io/output.hpp"
@@ -8,6 +9,7 @@
 #include "report/terminal.hpp"
 #include "study/analysis.hpp"
 #include "study/export.hpp"
+#include "study/identifiability.hpp"
 
 namespace hysteron::app {
 
@@ -38,6 +40,23 @@ RunProgress run_with_progress(const Plan& plan, Store& store, const RunOptions& 
   return progress;
 }
 
+void add_identifiability(const Plan& plan, Store& store, int threads, bool quiet) {
+  const std::vector<RunRecord> records = store.records();
+  std::vector<std::string> keys;
+  for (const RunRecord* best : best_runs(plan_json(plan), records)) keys.push_back(best == nullptr ? "" : best->key);
+  if (const auto stored = store.identifiability()) {
+    std::vector<std::string> had;
+    const json found = json::parse(*stored);
+    for (const json& row : found.at("problems")) had.push_back(row.is_null() ? "" : row.at("key").get<std::string>());
+    if (had == keys) return;
+  }
+  ProgressLine line(quiet);
+  line.show("identifiability of the best fits", 0.0, "");
+  const json found = identifiability(plan, records, threads > 0 ? threads : omp_get_max_threads(), interrupted);
+  line.finish();
+  if (!found.at("problems").is_null()) store.set_identifiability(found.dump());
+}
+
 StudyView view_of(const Store& store, const std::filesystem::path& folder) {
   const auto text = store.plan();
   if (!text)
@@ -46,6 +65,17 @@ StudyView view_of(const Store& store, const std::filesystem::path& folder) {
   view.plan = json::parse(*text);
   const std::vector<RunRecord> records = store.records();
   view.analysis = analyse(view.plan, records);
+  if (const auto stored = store.identifiability()) {
+    // Of the best runs of now, or not at all.
+    const json found = json::parse(*stored);
+    const std::vector<const RunRecord*> best = best_runs(view.plan, records);
+    bool fits = found.at("problems").size() == best.size();
+    for (std::size_t p = 0; fits && p < best.size(); ++p) {
+      const json& row = found.at("problems").at(p);
+      fits = row.is_null() ? best[p] == nullptr : best[p] != nullptr && row.at("key") == best[p]->key;
+    }
+    if (fits) view.analysis["identifiability"] = found.at("problems");
+  }
   view.times = analyse_times(view.plan, records, store.timings());
   return view;
 }

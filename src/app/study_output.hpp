@@ -27,6 +27,9 @@ class StudyProgress {
 // Runs what the store does not hold yet, with a progress line. The plan is stored first.
 RunProgress run_with_progress(const Plan& plan, Store& store, const RunOptions& options, bool quiet);
 
+// Works out what the data say of the parameters of the best fits, where the store does not have it for these runs.
+void add_identifiability(const Plan& plan, Store& store, int threads, bool quiet);
+
 struct StudyView {
   nlohmann::json plan;
   nlohmann::json analysis;

@@ -92,6 +92,7 @@ Store open_gathered(const fs::path& folder) {
   if (folders.empty()) return own;
   Store all = Store::memory();
   if (const auto plan = own.plan()) all.set_plan(*plan);
+  if (const auto text = own.identifiability()) all.set_identifiability(*text);
   for (const auto& [hash, config] : own.problems()) all.add_problem(hash, config);
   Gathering gathering(all);
   gathering.take(own, folder);

@@ -315,18 +315,23 @@ Store Store::open(const fs::path& folder, Mode mode) {
   return store;
 }
 
-void Store::set_plan(const std::string& text) {
-  Statement<State> statement(*state_, "INSERT OR REPLACE INTO meta VALUES ('plan', ?, ?)");
-  statement.bind(text).bind(sha256_hex(text)).step();
+void Store::set_meta(const std::string& name, const std::string& text) {
+  Statement<State> statement(*state_, "INSERT OR REPLACE INTO meta VALUES (?, ?, ?)");
+  statement.bind(name).bind(text).bind(sha256_hex(text)).step();
 }
 
-std::optional<std::string> Store::plan() const {
-  Statement<State> statement(*state_, "SELECT value, checksum FROM meta WHERE name = 'plan'");
-  if (!statement.step()) return {};
+std::optional<std::string> Store::meta(const std::string& name) const {
+  Statement<State> statement(*state_, "SELECT value, checksum FROM meta WHERE name = ?");
+  if (!statement.bind(name).step()) return {};
   std::string text = statement.text(0);
-  if (sha256_hex(text) != statement.text(1)) state_->damaged("the checksum of the plan does not fit");
+  if (sha256_hex(text) != statement.text(1)) state_->damaged("the checksum of the " + name + " does not fit");
   return text;
 }
+
+void Store::set_plan(const std::string& text) { set_meta("plan", text); }
+std::optional<std::string> Store::plan() const { return meta("plan"); }
+void Store::set_identifiability(const std::string& text) { set_meta("identifiability", text); }
+std::optional<std::string> Store::identifiability() const { return meta("identifiability"); }
 
 void Store::add_problem(const std::string& hash, const std::string& config) {
   Statement<State> statement(*state_, "INSERT OR IGNORE INTO problems VALUES (?, ?)");

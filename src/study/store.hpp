@@ -63,6 +63,9 @@ class Store {
   // All of these throw WorkError with the path and the reason when the file system fails; what was added before stays.
   void set_plan(const std::string& json);
   [[nodiscard]] std::optional<std::string> plan() const;
+  // Identifiability of the best runs, see study/identifiability.hpp.
+  void set_identifiability(const std::string& json);
+  [[nodiscard]] std::optional<std::string> identifiability() const;
   void add_problem(const std::string& hash, const std::string& config);
   [[nodiscard]] std::vector<std::pair<std::string, std::string>> problems() const;
   // In one transaction; a record whose key is there already is left alone.
@@ -77,6 +80,8 @@ class Store {
  private:
   struct State;
   explicit Store(std::unique_ptr<State> state);
+  void set_meta(const std::string& name, const std::string& text);
+  [[nodiscard]] std::optional<std::string> meta(const std::string& name) const;
   std::unique_ptr<State> state_;
 };
 

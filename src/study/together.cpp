@@ -29,9 +29,6 @@ enum Kind {
 
 constexpr int interrupted_status = 130;
 
-using Clock = std::chrono::steady_clock;
-double seconds_since(Clock::time_point begun) { return std::chrono::duration<double>(Clock::now() - begun).count(); }
-
 // Processor time of this thread: what a question costs, also on a machine that does other things.
 double processor_seconds() {
   timespec now{};
@@ -297,9 +294,9 @@ class Leader {
       keep({1, "internal: the ranks left runs undone; the same command continues"});
     }
     // Also after a failure: what the others did is in one place then. Its own failure comes after the first.
-    const auto begun = Clock::now();
+    const double begun = processor_seconds();
     absorb_ranks(store, folder_);
-    outcome_.gathering = seconds_since(begun);
+    outcome_.gathering = processor_seconds() - begun;
   }
 
   const PlanOrFailure& own_;

@@ -41,7 +41,7 @@ struct RanksOutcome {
   RunProgress progress;       // over all ranks
   std::size_t questions = 0;  // of the other ranks
   double answering = 0.0;     // s of processor time, spent on them
-  double gathering = 0.0;     // s, spent on taking in the stores of the others
+  double gathering = 0.0;     // s of processor time, spent on taking in the stores of the others
 };
 
 // The same call on every rank: a plan, or why there is none (an error's text and exit status). Throws nothing that a
