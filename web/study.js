@@ -13,6 +13,13 @@ function picker(label, words, change) {
   return el("label", { class: "interactive" }, label, select);
 }
 
+// Controls are not printed: says in their place which of the choices the figures below are of.
+function printed(words) {
+  const node = el("p", { class: "print-only" });
+  const say = (k) => { node.textContent = `Shown: ${words[k]}${words.length > 1 ? ` (one of ${words.length})` : ""}`; };
+  return { node, say };
+}
+
 // ------------------------------------------------------------------------------------------------------------- colours
 
 // Seven colours, then the same ones dashed: no two of the first 28 solvers look alike.
@@ -188,10 +195,11 @@ function progress() {
       series: rows.map((r) => ({ name: solvers[r.solver], solver: r.solver, y: Array.from({ length: most }, (_, k) => r.nrmse[k] ?? null) })),
     });
   });
-  const show = (p) => { bands.show(p); starts.show(p); };
+  const paper = printed(problems);
+  const show = (p) => { bands.show(p); starts.show(p); paper.say(p); };
   return {
     node: section("progress", "Every problem", el("div", { class: "controls" }, problems.length > 1 ? picker("Problem", problems, show) : el("strong", {}, problems[0])),
-      el("div", { class: "plots" }, bands.node, starts.node)),
+      paper.node, el("div", { class: "plots" }, bands.node, starts.node)),
     draw: () => show(0),
   };
 }
@@ -275,10 +283,12 @@ function identifiabilitySection() {
   if (!known.length) return null;
   const maps = el("div", { class: "plots" });
   const curves = el("div", { class: "plots" });
+  const paper = printed(known.map((p) => problems[p]));
   let shown = [];
   const unit = (row, before = "") => (row.unit && row.unit !== "1" ? before + row.unit : "");
   const show = (p) => {
     const one = all[p];
+    paper.say(known.indexOf(p));
     shown.forEach((s) => s.destroy());
     maps.replaceChildren(
       ...(one.free.length > 1 ? [drawn("Correlations of the parameters", "At the best fit, of parameters inside the box. Near 1 or −1: the data fix a combination of the two, not each.", correlationMap(one))] : []),
@@ -302,7 +312,7 @@ function identifiabilitySection() {
     node: section("identifiability", "Identifiability of the best fits",
       el("p", { class: "muted" }, "Which parameters the data fix, at the best fit of every problem. A profile that rises above the dashed line on both sides bounds its parameter; a flat one leaves it open, however good the fit."),
       el("div", { class: "controls" }, known.length > 1 ? picker("Problem", known.map((p) => problems[p]), (k) => show(known[k])) : el("strong", {}, problems[known[0]])),
-      maps, curves, shownTable("identifiability", 0)),
+      paper.node, maps, curves, shownTable("identifiability", 0)),
     draw: () => show(known[0]),
   };
 }
