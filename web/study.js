@@ -236,7 +236,7 @@ function correlationMap(one) {
       if (j > i) return;
       const x = left + j * cell, y = top + i * cell;
       const ink = faded(color(value < 0 ? 1 : 0), Math.min(1, Math.abs(value)) * 0.75);
-      out.push(`<rect x="${x + 1}" y="${y + 1}" width="${cell - 2}" height="${cell - 2}" style="fill:${i === j ? "none" : ink};stroke:var(--grid)"/>`);
+      out.push(`<rect${i === j ? "" : ' class="cell"'} x="${x + 1}" y="${y + 1}" width="${cell - 2}" height="${cell - 2}" style="fill:${i === j ? "none" : ink};stroke:var(--grid)"/>`);
       if (j < i) out.push(`<text class="tick" x="${x + cell / 2}" y="${y + cell / 2}" dy="0.35em" text-anchor="middle">${value.toFixed(2).replace("0.", ".")}</text>`);
     });
     const x = left + (i + 0.5) * cell, y = top + n * cell + 10;
