@@ -52,7 +52,7 @@ EMPTY_PLOTS = """(() => {
     if (inked < 20) empty.push(name(canvas));
   }
   for (const svg of document.querySelectorAll("main svg")) {
-    const drawn = [...svg.querySelectorAll(".curve, line, .dot, path:not(.grid)")].some((p) => p.getTotalLength() > 0);
+    const drawn = [...svg.querySelectorAll(".curve, line, .dot, .cell, path:not(.grid)")].some((p) => p.getTotalLength() > 0);
     if (!drawn) empty.push(name(svg));
   }
   return empty;

@@ -1,6 +1,6 @@
 #!/bin/sh
 # Makes results/NAME.md again from bench/studies/NAME.toml; stopped, the same command goes on.
-#   scripts/results.sh NAME [BINARY]      NAME: solvers or models-real
+#   scripts/results.sh NAME [BINARY]      NAME: reference, solvers or models-real
 # The records stay in build/results/NAME. Needs ../shared/recordings beside the project.
 set -eu
 name=$1

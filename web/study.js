@@ -13,6 +13,13 @@ function picker(label, words, change) {
   return el("label", { class: "interactive" }, label, select);
 }
 
+// Controls are not printed: says in their place which of the choices the figures below are of.
+function printed(words) {
+  const node = el("p", { class: "print-only" });
+  const say = (k) => { node.textContent = `Shown: ${words[k]}${words.length > 1 ? ` (one of ${words.length})` : ""}`; };
+  return { node, say };
+}
+
 // ------------------------------------------------------------------------------------------------------------- colours
 
 // Seven colours, then the same ones dashed: no two of the first 28 solvers look alike.
@@ -188,10 +195,11 @@ function progress() {
       series: rows.map((r) => ({ name: solvers[r.solver], solver: r.solver, y: Array.from({ length: most }, (_, k) => r.nrmse[k] ?? null) })),
     });
   });
-  const show = (p) => { bands.show(p); starts.show(p); };
+  const paper = printed(problems);
+  const show = (p) => { bands.show(p); starts.show(p); paper.say(p); };
   return {
     node: section("progress", "Every problem", el("div", { class: "controls" }, problems.length > 1 ? picker("Problem", problems, show) : el("strong", {}, problems[0])),
-      el("div", { class: "plots" }, bands.node, starts.node)),
+      paper.node, el("div", { class: "plots" }, bands.node, starts.node)),
     draw: () => show(0),
   };
 }
@@ -212,6 +220,100 @@ function profiles() {
       grid, x, y: { label: "share", range: [-0.02, 1.02] }, step: true,
       series: shares.map((y, s) => ({ name: solvers[s], solver: s, y })),
     })),
+  };
+}
+
+// ---------------------------------------------------------------------------------------------------- identifiability
+
+function correlationMap(one) {
+  const names = one.free.map((c) => one.parameters[c].name);
+  const cell = 34, left = 12 + 7.2 * Math.max(4, ...names.map((n) => n.length)), top = 8, n = names.length;
+  const foot = left * 0.75;
+  const out = [`<svg viewBox="0 0 ${left + n * cell + 8} ${top + n * cell + foot}" style="max-width:${left + n * cell + 8}px" role="img" aria-label="Correlations of the parameters">`];
+  one.correlation.forEach((row, i) => {
+    out.push(`<text x="${left - 6}" y="${top + (i + 0.5) * cell}" dy="0.35em" text-anchor="end">${esc(names[i])}</text>`);
+    row.forEach((value, j) => {
+      if (j > i) return;
+      const x = left + j * cell, y = top + i * cell;
+      const ink = faded(color(value < 0 ? 1 : 0), Math.min(1, Math.abs(value)) * 0.75);
+      out.push(`<rect${i === j ? "" : ' class="cell"'} x="${x + 1}" y="${y + 1}" width="${cell - 2}" height="${cell - 2}" style="fill:${i === j ? "none" : ink};stroke:var(--grid)"/>`);
+      if (j < i) out.push(`<text class="tick" x="${x + cell / 2}" y="${y + cell / 2}" dy="0.35em" text-anchor="middle">${value.toFixed(2).replace("0.", ".")}</text>`);
+    });
+    const x = left + (i + 0.5) * cell, y = top + n * cell + 10;
+    out.push(`<text transform="translate(${x} ${y}) rotate(-45)" text-anchor="end">${esc(names[i])}</text>`);
+  });
+  out.push("</svg>");
+  return out.join("");
+}
+
+// Every eigenvalue a bar down to it, with the parameters its direction is made of.
+function spectrumPlot(one) {
+  const rows = one.spectrum;
+  const line = 21, left = 46, wide = 250, top = 8, width = 640;
+  const low = Math.min(-1, Math.floor(Math.log10(rows[rows.length - 1].eigenvalue)));
+  const px = (value) => left + (1 - Math.max(low, Math.log10(value)) / low) * wide;
+  const height = top + rows.length * line + 26;
+  const out = [`<svg viewBox="0 0 ${width} ${height}" style="max-width:${width}px" role="img" aria-label="Eigenvalues of the Gauss-Newton matrix in logarithms of the parameters">`];
+  const step = Math.max(1, Math.ceil(-low / 6));
+  for (let e = 0; e >= low; e -= step) {
+    const x = px(10 ** e);
+    out.push(`<path d="M${x} ${top}V${top + rows.length * line}" style="stroke:var(--grid)"/><text class="tick" x="${x}" y="${height - 8}" text-anchor="middle">1e${e}</text>`);
+  }
+  rows.forEach((row, k) => {
+    const y = top + k * line;
+    const parts = [...row.parts].sort((a, b) => Math.abs(b.weight) - Math.abs(a.weight)).slice(0, 3)
+      .map((p) => `${p.weight < 0 ? "−" : "+"}${Math.abs(p.weight).toFixed(2)} ${one.parameters[p.parameter].name}`).join("  ");
+    out.push(`<path d="M${left} ${y + line / 2}H${px(row.eigenvalue)}" style="stroke:${color(0)};stroke-width:9"/>`);
+    out.push(`<text class="tick" x="${left - 8}" y="${y + line / 2}" dy="0.35em" text-anchor="end">${k + 1}</text>`);
+    out.push(`<text class="tick" x="${left + wide + 14}" y="${y + line / 2}" dy="0.35em">${esc(parts)}</text>`);
+  });
+  out.push("</svg>");
+  return out.join("");
+}
+
+function drawn(caption, note, markup) {
+  const holder = el("div", { class: "scroll" });
+  holder.innerHTML = markup;
+  return el("figure", { class: "plot" }, el("figcaption", {}, el("span", {}, caption)), holder, el("p", { class: "muted" }, note));
+}
+
+function identifiabilitySection() {
+  const all = study.identifiability || [];
+  const known = all.map((one, p) => p).filter((p) => all[p]);
+  if (!known.length) return null;
+  const maps = el("div", { class: "plots" });
+  const curves = el("div", { class: "plots" });
+  const paper = printed(known.map((p) => problems[p]));
+  let shown = [];
+  const unit = (row, before = "") => (row.unit && row.unit !== "1" ? before + row.unit : "");
+  const show = (p) => {
+    const one = all[p];
+    paper.say(known.indexOf(p));
+    shown.forEach((s) => s.destroy());
+    maps.replaceChildren(
+      ...(one.free.length > 1 ? [drawn("Correlations of the parameters", "At the best fit, of parameters inside the box. Near 1 or −1: the data fix a combination of the two, not each.", correlationMap(one))] : []),
+      ...(one.spectrum.length > 1 ? [drawn("Sloppiness: eigenvalues for relative changes of the parameters", "The largest is 1. A direction far down may change by much and the force hardly does; beside it the parameters it is made of.", spectrumPlot(one))] : []));
+    const figures = one.parameters.map((row) => {
+      const bound = row.at_bound ? `, on its ${row.at_bound} bound` : "";
+      const range = row.low === null && row.high === null ? "open to both sides" : row.low === null ? `below ${fmt(row.high, 4)}` : row.high === null ? `above ${fmt(row.low, 4)}` : `${fmt(row.low, 4)} to ${fmt(row.high, 4)}`;
+      return figure(`${row.name} = ${fmt(row.value, 4)}${unit(row, " ")}${bound}`, `95 %: ${range}`);
+    });
+    curves.replaceChildren(...figures.map((f) => f.node));
+    shown = one.parameters.map((row, c) => {
+      const grid = row.profile.value;
+      const high = Math.max(one.threshold + 2 * (one.threshold - one.nrmse), Math.min(Math.max(...row.profile.nrmse), one.nrmse + 6 * (one.threshold - one.nrmse)));
+      return plot(figures[c].host, {
+        grid, height: 230, points: true, digits: 6, x: { label: row.name + (unit(row) && ` [${unit(row)}]`), short: row.name }, y: { label: "NRMSE", range: [one.nrmse - 0.1 * (high - one.nrmse), high] },
+        series: [{ name: "profile", solver: 0, y: row.profile.nrmse }, { name: "95 %", solver: 8, y: grid.map(() => one.threshold) }],
+      });
+    });
+  };
+  return {
+    node: section("identifiability", "Identifiability of the best fits",
+      el("p", { class: "muted" }, "Which parameters the data fix, at the best fit of every problem. A profile that rises above the dashed line on both sides bounds its parameter; a flat one leaves it open, however good the fit."),
+      el("div", { class: "controls" }, known.length > 1 ? picker("Problem", known.map((p) => problems[p]), (k) => show(known[k])) : el("strong", {}, problems[known[0]])),
+      paper.node, maps, curves, shownTable("identifiability", 0)),
+    draw: () => show(known[0]),
   };
 }
 
@@ -247,16 +349,17 @@ function methodSection() {
   return section("method", "Method", el("dl", { class: "facts" }, facts.flatMap(([t, d]) => [el("dt", {}, t), el("dd", {}, d)])));
 }
 
-const parts = { progress: progress(), profiles: profiles() };
+const parts = { progress: progress(), profiles: profiles(), identifiability: identifiabilitySection() };
 const sections = [
   section("answer", "Ranking", criticalDifference(), shownTable("ranking"), shownTable("models")),
   parts.progress.node,
   parts.profiles.node,
   section("tables", "Tables", shownTable("fixed-budget", 0), shownTable("fixed-target", 0), shownTable("pairs"), shownTable("pairs-by-problem", 0), shownTable("problems"), shownTable("times", 0)),
+  ...(parts.identifiability ? [parts.identifiability.node] : []),
   runsSection(),
   methodSection(),
 ];
-const titles = { answer: "Ranking", progress: "Every problem", profiles: "Profiles", tables: "Tables", runs: "Runs", method: "Method" };
+const titles = { answer: "Ranking", progress: "Every problem", profiles: "Profiles", tables: "Tables", identifiability: "Identifiability", runs: "Runs", method: "Method" };
 const tile = (label, value, note) => el("div", { class: "tile" }, el("dt", {}, label), el("dd", {}, el("div", { class: "value" }, value), note ? el("div", { class: "note" }, note) : ""));
 document.getElementById("content").replaceChildren(
   el("header", {}, el("h1", {}, study.title), el("p", { class: "subtitle" }, study.state), el("p", { class: "verdict" }, study.verdict),
@@ -268,6 +371,7 @@ document.getElementById("content").replaceChildren(
   el("footer", {}, "Made by hysteron. Plots: uPlot (MIT licence). This page loads nothing from the network."));
 parts.progress.draw();
 parts.profiles.draw();
+if (parts.identifiability) parts.identifiability.draw();
 
 let pending = 0;
 let lastWidth = window.innerWidth;

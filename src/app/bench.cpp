@@ -6,7 +6,9 @@
 #include "app/command.hpp"
 #include "app/study_output.hpp"
 #include "core/error.hpp"
+#include "mpi/mpi_peers.hpp"
 #include "report/study.hpp"
+#include "study/gather.hpp"
 #include "study/study_file.hpp"
 
 namespace hysteron::app {
@@ -31,6 +33,55 @@ Shard parse_shard(const std::string& text) {
     if (shard.index >= 1 && shard.index <= shard.count) return shard;
   }
   throw InputError("--shard: '" + text + "' is wrong, expected I/N with 1 <= I <= N, e.g. 2/8");
+}
+
+// Whether runs are missing, which is said.
+bool tell_interrupted(const RunProgress& progress, const std::string& out) {
+  const std::size_t there = progress.found + progress.done;
+  if (there == progress.planned) return false;
+  fmt::print(stderr, "interrupted: {} of {} runs are kept in {}; the same command continues\n", there, progress.planned,
+             out);
+  return true;
+}
+
+void tell_done(const RunProgress& progress, const Store& store, const std::string& out) {
+  fmt::print("{} runs done, {} found in {}\n\n", progress.done, progress.found, out);
+  const StudyView view = view_of(store, out);
+  fmt::print("{}\nThe whole report: hysteron report {}\n", study_terminal(view.analysis, view.times), out);
+}
+
+// As one of several ranks of mpirun. Only the first says anything, and all end with the same status.
+void run_together(const std::string& study, const std::string& out, RunOptions options, bool quiet) {
+  // Ranks are as many as the cores they are given.
+  if (options.threads == 0) options.threads = 1;
+  RanksOutcome outcome;
+  bool first = false;
+  std::optional<Plan> plan;
+  {
+    const std::unique_ptr<Peers> peers = start_mpi();
+    first = peers->rank() == 0;
+    PlanOrFailure own = try_plan([&] { return make_plan(read_study_file(study), HYSTERON_VERSION); });
+    std::optional<StudyProgress> line;
+    if (first && own.plan) line.emplace(*own.plan, quiet);
+    outcome = run_ranks(own, out, options, *peers, interrupted, [&](const RunProgress& now) { line->show(now); });
+    if (line) line->finish();
+    if (line && !quiet) {
+      fmt::print(stderr, "{} ranks: {} questions answered in {:.6f} s, stores taken in in {:.6f} s\n", peers->size(),
+                 outcome.questions, outcome.answering, outcome.gathering);
+    }
+    line.reset();
+    plan = std::move(own.plan);
+  }
+  if (first && outcome.status == 0) {
+    Store store = Store::open(out, Store::Mode::write);
+    if (options.shard_count == 1) add_identifiability(*plan, store, options.threads, quiet);
+    tell_done(outcome.progress, store, out);
+  } else if (first && !outcome.message.empty()) {
+    fmt::print(stderr, "error: {}\n", outcome.message);
+  } else if (first) {
+    tell_interrupted(outcome.progress, out);
+  }
+  if (outcome.status != 0) throw Ended{outcome.status};
 }
 
 }  // namespace
@@ -59,6 +110,7 @@ void add_bench(CLI::App& program) {
       "Examples:\n"
       "  hysteron bench bench/studies/quick.toml --out out\n"
       "  hysteron bench study.toml --out part2 --shard 2/8\n"
+      "  mpirun -n 64 hysteron bench study.toml --out out\n"
       "Ctrl-C keeps the finished runs; the same command continues.");
   command->callback([options] {
     RunOptions run;
@@ -68,8 +120,14 @@ void add_bench(CLI::App& program) {
       run.shard_index = shard.index;
       run.shard_count = shard.count;
     }
+    const auto started = launched();
+    if (started && (started->size > 1 || built_with_mpi()) && !options->dry) {
+      run_together(options->study, options->out, run, options->quiet);
+      return;
+    }
     const Plan plan = make_plan(read_study_file(options->study), HYSTERON_VERSION);
     if (options->dry) {
+      if (started && started->rank > 0) return;
       std::size_t own = 0;
       double evaluations = 0.0;
       for (const PlannedRun& one : plan.runs) {
@@ -83,16 +141,12 @@ void add_bench(CLI::App& program) {
       return;
     }
     Store store = Store::open(options->out, Store::Mode::write);
+    absorb_ranks(store, options->out);
     const RunProgress progress = run_with_progress(plan, store, run, options->quiet);
-    const std::size_t there = progress.found + progress.done;
-    if (there < progress.planned) {
-      fmt::print(stderr, "interrupted: {} of {} runs are kept in {}; the same command continues\n", there,
-                 progress.planned, options->out);
-      return;
-    }
-    fmt::print("{} runs done, {} found in {}\n\n", progress.done, progress.found, options->out);
-    const StudyView view = view_of(store, options->out);
-    fmt::print("{}\nThe whole report: hysteron report {}\n", study_terminal(view.analysis, view.times), options->out);
+    if (tell_interrupted(progress, options->out)) return;
+    // A shard knows a part of the runs only: the best may be elsewhere.
+    if (run.shard_count == 1) add_identifiability(plan, store, run.threads, options->quiet);
+    tell_done(progress, store, options->out);
   });
 }
 

@@ -35,6 +35,11 @@ ObjectiveOptions objective_options(const CommonOptions& options);
 // "alpha:1,c0:2" -> orders; InputError naming the option and the word that is wrong.
 std::map<std::string, int> parse_orders(const std::string& option, const std::string& text);
 
+// Ends the program with a status, when all has been said: by another process where several work together.
+struct Ended {
+  int status;
+};
+
 // Set by SIGINT and SIGTERM; long work checks it between generations.
 bool interrupted();
 void catch_interrupts();

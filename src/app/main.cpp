@@ -3,6 +3,7 @@
 
 #include "app/command.hpp"
 #include "core/error.hpp"
+#include "mpi/mpi_peers.hpp"
 #include "plugin/plugin.hpp"
 
 namespace {
@@ -43,6 +44,11 @@ int main(int count, char** arguments) {
       "  hysteron fit twin --model modified-bouc-wen --effects offset-force --by-current alpha:2,c0:2 --out out\n"
       "  hysteron score out/model.json twin\n"
       "Every command has its own --help.");
+  // Of several processes with one command line the first speaks.
+  const auto started = launched();
+  const auto complain = [&](const std::string& message) {
+    if (!started || started->rank == 0) fmt::print(stderr, "error: {}\n", message);
+  };
   app::add_fit(program);
   app::add_simulate(program);
   app::add_score(program);
@@ -62,19 +68,21 @@ int main(int count, char** arguments) {
   } catch (const CLI::ParseError& error) {
     std::string message = error.what();
     std::ranges::replace(message, '\n', ' ');
-    fmt::print(stderr, "error: {} (see hysteron --help)\n", message);
+    complain(message + " (see hysteron --help)");
     return 2;
   } catch (const InputError& error) {
-    fmt::print(stderr, "error: {}\n", error.what());
+    complain(error.what());
     return 2;
   } catch (const WorkError& error) {
-    fmt::print(stderr, "error: {}\n", error.what());
+    complain(error.what());
     return app::interrupted() ? 130 : 1;
+  } catch (const app::Ended& ended) {
+    return ended.status;
   } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "error: out of memory\n");
+    complain("out of memory");
     return 1;
   } catch (const std::exception& error) {
-    fmt::print(stderr, "error: internal: {}\n", error.what());
+    complain(std::string("internal: ") + error.what());
     return 1;
   }
   return app::interrupted() ? 130 : 0;

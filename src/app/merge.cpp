@@ -7,6 +7,7 @@
 #include "app/command.hpp"
 #include "app/study_output.hpp"
 #include "core/error.hpp"
+#include "study/gather.hpp"
 
 namespace hysteron::app {
 
@@ -50,7 +51,7 @@ void add_merge(CLI::App& program) {
       for (RunTiming& timing : store.timings()) timings.emplace(timing.key, timing);
       for (auto& [hash, config] : store.problems()) problems.emplace(hash, config);
     };
-    for (const std::string& part : options->parts) take(Store::open(part, Store::Mode::read), part);
+    for (const std::string& part : options->parts) take(open_gathered(part), part);
     Store whole = Store::open(options->out, Store::Mode::write);
     if (whole.plan()) take(whole, options->out);
     whole.set_plan(plan);

@@ -6,6 +6,7 @@
 #include "app/command.hpp"
 #include "app/study_output.hpp"
 #include "report/study.hpp"
+#include "study/gather.hpp"
 
 namespace hysteron::app {
 
@@ -27,7 +28,7 @@ void add_report(CLI::App& program) {
   command->add_flag("--json", options->json, "the analysis as JSON on standard output");
   command->footer("Example:\n  hysteron report out --times --ioh");
   command->callback([options] {
-    const Store store = Store::open(options->folder, Store::Mode::read);
+    const Store store = open_gathered(options->folder);
     const StudyView view = view_of(store, options->folder);
     const std::filesystem::path out = options->out.empty() ? options->folder : options->out;
     write_study_report(store, out, view, options->times, options->ioh);

@@ -1,40 +1,60 @@
 #include "app/study_output.hpp"
 
 #include <fmt/format.h>
+#include <omp.h>
 
-#include <chrono>
-
-#include "app/command.hpp"
 #include "core/error.hpp"
 #include "io/output.hpp"
 #include "report/study.hpp"
 #include "report/terminal.hpp"
 #include "study/analysis.hpp"
 #include "study/export.hpp"
+#include "study/identifiability.hpp"
 
 namespace hysteron::app {
 
 using nlohmann::json;
 
+StudyProgress::StudyProgress(const Plan& plan, bool quiet) : plan_(plan), line_(quiet) {
+  line_.show(plan.study.title, 0.0, fmt::format("{} runs", plan.runs.size()));
+}
+
+void StudyProgress::show(const RunProgress& now) {
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun_).count();
+  const std::size_t todo = now.planned - now.found;
+  if (now.nrmse) best_ = std::min(best_, *now.nrmse);
+  line_.show(plan_.study.title, static_cast<double>(now.done) / static_cast<double>(todo),
+             fmt::format("{} of {} runs{}, {:.1f} runs/s, best NRMSE {}, last {}", now.found + now.done, now.planned,
+                         now.found > 0 ? fmt::format(" ({} found)", now.found) : "",
+                         static_cast<double>(now.done) / std::max(seconds, 1e-9),
+                         best_ < diverged_cost ? format_number(best_, 4) : "-", label_of(plan_, now.index)));
+}
+
 RunProgress run_with_progress(const Plan& plan, Store& store, const RunOptions& options, bool quiet) {
   for (const StudyProblem& problem : plan.problems) store.add_problem(problem.hash, problem.config);
   store.set_plan(plan_json(plan).dump());
-  ProgressLine line(quiet);
-  const auto begun = std::chrono::steady_clock::now();
-  double best = diverged_cost;
-  line.show(plan.study.title, 0.0, fmt::format("{} runs", plan.runs.size()));
-  const RunProgress progress = run_plan(plan, store, options, interrupted, [&](const RunProgress& now) {
-    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
-    const std::size_t todo = now.planned - now.found;
-    if (now.nrmse) best = std::min(best, *now.nrmse);
-    line.show(plan.study.title, static_cast<double>(now.done) / static_cast<double>(todo),
-              fmt::format("{} of {} runs{}, {:.1f} runs/s, best NRMSE {}, last {}", now.found + now.done, now.planned,
-                          now.found > 0 ? fmt::format(" ({} found)", now.found) : "",
-                          static_cast<double>(now.done) / std::max(seconds, 1e-9),
-                          best < diverged_cost ? format_number(best, 4) : "-", now.last));
-  });
+  StudyProgress line(plan, quiet);
+  const RunProgress progress =
+      run_plan(plan, store, options, interrupted, [&](const RunProgress& now) { line.show(now); });
   line.finish();
   return progress;
+}
+
+void add_identifiability(const Plan& plan, Store& store, int threads, bool quiet) {
+  const std::vector<RunRecord> records = store.records();
+  std::vector<std::string> keys;
+  for (const RunRecord* best : best_runs(plan_json(plan), records)) keys.push_back(best == nullptr ? "" : best->key);
+  if (const auto stored = store.identifiability()) {
+    std::vector<std::string> had;
+    const json found = json::parse(*stored);
+    for (const json& row : found.at("problems")) had.push_back(row.is_null() ? "" : row.at("key").get<std::string>());
+    if (had == keys) return;
+  }
+  ProgressLine line(quiet);
+  line.show("identifiability of the best fits", 0.0, "");
+  const json found = identifiability(plan, records, threads > 0 ? threads : omp_get_max_threads(), interrupted);
+  line.finish();
+  if (!found.at("problems").is_null()) store.set_identifiability(found.dump());
 }
 
 StudyView view_of(const Store& store, const std::filesystem::path& folder) {
@@ -45,6 +65,17 @@ StudyView view_of(const Store& store, const std::filesystem::path& folder) {
   view.plan = json::parse(*text);
   const std::vector<RunRecord> records = store.records();
   view.analysis = analyse(view.plan, records);
+  if (const auto stored = store.identifiability()) {
+    // Of the best runs of now, or not at all.
+    const json found = json::parse(*stored);
+    const std::vector<const RunRecord*> best = best_runs(view.plan, records);
+    bool fits = found.at("problems").size() == best.size();
+    for (std::size_t p = 0; fits && p < best.size(); ++p) {
+      const json& row = found.at("problems").at(p);
+      fits = row.is_null() ? best[p] == nullptr : best[p] != nullptr && row.at("key") == best[p]->key;
+    }
+    if (fits) view.analysis["identifiability"] = found.at("problems");
+  }
   view.times = analyse_times(view.plan, view.analysis, records, store.timings());
   return view;
 }

@@ -1,15 +1,34 @@
 // Files of a study's report, and running a plan with a progress display: shared by bench, report, merge and reproduce.
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "app/command.hpp"
 #include "study/run.hpp"
 
 namespace hysteron::app {
 
+// What a progress line shows of a study under way.
+class StudyProgress {
+ public:
+  StudyProgress(const Plan& plan, bool quiet);
+  void show(const RunProgress& now);
+  void finish() { line_.finish(); }
+
+ private:
+  const Plan& plan_;
+  ProgressLine line_;
+  std::chrono::steady_clock::time_point begun_ = std::chrono::steady_clock::now();
+  double best_ = diverged_cost;
+};
+
 // Runs what the store does not hold yet, with a progress line. The plan is stored first.
 RunProgress run_with_progress(const Plan& plan, Store& store, const RunOptions& options, bool quiet);
+
+// Works out what the data say of the parameters of the best fits, where the store does not have it for these runs.
+void add_identifiability(const Plan& plan, Store& store, int threads, bool quiet);
 
 struct StudyView {
   nlohmann::json plan;

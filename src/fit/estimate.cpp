@@ -11,23 +11,6 @@ namespace {
 
 constexpr double normal_quantile = 1.96;
 
-// Lag-1 correlation of the residuals, pooled: a coloured residual carries fewer independent samples than it has.
-double residual_correlation(const Objective& objective, const std::vector<Term>& terms) {
-  double product = 0.0;
-  double square = 0.0;
-  for (const Target& target : objective.targets()) {
-    const std::vector<double> force = predict(objective.layout().model(), objective.layout().held(), terms, target);
-    double before = 0.0;
-    for (std::size_t n = 0; n < force.size(); ++n) {
-      const double residual = (force[n] - target.force[n]) / target.normaliser;
-      product += n > 0 ? residual * before : 0.0;
-      square += residual * residual;
-      before = residual;
-    }
-  }
-  return square > 0.0 ? std::clamp(product / square, 0.0, 0.9999) : 0.0;
-}
-
 // Eigenvalues and vectors of the Gauss-Newton matrix of some coordinates, scaled to unit diagonal.
 struct CorrelationEigen {
   Eigen::VectorXd norm;
@@ -47,6 +30,23 @@ struct CorrelationEigen {
 };
 
 }  // namespace
+
+// Lag-1 correlation of the residuals, pooled: a coloured residual carries fewer independent samples than it has.
+double residual_correlation(const Objective& objective, const std::vector<Term>& terms) {
+  double product = 0.0;
+  double square = 0.0;
+  for (const Target& target : objective.targets()) {
+    const std::vector<double> force = predict(objective.layout().model(), objective.layout().held(), terms, target);
+    double before = 0.0;
+    for (std::size_t n = 0; n < force.size(); ++n) {
+      const double residual = (force[n] - target.force[n]) / target.normaliser;
+      product += n > 0 ? residual * before : 0.0;
+      square += residual * residual;
+      before = residual;
+    }
+  }
+  return square > 0.0 ? std::clamp(product / square, 0.0, 0.9999) : 0.0;
+}
 
 // Standard errors and 95 % intervals: the widest of the following and of what the jackknife says.
 // From the Gauss-Newton matrix at the optimum, free coordinates only, with the effective sample size

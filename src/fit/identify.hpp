@@ -82,6 +82,9 @@ using Progress = std::function<bool(const std::string& stage, const RunResult& r
 Identification identify(const Campaign& campaign, const std::string& model, const IdentifyOptions& options,
                         const Progress& progress);
 
+// Correlation of residuals with their neighbours in time: N samples are worth N (1 - r) / (1 + r).
+double residual_correlation(const Objective& objective, const std::vector<Term>& terms);
+
 // Estimates of every searched term at a point: value, standard error, bounds met, identifiability. Sets
 // result.estimates; result.layout and result.terms must be those of the point.
 void estimate(Identification& result, const Objective& objective, const std::vector<double>& point,

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "report/html.hpp"
@@ -179,6 +180,55 @@ StudyTable problem_table(const json& analysis) {
   return table;
 }
 
+// "1.2 to 3.4", open where the profile stays below its threshold up to the box.
+std::string profile_interval(const json& row) {
+  if (row.at("low").is_null() && row.at("high").is_null()) return "open";
+  if (row.at("low").is_null()) return "below " + shown(row.at("high"));
+  if (row.at("high").is_null()) return "above " + shown(row.at("low"));
+  return shown(row.at("low")) + " to " + shown(row.at("high"));
+}
+
+StudyTable identifiability_table(const json& analysis, const Names& names) {
+  StudyTable table{
+      "identifiability",
+      "Identifiability of the best fits",
+      "The best run of every problem, followed down by Levenberg-Marquardt. Profile 95 %: where the NRMSE, all "
+      "other parameters fitted again, stays below the threshold of the likelihood ratio for the effective "
+      "number of samples; open where the box or three standard deviations end first. Sloppiness: decades "
+      "between the largest and the smallest eigenvalue of J'J in logarithms of the parameters.",
+      {"problem", "parameter", "value", "unit", "profile 95 %", "strongest correlation", "bound", "sloppiness"},
+      {}};
+  if (!analysis.contains("identifiability")) return table;
+  const json& problems = analysis.at("identifiability");
+  for (std::size_t p = 0; p < problems.size(); ++p) {
+    const json& one = problems.at(p);
+    if (one.is_null()) continue;
+    const json& spectrum = one.at("spectrum");
+    const std::string decades =
+        spectrum.empty() ? "-" : fmt::format("{:.1f}", -std::log10(spectrum.back().at("eigenvalue").get<double>()));
+    const json& free = one.at("free");
+    for (std::size_t c = 0; c < one.at("parameters").size(); ++c) {
+      const json& row = one.at("parameters").at(c);
+      std::string partner = "-";
+      double strongest = 0.0;
+      for (std::size_t i = 0; i < free.size(); ++i) {
+        if (free.at(i) != c) continue;
+        for (std::size_t j = 0; j < free.size(); ++j) {
+          const double value = one.at("correlation").at(i).at(j);
+          if (j == i || std::fabs(value) <= strongest) continue;
+          strongest = std::fabs(value);
+          partner = fmt::format("{:.2f} with {}", value,
+                                one.at("parameters").at(free.at(j).get<std::size_t>()).at("name").get<std::string>());
+        }
+      }
+      table.rows.push_back(
+          {names.problem(p), row.at("name"), shown(row.at("value")), row.at("unit"), profile_interval(row), partner,
+           row.at("at_bound").is_null() ? std::string("-") : row.at("at_bound").get<std::string>(), decades});
+    }
+  }
+  return table;
+}
+
 StudyTable time_table(const json& times, const Names& names) {
   StudyTable table{
       "times",
@@ -197,6 +247,23 @@ StudyTable time_table(const json& times, const Names& names) {
   return table;
 }
 
+// In one line of a terminal; the report has the table.
+std::string left_open(const json& analysis) {
+  if (!analysis.contains("identifiability")) return {};
+  std::size_t open = 0;
+  std::size_t all = 0;
+  for (const json& one : analysis.at("identifiability")) {
+    if (one.is_null()) continue;
+    for (const json& row : one.at("parameters")) {
+      ++all;
+      open += row.at("low").is_null() || row.at("high").is_null() ? 1 : 0;
+    }
+  }
+  return fmt::format(
+      "Identifiability: of {} parameters of the best fits {} are open to one side at least (profile 95 %).\n", all,
+      open);
+}
+
 std::string state_of(const json& analysis) {
   return fmt::format("{} of {} runs: {} problems, {} solvers, {} seeds", whole(analysis.at("done")),
                      whole(analysis.at("planned")), analysis.at("problems").size(), analysis.at("solvers").size(),
@@ -212,6 +279,7 @@ std::vector<StudyTable> study_tables(const json& analysis, const json& times) {
   if (!analysis.at("models").empty()) tables.insert(tables.begin() + 1, model_table(analysis, names));
   if (analysis.at("problems").size() > 1) tables.push_back(pair_table(analysis, names, "problem_pairs"));
   tables.push_back(problem_table(analysis));
+  if (analysis.contains("identifiability")) tables.push_back(identifiability_table(analysis, names));
   if (!times.is_null()) tables.push_back(time_table(times, names));
   return tables;
 }
@@ -240,11 +308,13 @@ std::string study_verdict(const json& analysis) {
 std::string study_terminal(const json& analysis, const json& times) {
   std::string text = analysis.at("title").get<std::string>() + "\n" + state_of(analysis) + "\n\n";
   for (const StudyTable& one : study_tables(analysis, times)) {
-    if (one.id == "fixed-target" || one.id == "pairs-by-problem" || one.id == "problems") continue;
+    if (one.id == "fixed-target" || one.id == "pairs-by-problem" || one.id == "problems" || one.id == "identifiability")
+      continue;
     if (one.rows.empty()) continue;
     text += one.title + "\n" + table(one.header, one.rows) + "\n";
   }
   for (const json& warning : analysis.at("warnings")) text += "warning: " + warning.get<std::string>() + "\n";
+  text += left_open(analysis);
   return text + study_verdict(analysis) + "\n";
 }
 

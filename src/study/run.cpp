@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <ctime>
 #include <memory>
@@ -43,43 +44,58 @@ double thread_seconds() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-// Objectives of the problems under way: made when the first run of a problem starts, dropped after its last.
-class Objectives {
- public:
-  Objectives(const Plan& plan, std::vector<std::size_t> uses)
-      : plan_(plan), uses_(std::move(uses)), made_(uses_.size()) {}
+ObjectiveOptions options_of(const Plan& plan, double tolerance_share) {
+  ObjectiveOptions options = plan.study.objective;
+  options.threads = 1;
+  options.tolerance *= tolerance_share;
+  return options;
+}
 
-  std::shared_ptr<const Objective> take(std::size_t problem) {
+// Objectives of the problems worked on last: making them takes longer than a short run, keeping all of a large study
+// takes too much memory.
+class LastObjectives {
+ public:
+  LastObjectives(const Plan& plan, std::size_t kept) : plan_(plan), kept_(kept) {}
+
+  std::shared_ptr<const Objectives> take(std::size_t problem) {
     const std::lock_guard guard(mutex_);
-    if (!made_[problem]) {
-      ObjectiveOptions options = plan_.study.objective;
-      options.threads = 1;
-      made_[problem] = std::make_shared<const Objective>(plan_.problems[problem].layout,
-                                                         plan_.problems[problem].recordings, options);
+    const auto found = std::ranges::find(made_, problem, &Made::problem);
+    if (found != made_.end()) {
+      std::rotate(made_.begin(), found, found + 1);
+      return made_.front().objectives;
     }
-    auto result = made_[problem];
-    if (--uses_[problem] == 0) made_[problem].reset();
-    return result;
+    auto objectives = std::make_shared<const Objectives>(plan_, problem);
+    made_.insert(made_.begin(), Made{problem, objectives});
+    if (made_.size() > kept_) made_.pop_back();
+    return objectives;
   }
 
  private:
+  struct Made {
+    std::size_t problem;
+    std::shared_ptr<const Objectives> objectives;
+  };
   const Plan& plan_;
-  std::vector<std::size_t> uses_;
-  std::vector<std::shared_ptr<const Objective>> made_;
+  std::size_t kept_;
+  std::vector<Made> made_;  // last used first
   std::mutex mutex_;
 };
 
 }  // namespace
 
-std::optional<RunRecord> do_run(const Plan& plan, const PlannedRun& run, const Objective& objective,
+Objectives::Objectives(const Plan& plan, std::size_t problem)
+    : search(plan.problems[problem].layout, plan.problems[problem].recordings, options_of(plan, 1.0)),
+      tight(plan.problems[problem].layout, plan.problems[problem].recordings, options_of(plan, tight_share)) {}
+
+std::optional<RunRecord> do_run(const Plan& plan, const PlannedRun& run, const Objectives& objectives,
                                 const std::function<bool()>& stop) {
   const StudyProblem& problem = plan.problems[run.problem];
   const SolverEntry* entry = find_solver(plan.study.solvers[run.solver].id);
   if (entry == nullptr) throw InputError("unknown solver '" + plan.study.solvers[run.solver].id + "'");
   Problem solved = solver_problem(problem, run, plan.study);
-  objective.describe_data(solved);
+  objectives.search.describe_data(solved);
   const RunResult result = run_solver(
-      *entry, solved, [&](const Request& request) { return objective.evaluate(request); },
+      *entry, solved, [&](const Request& request) { return objectives.search.evaluate(request); },
       [&](const RunResult&) { return !stop || !stop(); });
   if (result.stopped == "interrupted") return {};
   RunRecord record;
@@ -100,67 +116,92 @@ std::optional<RunRecord> do_run(const Plan& plan, const PlannedRun& run, const O
       parameters[term_name(problem.layout.names()[term.parameter], term.drive_power, term.frequency_power)] =
           term.value;
     }
-    ObjectiveOptions options = plan.study.objective;
-    options.threads = 1;
     if (!problem.heldout.empty()) {
-      const double heldout = heldout_nrmse(problem, terms, options);
+      const double heldout = heldout_nrmse(problem, terms, options_of(plan, 1.0));
       if (heldout < diverged_cost) record.nrmse_heldout = heldout;
     }
-    options.tolerance *= tight_share;
-    const double tight = Objective(problem.layout, problem.recordings, options).evaluate({result.best, false}).cost[0];
+    const double tight = objectives.tight.evaluate({result.best, false}).cost[0];
     if (tight < diverged_cost) record.nrmse_tight = tight;
   }
   record.parameters = parameters.dump();
   return record;
 }
 
-RunProgress run_plan(const Plan& plan, Store& store, const RunOptions& options, const std::function<bool()>& stop,
-                     const RunObserver& observer) {
-  RunProgress progress;
-  const std::set<std::string> have = store.keys();
-  std::vector<const PlannedRun*> todo;
-  std::vector<std::size_t> uses(plan.problems.size(), 0);
-  for (const PlannedRun& run : plan.runs) {
-    if (!in_shard(run.key, options.shard_index, options.shard_count)) continue;
+std::vector<std::size_t> missing_runs(const Plan& plan, const std::set<std::string>& have, const RunOptions& options,
+                                      RunProgress& progress) {
+  std::vector<std::size_t> todo;
+  for (std::size_t k = 0; k < plan.runs.size(); ++k) {
+    if (!in_shard(plan.runs[k].key, options.shard_index, options.shard_count)) continue;
     ++progress.planned;
-    if (have.contains(run.key)) {
+    if (have.contains(plan.runs[k].key)) {
       ++progress.found;
-      continue;
+    } else {
+      todo.push_back(k);
     }
-    todo.push_back(&run);
-    ++uses[run.problem];
   }
-  const int wanted = team_size(options.threads);
+  return todo;
+}
+
+RunProgress run_from(const Plan& plan, Store& store, int threads, RunProgress progress, const RunSource& next,
+                     const std::function<bool()>& stop, const RunObserver& observer) {
+  const int wanted = team_size(threads);
   const std::string host = host_name();
-  Objectives objectives(plan, std::move(uses));
+  LastObjectives last(plan, static_cast<std::size_t>(wanted) + 1);
+  std::mutex source;
   std::mutex writer;
   // What fails in one run ends the others at their next evaluation.
   std::atomic<bool> halted{false};
   const auto stopped = [&] { return halted.load(std::memory_order_relaxed) || (stop && stop()); };
-  const auto run_and_record = [&](const PlannedRun& run) {
-    const double begun = thread_seconds();
-    const auto objective = objectives.take(run.problem);
-    const std::optional<RunRecord> record = do_run(plan, run, *objective, stopped);
-    if (!record) return;
-    RunTiming timing{run.key, thread_seconds() - begun, host, wanted, static_cast<std::int64_t>(std::time(nullptr))};
-    const std::lock_guard guard(writer);
-    if (halted) return;
-    store.add(*record, timing);
-    ++progress.done;
-    progress.last = plan.study.solvers[run.solver].label + " on " + plan.problems[run.problem].label;
-    progress.nrmse = record->nrmse;
-    if (observer) observer(progress);
+  const auto work = [&] {
+    while (!stopped()) {
+      std::optional<std::size_t> index;
+      {
+        const std::lock_guard guard(source);
+        index = next();
+      }
+      if (!index) return;
+      const PlannedRun& run = plan.runs[*index];
+      const double begun = thread_seconds();
+      const auto objectives = last.take(run.problem);
+      const std::optional<RunRecord> record = do_run(plan, run, *objectives, stopped);
+      if (!record) return;
+      const double seconds = thread_seconds() - begun;
+      const RunTiming timing{run.key, seconds, host, wanted, static_cast<std::int64_t>(std::time(nullptr))};
+      const std::lock_guard guard(writer);
+      if (halted) return;
+      store.add(*record, timing);
+      ++progress.done;
+      progress.index = *index;
+      progress.seconds = seconds;
+      progress.nrmse = record->nrmse;
+      if (observer) observer(progress);
+    }
   };
-  parallel_for(todo.size(), wanted, [&](std::size_t k) {
-    if (stopped()) return;
+  parallel_for(static_cast<std::size_t>(wanted), wanted, [&](std::size_t) {
     try {
-      run_and_record(*todo[k]);
+      work();
     } catch (...) {
       halted = true;
       throw;
     }
   });
   return progress;
+}
+
+RunProgress run_plan(const Plan& plan, Store& store, const RunOptions& options, const std::function<bool()>& stop,
+                     const RunObserver& observer) {
+  RunProgress progress;
+  const std::vector<std::size_t> todo = missing_runs(plan, store.keys(), options, progress);
+  std::size_t taken = 0;
+  const auto next = [&]() -> std::optional<std::size_t> {
+    if (taken == todo.size()) return {};
+    return todo[taken++];
+  };
+  return run_from(plan, store, options.threads, progress, next, stop, observer);
+}
+
+std::string label_of(const Plan& plan, std::size_t run) {
+  return plan.study.solvers[plan.runs[run].solver].label + " on " + plan.problems[plan.runs[run].problem].label;
 }
 
 }  // namespace hysteron

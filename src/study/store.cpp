@@ -7,6 +7,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -92,6 +93,8 @@ struct Store::State {
   sqlite3* database = nullptr;
   Descriptor lock;
   bool writing = false;
+  // By the address of their text, a literal; one use of each at a time.
+  mutable std::map<const char*, sqlite3_stmt*> statements;
 
   State() = default;
   State(const State&) = delete;
@@ -100,6 +103,7 @@ struct Store::State {
   State& operator=(State&&) = delete;
   ~State() {
     if (database == nullptr) return;
+    for (const auto& [sql, statement] : statements) sqlite3_finalize(statement);
     // One plain file at rest, readable from read-only folders; where that fails the log beside it stays valid.
     if (writing) sqlite3_exec(database, "PRAGMA journal_mode=DELETE", nullptr, nullptr, nullptr);
     sqlite3_close_v2(database);
@@ -129,14 +133,19 @@ struct Store::State {
 
 namespace {
 
-// A prepared statement for one use.
+// A use of a prepared statement, which the store keeps for the next one: parsing SQL takes longer than a row.
 template <class State>
 class Statement {
  public:
   Statement(const State& state, const char* sql) : state_(state) {
-    state_.check(sqlite3_prepare_v2(state_.database, sql, -1, &statement_, nullptr));
+    sqlite3_stmt*& kept = state_.statements[sql];
+    if (kept == nullptr) state_.check(sqlite3_prepare_v2(state_.database, sql, -1, &kept, nullptr));
+    statement_ = kept;
   }
-  ~Statement() { sqlite3_finalize(statement_); }
+  ~Statement() {
+    sqlite3_reset(statement_);
+    sqlite3_clear_bindings(statement_);
+  }
   Statement(const Statement&) = delete;
   Statement& operator=(const Statement&) = delete;
   Statement(Statement&&) = delete;
@@ -306,18 +315,23 @@ Store Store::open(const fs::path& folder, Mode mode) {
   return store;
 }
 
-void Store::set_plan(const std::string& text) {
-  Statement<State> statement(*state_, "INSERT OR REPLACE INTO meta VALUES ('plan', ?, ?)");
-  statement.bind(text).bind(sha256_hex(text)).step();
+void Store::set_meta(const std::string& name, const std::string& text) {
+  Statement<State> statement(*state_, "INSERT OR REPLACE INTO meta VALUES (?, ?, ?)");
+  statement.bind(name).bind(text).bind(sha256_hex(text)).step();
 }
 
-std::optional<std::string> Store::plan() const {
-  Statement<State> statement(*state_, "SELECT value, checksum FROM meta WHERE name = 'plan'");
-  if (!statement.step()) return {};
+std::optional<std::string> Store::meta(const std::string& name) const {
+  Statement<State> statement(*state_, "SELECT value, checksum FROM meta WHERE name = ?");
+  if (!statement.bind(name).step()) return {};
   std::string text = statement.text(0);
-  if (sha256_hex(text) != statement.text(1)) state_->damaged("the checksum of the plan does not fit");
+  if (sha256_hex(text) != statement.text(1)) state_->damaged("the checksum of the " + name + " does not fit");
   return text;
 }
+
+void Store::set_plan(const std::string& text) { set_meta("plan", text); }
+std::optional<std::string> Store::plan() const { return meta("plan"); }
+void Store::set_identifiability(const std::string& text) { set_meta("identifiability", text); }
+std::optional<std::string> Store::identifiability() const { return meta("identifiability"); }
 
 void Store::add_problem(const std::string& hash, const std::string& config) {
   Statement<State> statement(*state_, "INSERT OR IGNORE INTO problems VALUES (?, ?)");
@@ -331,33 +345,55 @@ std::vector<std::pair<std::string, std::string>> Store::problems() const {
   return result;
 }
 
-void Store::add(const RunRecord& record, const RunTiming& timing) {
-  state_->execute("BEGIN IMMEDIATE");
+namespace {
+
+template <class State>
+void insert(const State& state, const RunRecord& record, const RunTiming& timing) {
+  {
+    Statement<State> statement(state, "INSERT OR IGNORE INTO runs VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+    statement.bind(record.key)
+        .bind(record.config)
+        .bind(record.nrmse)
+        .bind(record.nrmse_tight)
+        .bind(record.nrmse_heldout);
+    statement.bind(static_cast<std::int64_t>(record.evaluations)).bind(static_cast<std::int64_t>(record.diverged));
+    statement.bind(record.stopped)
+        .bind(json(record.best).dump())
+        .bind(record.parameters)
+        .bind(trace_text(record.trace));
+    statement.bind(sha256_hex(record_text(record))).step();
+  }
+  Statement<State> statement(state, "INSERT OR IGNORE INTO environment VALUES (?, ?, ?, ?, ?)");
+  statement.bind(timing.key).bind(timing.seconds).bind(timing.host).bind(static_cast<std::int64_t>(timing.threads));
+  statement.bind(timing.finished).step();
+}
+
+// All of what `work` does or, when it throws, nothing.
+template <class State, class Work>
+void in_transaction(const State& state, const Work& work) {
+  state.execute("BEGIN IMMEDIATE");
   try {
-    {
-      Statement<State> statement(*state_, "INSERT OR IGNORE INTO runs VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
-      statement.bind(record.key)
-          .bind(record.config)
-          .bind(record.nrmse)
-          .bind(record.nrmse_tight)
-          .bind(record.nrmse_heldout);
-      statement.bind(static_cast<std::int64_t>(record.evaluations)).bind(static_cast<std::int64_t>(record.diverged));
-      statement.bind(record.stopped)
-          .bind(json(record.best).dump())
-          .bind(record.parameters)
-          .bind(trace_text(record.trace));
-      statement.bind(sha256_hex(record_text(record))).step();
-    }
-    {
-      Statement<State> statement(*state_, "INSERT OR IGNORE INTO environment VALUES (?, ?, ?, ?, ?)");
-      statement.bind(timing.key).bind(timing.seconds).bind(timing.host).bind(static_cast<std::int64_t>(timing.threads));
-      statement.bind(timing.finished).step();
-    }
-    state_->execute("COMMIT");
+    work();
+    state.execute("COMMIT");
   } catch (...) {
-    sqlite3_exec(state_->database, "ROLLBACK", nullptr, nullptr, nullptr);
+    sqlite3_exec(state.database, "ROLLBACK", nullptr, nullptr, nullptr);
     throw;
   }
+}
+
+}  // namespace
+
+void Store::add(const RunRecord& record, const RunTiming& timing) {
+  in_transaction(*state_, [&] { insert(*state_, record, timing); });
+}
+
+void Store::add(std::span<const Entry> entries) {
+  if (entries.empty()) return;
+  state_->execute("PRAGMA synchronous=FULL");
+  in_transaction(*state_, [&] {
+    for (const Entry& entry : entries) insert(*state_, entry.record, entry.timing);
+  });
+  state_->execute("PRAGMA synchronous=NORMAL");
 }
 
 std::set<std::string> Store::keys() const {

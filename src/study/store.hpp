@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -39,6 +40,11 @@ struct RunTiming {
   std::int64_t finished = 0;  // seconds since 1970
 };
 
+struct Entry {
+  RunRecord record;
+  RunTiming timing;
+};
+
 class Store {
  public:
   enum class Mode { read, write };
@@ -57,10 +63,15 @@ class Store {
   // All of these throw WorkError with the path and the reason when the file system fails; what was added before stays.
   void set_plan(const std::string& json);
   [[nodiscard]] std::optional<std::string> plan() const;
+  // Identifiability of the best runs, see study/identifiability.hpp.
+  void set_identifiability(const std::string& json);
+  [[nodiscard]] std::optional<std::string> identifiability() const;
   void add_problem(const std::string& hash, const std::string& config);
   [[nodiscard]] std::vector<std::pair<std::string, std::string>> problems() const;
   // In one transaction; a record whose key is there already is left alone.
   void add(const RunRecord& record, const RunTiming& timing);
+  // Likewise, and on the disk when this returns: their other copy may go.
+  void add(std::span<const Entry> entries);
   [[nodiscard]] std::set<std::string> keys() const;
   // In the order of keys. Throws InputError for a row whose checksum does not fit.
   [[nodiscard]] std::vector<RunRecord> records() const;
@@ -69,6 +80,8 @@ class Store {
  private:
   struct State;
   explicit Store(std::unique_ptr<State> state);
+  void set_meta(const std::string& name, const std::string& text);
+  [[nodiscard]] std::optional<std::string> meta(const std::string& name) const;
   std::unique_ptr<State> state_;
 };
 

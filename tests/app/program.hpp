@@ -31,20 +31,25 @@ inline std::string read(const std::filesystem::path& path) {
   return text.str();
 }
 
-// `before` runs in the child, for limits and signal dispositions.
-inline pid_t start(const std::vector<std::string>& words, const std::filesystem::path& folder,
-                   const std::function<void()>& before = {}) {
+// `before` runs in the child, for limits, environment and signal dispositions.
+inline pid_t start_other(const char* program, const std::vector<std::string>& words,
+                         const std::filesystem::path& folder, const std::function<void()>& before = {}) {
   const pid_t child = fork();
   if (child != 0) return child;
   if (chdir(folder.c_str()) != 0) _exit(99);
   dup2(open("stdout.txt", O_WRONLY | O_CREAT | O_TRUNC, 0644), STDOUT_FILENO);
   dup2(open("stderr.txt", O_WRONLY | O_CREAT | O_TRUNC, 0644), STDERR_FILENO);
   if (before) before();
-  std::vector<char*> arguments{const_cast<char*>(HYSTERON_PROGRAM)};
+  std::vector<char*> arguments{const_cast<char*>(program)};
   for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);
-  execv(HYSTERON_PROGRAM, arguments.data());
+  execv(program, arguments.data());
   _exit(99);
+}
+
+inline pid_t start(const std::vector<std::string>& words, const std::filesystem::path& folder,
+                   const std::function<void()>& before = {}) {
+  return start_other(HYSTERON_PROGRAM, words, folder, before);
 }
 
 // Waits until a child has a handler for a signal: one sent before would end it as it ends any program.
