@@ -1,5 +1,5 @@
-// The sign of the sliding velocity as dry friction follows it: the contact bends over a length too short to be seen
-// before it slides.
+// The sign of the sliding velocity as dry friction follows it: the contact bends over a length x_b before it slides,
+// from less than can be seen to tenths of a millimetre of a soft seal.
 //   z' = (v - |v| z) / (x_b + |v| t_b)
 #pragma once
 
@@ -7,17 +7,22 @@
 
 namespace hysteron {
 
-inline constexpr double bristle_length = 2e-5;  // m
 // At speed the length alone would need steps far shorter than any sampling.
 inline constexpr double bristle_time = 5e-4;  // s
 
+inline constexpr Parameter bristle_length = {
+    "x_b", "x_b", "m", "length over which the contact bends", 1.0e-6, 2.0e-4, 2.0e-5, Scale::logarithmic, {0, 1, 0}};
+
 template <class T>
-T bristle_rate(const T& v, const T& z) {
+T bristle_rate(const T& length, const T& v, const T& z) {
   const T speed = abs(v);
-  return (v - speed * z) / (T(bristle_length) + T(bristle_time) * speed);
+  return (v - speed * z) / (length + T(bristle_time) * speed);
 }
 
 // Bound of |dz'/dz| for speeds (m/s) up to `speed`.
-inline double bristle_stiffness(double speed) { return speed / (bristle_length + bristle_time * speed); }
+template <class T>
+T bristle_stiffness(const T& length, double speed) {
+  return T(speed) / (length + T(bristle_time * speed));
+}
 
 }  // namespace hysteron

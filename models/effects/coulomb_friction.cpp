@@ -1,8 +1,8 @@
 // Dry friction of constant size in parallel.
-//   F <- F + fc z,   z' = (v - |v| z) / (x_b + |v| t_b),   x_b = 20 um, t_b = 0.5 ms
+//   F <- F + fc z,   z' = (v - |v| z) / (x_b + |v| t_b),   t_b = 0.5 ms
 // z stands for sgn(v): the contact bends over x_b before it slides, as contacts do, and a noisy velocity about rest
 // does not make the force jump. At speed the turn takes t_b. Source: Dahl, Aerospace Corp. report TOR-0158(3107-18)-1,
-// 1968, with a presliding length too short to be seen.
+// 1968.
 #include "models/bristle.hpp"
 #include "simulate/compile.hpp"
 
@@ -17,18 +17,19 @@ struct CoulombFriction {
   static constexpr int states = 1;
   static constexpr Parameter parameters[] = {
       {"fc", "f_c", "N", "friction force", 0.0, 1.0e3, 0.0, Scale::linear, {1, 0, 0}, true},
+      bristle_length,
   };
 
   template <class T>
-  static std::array<T, 1> rate(const std::array<T, 1>& /*p*/, const std::array<T, 1>& s, const Input<T>& in) {
-    return {bristle_rate(in.v, s[0])};
+  static std::array<T, 1> rate(const std::array<T, 2>& p, const std::array<T, 1>& s, const Input<T>& in) {
+    return {bristle_rate(p[1], in.v, s[0])};
   }
   template <class T>
-  static T stiffness(const std::array<T, 1>& /*p*/, double speed) {
-    return T(bristle_stiffness(speed));
+  static T stiffness(const std::array<T, 2>& p, double speed) {
+    return bristle_stiffness(p[1], speed);
   }
   template <class T>
-  static T force(const std::array<T, 1>& p, const std::array<T, 1>& s, const Input<T>& /*in*/, const T& below) {
+  static T force(const std::array<T, 2>& p, const std::array<T, 1>& s, const Input<T>& /*in*/, const T& below) {
     return below + p[0] * s[0];
   }
 };

@@ -29,18 +29,19 @@ struct SealFriction {
        {1, 0, 0},
        true},
       {"v_st", "v_st", "m/s", "Stribeck speed", 3.0e-3, 1.0e-1, 1.5e-2, Scale::logarithmic, {0, 0, 1}},
+      bristle_length,
   };
 
   template <class T>
-  static std::array<T, 1> rate(const std::array<T, 3>& /*p*/, const std::array<T, 1>& s, const Input<T>& in) {
-    return {bristle_rate(in.v, s[0])};
+  static std::array<T, 1> rate(const std::array<T, 4>& p, const std::array<T, 1>& s, const Input<T>& in) {
+    return {bristle_rate(p[3], in.v, s[0])};
   }
   template <class T>
-  static T stiffness(const std::array<T, 3>& /*p*/, double speed) {
-    return T(bristle_stiffness(speed));
+  static T stiffness(const std::array<T, 4>& p, double speed) {
+    return bristle_stiffness(p[3], speed);
   }
   template <class T>
-  static T force(const std::array<T, 3>& p, const std::array<T, 1>& s, const Input<T>& in, const T& below) {
+  static T force(const std::array<T, 4>& p, const std::array<T, 1>& s, const Input<T>& in, const T& below) {
     const T& fc = p[0];
     const T& fb = p[1];
     const T& v_st = p[2];

@@ -9,6 +9,7 @@
 #include "app/model_file.hpp"
 #include "core/error.hpp"
 #include "core/suggest.hpp"
+#include "fit/start.hpp"
 #include "io/output.hpp"
 #include "presets/preset.hpp"
 
@@ -167,6 +168,8 @@ void add_simulate(CLI::App& program) {
                        " recordings, expected one");
     }
     Recording recording = campaign.recordings[0];
+    // Of the force only how it begins: in its cycle, or from nothing.
+    recording.start = start_of(recording);
     recording.force.clear();
     std::vector<double> force;
     if (preset) {

@@ -63,6 +63,11 @@ std::string sentence_of(const Diagnosis& diagnosis, const Named& named,
     values.push_back(text);
   }
   std::string text = "Consistent with " + title_of(named.id);
+  for (const Found& found : diagnosis.search.found) {
+    if (found.id == named.id && !found.by_law.empty()) {
+      text += ": " + found.by_law + " rises ever less with the drive";
+    }
+  }
   if (!values.empty()) {
     text += ", " + join(values, " and ");
   }

@@ -1,6 +1,7 @@
 #include "diagnose/search.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
 
@@ -130,6 +131,40 @@ bool worth(const Tried& tried, const Fit& before, double candidates) {
   const double bearable = std::max(0.005 * squared(before.heldout), 0.02 * tried.gain);
   return tried.evidence > least_evidence + 2.0 * std::log(candidates) &&
          tried.gain > least_gain * squared(before.cost) && tried.heldout_gain > -bearable;
+}
+
+const ParameterLaw* law_of(const Layout& layout, const std::string& parameter) {
+  const auto at = std::ranges::find_if(
+      layout.laws(), [&](const ParameterLaw& law) { return layout.names()[law.parameter] == parameter; });
+  return at == layout.laws().end() ? nullptr : &*at;
+}
+
+// A yield force that follows the drive in the base model, and in the richer one rises ever less with it: that is what
+// magnetic saturation is, where the damping does not saturate with it.
+bool saturates(const Fit& base, const Fit& augmented, const std::string& parameter) {
+  const ParameterLaw* before = law_of(*base.layout, parameter);
+  const ParameterLaw* law = law_of(*augmented.layout, parameter);
+  if (before == nullptr || law == nullptr || before->drive_nodes.size() < 2) {
+    return false;
+  }
+  const Parameter& card = augmented.layout->cards()[law->parameter];
+  if (card.unit != "N" || card.lower < 0.0) {
+    return false;
+  }
+  const double low = law->drive_nodes.front();
+  const double high = law->drive_nodes.back();
+  std::array<double, 5> values{};
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    const double drive = low + (high - low) * static_cast<double>(k) / static_cast<double>(values.size() - 1);
+    values[k] =
+        parameters_at(augmented.layout->held(), augmented.terms, drive, law->frequency_nodes.front())[law->parameter];
+  }
+  for (std::size_t k = 1; k + 1 < values.size(); ++k) {
+    if (values[k + 1] - values[k] > values[k] - values[k - 1] || values[k + 1] < values[k]) {
+      return false;
+    }
+  }
+  return true;
 }
 
 // The hypotheses that came closest at any stage.
@@ -309,11 +344,18 @@ Search search(const Workbench& bench, const Workbench& fine, const Hypothesis& b
         found.gain / std::max(result.base_misfit.squares - result.misfit.squares + result.misfit.structure, 1e-300),
         0.0, 1.0);
   }
-  std::erase_if(result.found, [&](const Found& found) {
-    if (is_law(found.id)) {
-      result.richer.push_back(found.id.substr(4));
+  std::erase_if(result.found, [&](Found& found) {
+    if (!is_law(found.id)) {
+      return false;
     }
-    return is_law(found.id);
+    result.richer.push_back(found.id.substr(4));
+    if (!saturates(result.base, result.augmented, result.richer.back())) {
+      return true;
+    }
+    found.by_law = result.richer.back();
+    found.id = "magnetic-saturation";
+    std::erase_if(found.rivals, [](const Rival& rival) { return rival.id == "magnetic-saturation"; });
+    return false;
   });
   std::ranges::stable_sort(result.found, [](const Found& a, const Found& b) { return a.gain > b.gain; });
 

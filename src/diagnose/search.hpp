@@ -34,6 +34,7 @@ struct Found {
   double evidence = 0.0;
   double share_of_misfit = 0.0;  // of the base's structure
   std::vector<Rival> rivals;     // all that were refitted in its place, best first
+  std::string by_law = {};       // the parameter whose richer law in the drive shows the effect, where one does
 };
 
 struct Search {

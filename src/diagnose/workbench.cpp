@@ -11,6 +11,7 @@ namespace hysteron {
 namespace {
 
 constexpr std::size_t start_count = 8;
+constexpr std::string_view damping_unit = "N s/m";
 // Rounds after which only the best starts go on.
 constexpr int race_rounds = 2;
 
@@ -87,6 +88,18 @@ Layout Workbench::layout(const Hypothesis& what) const {
                 [&](const auto& law) { return std::ranges::find(names, law.first) == names.end(); });
   std::erase_if(options.fix, [&](const auto& law) { return std::ranges::find(names, law.first) == names.end(); });
   std::erase_if(options.bounds, [&](const auto& law) { return std::ranges::find(names, law.first) == names.end(); });
+  // A damping that an effect takes away or adds follows the drive as the law's own does.
+  const std::vector<Parameter> cards = model.parameters();
+  int order = 0;
+  for (const auto& [name, power] : options.by_current) {
+    const auto at = static_cast<std::size_t>(std::ranges::find(names, name) - names.begin());
+    order = cards[at].unit == damping_unit ? std::max(order, power) : order;
+  }
+  for (std::size_t k = model.law->parameters.size(); k < names.size() && order > 0; ++k) {
+    if (cards[k].unit == damping_unit && !cards[k].fixed) {
+      options.by_current[names[k]] = order;
+    }
+  }
   for (const std::string& name : what.richer) {
     options.by_current[name] += 1;
   }

@@ -9,11 +9,12 @@
 namespace hysteron {
 namespace {
 
-// A force that settles does so within this part of the first period, and there differs from the next one by this factor
-// more than later, and by this share of the peak force.
+// A force that settles differs from that one period later, within this part of the first period, by this factor more
+// than in the rest of it, or than the second period differs from the third, and by this share of the peak force.
 constexpr std::size_t settling_part = 8;
 constexpr double settling_factor = 3.0;
 constexpr double settling_share = 0.05;
+constexpr std::size_t neighbours = 2;
 
 // Whether the force of a recording in mid-motion comes out of nothing, as that of a damper that was at rest in the
 // position of the first sample: it differs from the force one period later at the start, and then no more.
@@ -25,18 +26,33 @@ bool force_settles(const Recording& recording, std::size_t period) {
   for (const double force : recording.force) {
     peak = std::max(peak, std::fabs(force));
   }
+  // The nearest of the neighbours one period later: the period is no whole number of samples, and friction jumps.
+  const auto change = [&](std::size_t n) {
+    double least = 1e300;
+    const std::size_t from = n + period - std::min(neighbours, n + period);
+    for (std::size_t m = from; m <= std::min(n + period + neighbours, recording.size() - 1); ++m) {
+      least = std::min(least, std::fabs(recording.force[m] - recording.force[n]));
+    }
+    return least;
+  };
   // The second largest: one outlier tells nothing.
   std::array<double, 2> early = {0.0, 0.0};
   double late = 0.0;
   for (std::size_t n = 0; n < period; ++n) {
-    const double change = std::fabs(recording.force[n + period] - recording.force[n]);
     if (n >= period / settling_part) {
-      late = std::max(late, change);
-    } else if (change > early[0]) {
-      early = {change, early[0]};
+      late = std::max(late, change(n));
+    } else if (change(n) > early[0]) {
+      early = {change(n), early[0]};
     } else {
-      early[1] = std::max(early[1], change);
+      early[1] = std::max(early[1], change(n));
     }
+  }
+  if (recording.size() >= 3 * period) {
+    double next = 0.0;
+    for (std::size_t n = period; n < 2 * period; ++n) {
+      next = std::max(next, change(n));
+    }
+    late = std::min(late, next);
   }
   return early[1] > settling_factor * late && early[1] > settling_share * peak;
 }

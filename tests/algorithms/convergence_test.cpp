@@ -15,13 +15,15 @@
 namespace hysteron {
 namespace {
 
-// Median over five seeds of the evaluations after which the sum of squares is below 1e-8 (cost below 1e-4).
+constexpr std::uint64_t seeds = 21;
+
+// Median over the seeds of the evaluations after which the sum of squares is below 1e-8 (cost below 1e-4).
 std::size_t median_evaluations(std::string_view id, const testing::Objective& objective, std::size_t dimension,
                                std::size_t budget, const std::map<std::string, double>& settings = {}) {
   const SolverEntry* entry = find_solver(id);
   if (entry == nullptr) return std::numeric_limits<std::size_t>::max();
   std::vector<std::size_t> evaluations;
-  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+  for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
     Problem problem;
     problem.dimension = dimension;
     problem.budget = budget;
@@ -32,7 +34,7 @@ std::size_t median_evaluations(std::string_view id, const testing::Objective& ob
     evaluations.push_back(run.used_at_target > 0 ? run.used_at_target : std::numeric_limits<std::size_t>::max());
   }
   std::sort(evaluations.begin(), evaluations.end());
-  return evaluations[2];
+  return evaluations[seeds / 2];
 }
 
 // The windows are centred on the medians measured when the solvers were written (4308; 4639; 21540; 18991) and are of

@@ -32,6 +32,17 @@ TEST(Start, IsSeenInTheForce) {
   EXPECT_EQ(start_of(moving(0.0)), Start::in_cycle);
   EXPECT_EQ(start_of(moving(0.008)), Start::from_nothing);
   EXPECT_EQ(start_of(moving(0.008, 0.9)), Start::in_cycle);  // less than two periods
+  // Built up over much of the first period: the second and the third tell.
+  EXPECT_EQ(start_of(moving(0.1, 2.0)), Start::from_nothing);
+  EXPECT_EQ(start_of(moving(0.1, 1.1)), Start::in_cycle);
+  // Dry friction jumps at every reversal, a sample earlier or later than one period before.
+  for (const double building : {0.0, 0.008}) {
+    Recording jumping = moving(building);
+    for (std::size_t n = 0; n < jumping.size(); ++n) {
+      jumping.force[n] += std::cos(2.0 * std::numbers::pi * 2.004 * jumping.time[n]) < 0.0 ? -400.0 : 400.0;
+    }
+    EXPECT_EQ(start_of(jumping), building > 0.0 ? Start::from_nothing : Start::in_cycle);
+  }
   Recording outlier = moving(0.0);
   outlier.force[5] = 0.0;
   EXPECT_EQ(start_of(outlier), Start::in_cycle);
