@@ -43,7 +43,8 @@ both() {
   local folder=$1 k
   shift
   for k in 0 1; do
-    OMP_NUM_THREADS=1 "${programs[k]}" "$@" --out "$k/$folder" --quiet >/dev/null
+    OMP_NUM_THREADS=1 "${programs[k]}" "$@" --out "$k/$folder" >/dev/null 2>messages ||
+      { cat messages >&2; exit 1; }
   done
 }
 
@@ -63,9 +64,11 @@ echo "| what | same bytes | largest relative difference of a parameter |"
 echo "|---|---|--:|"
 for solver in $(ids solvers); do
   case "$solver" in *:*) continue ;; esac
-  both "$solver" fit twin --model bouc-wen --by-current alpha:1,c0:1 --solver "$solver" --budget 1000
+  both "$solver" fit "$data" --model bouc-wen --solver "$solver" --budget 1000
   row "fit by $solver" "$solver"/{model.json,fit.json,report.html}
 done
+both campaign fit twin --model modified-bouc-wen --by-current alpha:1,c0:1 --solver pso,ga,multistart-lm --budget 500
+row "fit of a campaign by pso, ga, multistart-lm" campaign/{model.json,fit.json,report.html}
 for model in $(ids models); do
   fit_and_simulate "$model" --model "$model"
 done
