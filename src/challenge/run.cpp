@@ -113,9 +113,15 @@ int diagnose_all(const std::filesystem::path& out, const Diagnose& diagnose, con
 json score_all(const std::filesystem::path& out, const std::string& hash) {
   const json answers = open_seal(out, hash);
   json campaigns = json::array();
+  int left = 0;
   for (const json& answer : answers.at("campaigns")) {
-    const auto path = out / "diagnoses" / answer.at("campaign").get<std::string>() / "diagnosis.json";
+    const auto folder = out / "diagnoses" / answer.at("campaign").get<std::string>();
+    const auto path = folder / "diagnosis.json";
     json diagnosis;
+    if (!std::filesystem::exists(path) && !std::filesystem::exists(folder / "failed.txt")) {
+      ++left;
+      continue;
+    }
     if (std::filesystem::exists(path)) {
       try {
         diagnosis = json::parse(read_file(path));
@@ -128,6 +134,7 @@ json score_all(const std::filesystem::path& out, const std::string& hash) {
   return {{"schema", "hysteron.challenge/1"},
           {"seed", answers.at("seed")},
           {"seal", read_file(out / "seal.sha256").substr(0, 64)},
+          {"not_diagnosed", left},
           {"summary", summarise(campaigns)},
           {"campaigns", campaigns}};
 }

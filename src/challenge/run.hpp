@@ -34,7 +34,8 @@ std::string make_all(const std::filesystem::path& out, const std::vector<Task>& 
 // Diagnoses every campaign that has no diagnosis.json yet; returns how many failed.
 int diagnose_all(const std::filesystem::path& out, const Diagnose& diagnose, const Steps& steps);
 
-// Opens the seal, holding it against `hash` (empty: the one of seal.sha256), and scores: challenge.json's content.
+// Opens the seal, holding it against `hash` (empty: the one of seal.sha256), and scores what was diagnosed or failed:
+// challenge.json's content, with "not_diagnosed" counting the rest.
 [[nodiscard]] nlohmann::json score_all(const std::filesystem::path& out, const std::string& hash);
 
 }  // namespace hysteron::challenge

@@ -172,7 +172,11 @@ Table campaign_table(const json& result) {
 }
 
 std::string heading(const json& result) {
-  return fmt::format("{} campaigns, seed {}, sha256 of the sealed answers {}", result.at("campaigns").size(),
+  const int left = result.value("not_diagnosed", 0);
+  return fmt::format("{} campaigns{}, seed {}, sha256 of the sealed answers {}", result.at("campaigns").size(),
+                     left > 0 ? fmt::format(" of {}, the others not diagnosed",
+                                            result.at("campaigns").size() + static_cast<std::size_t>(left))
+                              : "",
                      result.at("seed").get<std::uint64_t>(), result.at("seal").get<std::string>());
 }
 

@@ -185,6 +185,11 @@ TEST(Run, GoesOnWhereItStoppedAndRefusesOtherSettings) {
   const nlohmann::json result = score_all(folder.path(), hash);
   EXPECT_EQ(result.at("campaigns")[0].at("outcome"), "failed");
   EXPECT_EQ(result.at("campaigns")[1].at("outcome"), "right");
+  EXPECT_EQ(result.at("not_diagnosed"), 0);
+  std::filesystem::remove_all(folder.path() / "diagnoses" / "campaign-0002");
+  const nlohmann::json some = score_all(folder.path(), hash);
+  EXPECT_EQ(some.at("campaigns").size(), 1U);
+  EXPECT_EQ(some.at("not_diagnosed"), 1);
 }
 
 }  // namespace
