@@ -58,17 +58,22 @@ void estimate(Identification& result, const Objective& objective, const std::vec
   const auto d = static_cast<Eigen::Index>(layout.dimension());
   Request request{u, true};
   const Response response = objective.evaluate(request);
-  const Eigen::Map<const Eigen::MatrixXd> full(response.gauss_newton.data(), d, d);
+  Eigen::MatrixXd full = Eigen::Map<const Eigen::MatrixXd>(response.gauss_newton.data(), d, d);
+  std::vector<bool> open(static_cast<std::size_t>(d), false);
   std::vector<Eigen::Index> free;
   for (Eigen::Index k = 0; k < d; ++k) {
     const double position = u[static_cast<std::size_t>(k)];
-    if (position > 1e-6 && position < 1.0 - 1e-6) {
+    if (!std::isfinite(full(k, k))) {
+      // Of a coordinate without a finite derivative nothing can be said; the others keep their errors.
+      full.row(k).setZero();
+      full.col(k).setZero();
+      open[static_cast<std::size_t>(k)] = true;
+    } else if (position > 1e-6 && position < 1.0 - 1e-6) {
       free.push_back(k);
     }
   }
   const auto m = static_cast<Eigen::Index>(free.size());
   Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(d, d);
-  std::vector<bool> open(static_cast<std::size_t>(d), false);
   std::vector<Eigen::Index> every(static_cast<std::size_t>(d));
   std::iota(every.begin(), every.end(), Eigen::Index{0});
   const CorrelationEigen all(full, every);
@@ -117,12 +122,14 @@ void estimate(Identification& result, const Objective& objective, const std::vec
     const auto deviation = [&](const Spread& spread) -> Eigen::VectorXd {
       return (free_to_terms * spread.covariance * free_to_terms.transpose()).diagonal().cwiseMax(0.0).cwiseSqrt();
     };
-    const Jackknife spreads = jackknife(objective.linearised(u), free, layout.dimension());
-    std_error = std_error.cwiseMax(deviation(spreads.stretches));
-    half_width = half_width.cwiseMax(spreads.stretches.quantile * deviation(spreads.stretches));
+    const std::optional<Jackknife> spreads = jackknife(objective.linearised(u), free, layout.dimension());
+    if (spreads) {
+      std_error = std_error.cwiseMax(deviation(spreads->stretches));
+      half_width = half_width.cwiseMax(spreads->stretches.quantile * deviation(spreads->stretches));
+    }
     // Few recordings tell their own spread badly, which the wide quantile allows for and a standard error cannot.
-    if (spreads.recordings) {
-      half_width = half_width.cwiseMax(spreads.recordings->quantile * deviation(*spreads.recordings));
+    if (spreads && spreads->recordings) {
+      half_width = half_width.cwiseMax(spreads->recordings->quantile * deviation(*spreads->recordings));
     }
   }
   for (const ParameterLaw& law : layout.laws()) {
@@ -164,7 +171,7 @@ void estimate(Identification& result, const Objective& objective, const std::vec
       for (const Eigen::Index c : free) {
         determined = determined || to_terms(row, c) != 0.0;
       }
-      if (!law_open && law_free && determined) {
+      if (!law_open && law_free && determined && std::isfinite(half_width[row])) {
         estimate.std_error = std_error[row];
         estimate.half_width = half_width[row];
       }

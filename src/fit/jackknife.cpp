@@ -62,7 +62,8 @@ Spread spread_of(const std::vector<Group>& groups, const Eigen::MatrixXd& transf
 
 }  // namespace
 
-Jackknife jackknife(const std::vector<Linearised>& data, const std::vector<Eigen::Index>& free, std::size_t dimension) {
+std::optional<Jackknife> jackknife(const std::vector<Linearised>& data, const std::vector<Eigen::Index>& free,
+                                   std::size_t dimension) {
   const auto m = static_cast<Eigen::Index>(free.size());
   std::vector<Group> parts;
   std::vector<Group> recordings;
@@ -79,7 +80,13 @@ Jackknife jackknife(const std::vector<Linearised>& data, const std::vector<Eigen
     total += whole.matrix;
     recordings.push_back(std::move(whole));
   }
+  if (!total.allFinite()) {
+    return std::nullopt;
+  }
   const Eigen::MatrixXd transform = whitening(total);
+  if (transform.cols() == 0) {
+    return std::nullopt;
+  }
   Jackknife result{spread_of(parts, transform), std::nullopt};
   if (recordings.size() >= least_recordings) {
     result.recordings = spread_of(recordings, transform);

@@ -25,6 +25,8 @@ struct Jackknife {
 // would have them narrow. `free`: the coordinates that are not on a bound, one at least. Source: Cameron and Miller, A
 // practitioner's guide to cluster-robust inference, J. Human Resources 50 (2015) 317 (CR3), with the leverage of a
 // group cut where it is nearly alone in telling a direction.
-Jackknife jackknife(const std::vector<Linearised>& data, const std::vector<Eigen::Index>& free, std::size_t dimension);
+// Empty where the derivatives are not finite or tell no direction.
+std::optional<Jackknife> jackknife(const std::vector<Linearised>& data, const std::vector<Eigen::Index>& free,
+                                   std::size_t dimension);
 
 }  // namespace hysteron

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/random.hpp"
@@ -73,9 +74,13 @@ Eigen::MatrixXd covariance_of(const std::vector<Eigen::VectorXd>& optima) {
 
 const std::vector<Eigen::Index> every = {0, 1, 2};
 
+Jackknife told(const std::vector<Linearised>& data, const std::vector<Eigen::Index>& free, std::size_t count) {
+  return jackknife(data, free, count).value();
+}
+
 TEST(Jackknife, IsTheExactOneForLinearLeastSquares) {
   const LinearData data(11, 5, 0.3);
-  const Jackknife found = jackknife(data.linearised(), every, dimension);
+  const Jackknife found = told(data.linearised(), every, dimension);
   std::vector<Eigen::VectorXd> by_recording;
   std::vector<Eigen::VectorXd> by_stretch;
   for (std::size_t r = 0; r < 5; ++r) {
@@ -101,9 +106,10 @@ TEST(Jackknife, HoldsTheTruthAsOftenAsItSays) {
   for (int k = 0; k < campaigns; ++k) {
     const LinearData data(100 + static_cast<std::uint64_t>(k), 6, 0.3);
     const Eigen::VectorXd best = data.solved(6, 0, 0);
-    const Jackknife found = jackknife(data.linearised(), every, dimension);
+    const Jackknife found = told(data.linearised(), every, dimension);
     const double error = std::fabs(best[0] - truth[0]);
-    inside += error < found.recordings->quantile * std::sqrt(found.recordings->covariance(0, 0)) ? 1 : 0;
+    const Spread& recordings = found.recordings.value();
+    inside += error < recordings.quantile * std::sqrt(recordings.covariance(0, 0)) ? 1 : 0;
     inside_classical += error < 1.96 / std::sqrt(6.0 * samples) ? 1 : 0;
   }
   // Binomial, 200 at 95 %: four standard deviations are 12.
@@ -112,9 +118,17 @@ TEST(Jackknife, HoldsTheTruthAsOftenAsItSays) {
 }
 
 TEST(Jackknife, OneRecordingHasStretchesOnly) {
-  const Jackknife found = jackknife(LinearData(3, 1, 0.0).linearised(), {0, 2}, dimension);
+  const Jackknife found = told(LinearData(3, 1, 0.0).linearised(), {0, 2}, dimension);
   EXPECT_FALSE(found.recordings.has_value());
   EXPECT_EQ(found.stretches.covariance.rows(), 2);
+}
+
+TEST(Jackknife, TellsNothingFromDerivativesThatAreNotFiniteOrAllZero) {
+  std::vector<Linearised> data = LinearData(3, 3, 0.0).linearised();
+  data[1].jacobian[7] = std::nan("");
+  EXPECT_FALSE(jackknife(data, every, dimension).has_value());
+  for (Linearised& one : data) std::ranges::fill(one.jacobian, 0.0);
+  EXPECT_FALSE(jackknife(data, every, dimension).has_value());
 }
 
 }  // namespace
