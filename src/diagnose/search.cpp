@@ -260,6 +260,10 @@ Search search(const Workbench& bench, const Workbench& fine, const Hypothesis& b
       Found found;
       found.id = id;
       found.without = less == base ? result.quick_base : bench.from_fit(less, current, fitting_rounds);
+      if (found.without.cost > result.quick_base.cost) {
+        // The base is among what is left: the descent from the fuller model went astray.
+        found.without = bench.from_fit(less, result.quick_base, fitting_rounds);
+      }
       found.gain = squared(found.without.cost) - squared(current.cost);
       found.evidence = evidence(
           squared(found.without.cost), squared(current.cost),
