@@ -142,12 +142,9 @@ std::string json_text(const nlohmann::json& value) { return value.dump(2) + "\n"
 nlohmann::json environment(int threads, double seconds) {
   char host[256] = {};
   gethostname(host, sizeof host - 1);
-  return {{"schema", "hysteron.environment/1"},
-          {"host", host},
-          {"threads", team_size(threads)},
-          {"wall_seconds", seconds},
-          {"lanes_vector_bytes", vector_bytes},
-          {"compiler", __VERSION__}};
+  return {{"schema", "hysteron.environment/1"}, {"host", host},
+          {"threads", team_size(threads)},      {"wall_seconds", seconds},
+          {"lanes_vector_bytes", vector_bytes}, {"compiler", __VERSION__}};
 }
 
 void remember_command(int count, char** arguments) {

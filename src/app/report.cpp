@@ -22,8 +22,7 @@ void add_report(CLI::App& program) {
   CLI::App* command = program.add_subcommand("report", "tables and page from the records of a study, finished or not");
   command->add_option("DIR", options->folder, "folder written by `hysteron bench`")->required();
   command->add_option("--out", options->out, "folder for the report, default DIR");
-  command->add_flag("--times", options->times,
-                    "times in the report too; without it equal studies give equal files");
+  command->add_flag("--times", options->times, "times in the report too; without it equal studies give equal files");
   command->add_flag("--ioh", options->ioh, "also write ioh/ in the format of IOHprofiler");
   command->add_flag("--json", options->json, "the analysis as JSON on standard output");
   command->footer("Example:\n  hysteron report out --times --ioh");

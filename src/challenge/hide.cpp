@@ -23,7 +23,8 @@ using Channel = std::vector<double>;
 // A recording with the derivatives that the arithmetic needs.
 struct Source {
   const Recording* recording;
-  Channel x;  // from the middle of the campaign
+  double middle;  // of the campaign's strokes
+  Channel x;      // from there
   Channel v;
   Channel a;
 };
@@ -38,8 +39,8 @@ std::vector<Source> sources_of(const std::vector<Recording>& recordings) {
   }
   std::vector<Source> result;
   for (const Recording& recording : recordings) {
-    Source source{&recording, recording.displacement, {}, {}};
-    for (double& x : source.x) x -= 0.5 * (low + high);
+    Source source{&recording, 0.5 * (low + high), recording.displacement, {}, {}};
+    for (double& x : source.x) x -= source.middle;
     source.v = derive_velocity(recording.time, recording.displacement);
     source.a = derive_velocity(recording.time, source.v);
     result.push_back(std::move(source));
@@ -156,8 +157,10 @@ Altered stopped(const std::vector<Source>& sources, std::vector<Recording> recor
   Altered result = with_force(
       sources, std::move(recordings), "k_b", "N/m", share,
       [from](const Source& s, std::size_t n) { return std::max(s.x[n] - from, 0.0) - std::max(-s.x[n] - from, 0.0); });
-  result.parameters.push_back({"x_up", "m", from});
-  result.parameters.push_back({"x_low", "m", from});
+  // The catalogue counts from the recording's zero.
+  const double middle = sources.front().middle;
+  result.parameters.push_back({"x_up", "m", middle + from});
+  result.parameters.push_back({"x_low", "m", from - middle});
   return result;
 }
 

@@ -12,8 +12,8 @@ namespace hysteron {
 // What the drive channel of a recording measures. `none` when the recording has neither.
 enum class DriveKind { none, current, voltage };
 
-// How the force of a recording that begins in mid-motion begins: as in the periods after it, or building up from nothing,
-// as that of a damper that was at rest in the first sample's position (start_of, fit/start.hpp).
+// How the force of a recording that begins in mid-motion begins: as in the periods after it, or building up from
+// nothing, as that of a damper that was at rest in the first sample's position (start_of, fit/start.hpp).
 enum class Start { unknown, in_cycle, from_nothing };
 
 // One test of one damper. All channels have the length of `time`; absent optional channels are empty.

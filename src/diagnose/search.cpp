@@ -26,6 +26,8 @@ constexpr double wider_evidence = 3.0;
 // last one added: the next could not be named.
 constexpr double negligible = 0.05;
 
+constexpr const char* saturation = "magnetic-saturation";
+
 bool is_series(const std::string& id) {
   const Part* part = find_effect(id);
   return part != nullptr && part->in_series();
@@ -142,6 +144,9 @@ const ParameterLaw* law_of(const Layout& layout, const std::string& parameter) {
 // A yield force that follows the drive in the base model, and in the richer one rises ever less with it: that is what
 // magnetic saturation is, where the damping does not saturate with it.
 bool saturates(const Fit& base, const Fit& augmented, const std::string& parameter) {
+  if (contains(augmented.what, saturation)) {
+    return false;
+  }
   const ParameterLaw* before = law_of(*base.layout, parameter);
   const ParameterLaw* law = law_of(*augmented.layout, parameter);
   if (before == nullptr || law == nullptr || before->drive_nodes.size() < 2) {
@@ -357,8 +362,8 @@ Search search(const Workbench& bench, const Workbench& fine, const Hypothesis& b
       return true;
     }
     found.by_law = result.richer.back();
-    found.id = "magnetic-saturation";
-    std::erase_if(found.rivals, [](const Rival& rival) { return rival.id == "magnetic-saturation"; });
+    found.id = saturation;
+    std::erase_if(found.rivals, [](const Rival& rival) { return rival.id == saturation; });
     return false;
   });
   std::ranges::stable_sort(result.found, [](const Found& a, const Found& b) { return a.gain > b.gain; });

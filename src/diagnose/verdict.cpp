@@ -54,10 +54,11 @@ bool confirmed(const Found& found, const Fit& augmented) {
 
 // Whether the lag of the velocity channel that a fit found is the one that the channels show.
 bool as_channels_show(const Fit& fit, const Circumstances& known) {
-  if (!known.channel) {
+  const std::vector<ParameterInterval> intervals = known.intervals(fit, "velocity-lag");
+  if (!known.channel || intervals.empty()) {
     return false;
   }
-  const double error = std::fabs(known.intervals(fit, "velocity-lag").front().value - known.channel->lag);
+  const double error = std::fabs(intervals.front().value - known.channel->lag);
   return error < std::max(channel_agreement * std::fabs(known.channel->lag), 3.0 * known.channel->std_error);
 }
 
