@@ -1,8 +1,8 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
+#include "fit/correlation.hpp"
 #include "fit/identify.hpp"
 #include "fit/jackknife.hpp"
 
@@ -10,24 +10,6 @@ namespace hysteron {
 namespace {
 
 constexpr double normal_quantile = 1.96;
-
-// Eigenvalues and vectors of the Gauss-Newton matrix of some coordinates, scaled to unit diagonal.
-struct CorrelationEigen {
-  Eigen::VectorXd norm;
-  Eigen::VectorXd values;
-  Eigen::MatrixXd vectors;
-
-  CorrelationEigen(const Eigen::Ref<const Eigen::MatrixXd>& full, const std::vector<Eigen::Index>& coordinates) {
-    const Eigen::MatrixXd some = full(coordinates, coordinates);
-    norm = some.diagonal().cwiseMax(1e-300).cwiseSqrt();
-    const Eigen::MatrixXd scaled = norm.cwiseInverse().asDiagonal() * some * norm.cwiseInverse().asDiagonal();
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scaled);
-    values = solver.eigenvalues();
-    vectors = solver.eigenvectors();
-  }
-  // The data say nothing of this direction.
-  [[nodiscard]] bool open(Eigen::Index direction) const { return values[direction] <= 1e-9; }
-};
 
 }  // namespace
 
@@ -74,9 +56,7 @@ void estimate(Identification& result, const Objective& objective, const std::vec
   }
   const auto m = static_cast<Eigen::Index>(free.size());
   Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(d, d);
-  std::vector<Eigen::Index> every(static_cast<std::size_t>(d));
-  std::iota(every.begin(), every.end(), Eigen::Index{0});
-  const CorrelationEigen all(full, every);
+  const CorrelationEigen all(full);
   for (Eigen::Index e = 0; e < d; ++e) {
     for (Eigen::Index i = 0; i < d && all.open(e); ++i) {
       if (std::fabs(all.vectors(i, e)) > 0.1) {
@@ -85,7 +65,7 @@ void estimate(Identification& result, const Objective& objective, const std::vec
     }
   }
   if (m > 0) {
-    const CorrelationEigen eigen(full, free);
+    const CorrelationEigen eigen(full(free, free));
     const double r = residual_correlation(objective, result.terms);
     const double samples = static_cast<double>(objective.samples()) * (1.0 - r) / (1.0 + r);
     const double variance = response.cost[0] * response.cost[0] / std::max(samples - static_cast<double>(m), 1.0);

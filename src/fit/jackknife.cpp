@@ -2,6 +2,8 @@
 
 #include <boost/math/distributions/students_t.hpp>
 
+#include "fit/correlation.hpp"
+
 namespace hysteron {
 namespace {
 
@@ -10,7 +12,6 @@ constexpr std::size_t least_recordings = 3;
 // A group that alone tells a direction fits it exactly and moves it without bound when left out: neither says how well
 // it is known.
 constexpr double most_leverage = 0.8;
-constexpr double least_eigenvalue = 1e-9;
 
 struct Group {
   Eigen::VectorXd score;   // J^T r
@@ -31,17 +32,15 @@ Group group_of(const Linearised& data, std::size_t begin, std::size_t end, const
 // x' with (sum of matrices) = identity in the new coordinates, directions that the data leave open left out:
 // x = transform x'.
 Eigen::MatrixXd whitening(const Eigen::MatrixXd& matrix) {
-  const Eigen::VectorXd norm = matrix.diagonal().cwiseMax(1e-300).cwiseSqrt();
-  const Eigen::MatrixXd scaled = norm.cwiseInverse().asDiagonal() * matrix * norm.cwiseInverse().asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scaled);
+  const CorrelationEigen eigen(matrix);
   std::vector<Eigen::Index> told;
   for (Eigen::Index k = 0; k < matrix.rows(); ++k) {
-    if (solver.eigenvalues()[k] > least_eigenvalue) {
+    if (!eigen.open(k)) {
       told.push_back(k);
     }
   }
-  const Eigen::VectorXd root = solver.eigenvalues()(told).cwiseSqrt();
-  return norm.cwiseInverse().asDiagonal() * solver.eigenvectors()(Eigen::all, told) * root.cwiseInverse().asDiagonal();
+  const Eigen::VectorXd root = eigen.values(told).cwiseSqrt();
+  return eigen.norm.cwiseInverse().asDiagonal() * eigen.vectors(Eigen::all, told) * root.cwiseInverse().asDiagonal();
 }
 
 Spread spread_of(const std::vector<Group>& groups, const Eigen::MatrixXd& transform) {

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "core/error.hpp"
+#include "fit/correlation.hpp"
 #include "fit/driver.hpp"
 #include "fit/identify.hpp"
 
@@ -19,9 +20,8 @@ using nlohmann::json;
 
 constexpr double chi_squared_95 = 3.841458820694124;  // one degree of freedom
 constexpr double on_bound = 1e-6;
-constexpr double open_direction = 1e-9;  // as for the standard errors of a fit
-constexpr int steps = 5;                 // of a profile, to either side
-constexpr std::size_t descent = 40;      // iterations allowed to a descent from the best run, to a refit the half
+constexpr int steps = 5;             // of a profile, to either side
+constexpr std::size_t descent = 40;  // iterations allowed to a descent from the best run, to a refit the half
 
 struct Point {
   std::vector<double> u;
@@ -140,15 +140,11 @@ class Winner {
     const auto m = static_cast<Eigen::Index>(free_.size());
     deviation_.assign(at_.u.size(), 1.0);
     if (m == 0) return;
-    const Eigen::MatrixXd some = full(indices(), indices());
-    const Eigen::VectorXd norm = some.diagonal().cwiseMax(1e-300).cwiseSqrt();
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(norm.cwiseInverse().asDiagonal() * some *
-                                                                norm.cwiseInverse().asDiagonal());
+    const CorrelationEigen eigen(full(indices(), indices()));
     Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(m, m);
     for (Eigen::Index e = 0; e < m; ++e) {
       // Open directions count as far as they can be told from nothing: their parameters then correlate fully.
-      const double value = std::max(solver.eigenvalues()[e], open_direction);
-      covariance += solver.eigenvectors().col(e) * solver.eigenvectors().col(e).transpose() / value;
+      covariance += eigen.vectors.col(e) * eigen.vectors.col(e).transpose() / std::max(eigen.values[e], open_direction);
     }
     const double variance = at_.cost * at_.cost / effective_;
     for (Eigen::Index i = 0; i < m; ++i) {
@@ -157,7 +153,8 @@ class Winner {
         row.push_back(i == j ? 1.0 : covariance(i, j) / std::sqrt(covariance(i, i) * covariance(j, j)));
       }
       result["correlation"].push_back(row);
-      deviation_[free_[static_cast<std::size_t>(i)]] = std::min(1.0, std::sqrt(variance * covariance(i, i)) / norm[i]);
+      deviation_[free_[static_cast<std::size_t>(i)]] =
+          std::min(1.0, std::sqrt(variance * covariance(i, i)) / eigen.norm[i]);
     }
   }
 
