@@ -35,7 +35,7 @@ struct AlgebraicHysteresis {
        1.0e-2,
        Scale::linear,
        {0, 0, 1}},
-      {"x0", "x0", "m", "centre of the motion", -1.0e-2, 1.0e-2, 0.0, Scale::linear, {0, 1, 0}},
+      {"x0", "x0", "m", "centre of the motion", -1.0e-2, 1.0e-2, 0.0, Scale::linear, {0, 1, 0, 1}},
       {"x_s",
        "x_s",
        "m",

@@ -1,12 +1,11 @@
-// The current in the coil lags the recorded command, by inductance, driver and eddy currents.
-//   F <- F (1 + g |i|) / (1 + g |i_cmd|)
-//   i' = (i_cmd - i) / tau
-// Parameters that depend on the current follow the recorded drive, so the force below is that of i_cmd; the factor
-// turns a force proportional to 1 + g |i_cmd| into the one of the lagged current. Nothing changes while the current is
-// constant, from the first sample on (models/motion_filter.hpp): the effect shows in recordings with a varying current
-// only.
-// Source: first-order lag of the drive as in Spencer, Dyke, Sain, Carlson, J. Eng. Mech. 123 (1997) 230-238.
-#include "models/motion_filter.hpp"
+// The current in the coil lags the recorded command, by inductance, driver and eddy currents; where these matter, more
+// when the current falls than when it rises.
+//   i' = (i_cmd - i) / tau_i,   tau_i = tau for a rising current, tau r for a falling one
+// The parameters that follow the drive follow i. Exact for a command that is linear between samples, where the current
+// does not turn within a sample. i starts at the first command, so that nothing changes while the current is constant,
+// and without parameters that follow the drive the effect does nothing.
+// Source: first-order lag of the drive as in Spencer, Dyke, Sain, Carlson, J. Eng. Mech. 123 (1997) 230-238; the second
+// time constant is ours.
 #include "simulate/compile.hpp"
 
 namespace hysteron {
@@ -17,37 +16,35 @@ struct CoilLag {
   static constexpr std::string_view title = "Lag of the coil current";
   static constexpr std::string_view reference =
       "Spencer et al., J. Eng. Mech. 123 (1997) 230-238; first-order drive lag";
-  static constexpr std::string_view equations[] = {"F <- F (1 + g |i|) / (1 + g |i_cmd|)", "i' = (i_cmd - i) / tau"};
-  static constexpr int states = 1;
+  static constexpr std::string_view equations[] = {"i' = (i_cmd - i) / tau, rising current",
+                                                   "i' = (i_cmd - i) / (tau r), falling current", "i_cmd <- i"};
+  static constexpr int states = 0;
+  static constexpr bool has_excite = true;
   static constexpr Parameter parameters[] = {
-      {"g",
-       "g",
-       "1/A",
-       "growth of the force per unit of drive, over the force at zero drive",
-       0.0,
-       1.0e1,
-       0.0,
-       Scale::linear,
-       {}},
-      {"tau", "tau", "s", "time constant of the coil", 5.0e-4, 5.0e-1, 5.0e-3, Scale::logarithmic, {}},
+      {"tau", "tau", "s", "time constant of the rising current", 0.0, 5.0e-1, 0.0, Scale::linear, {}},
+      {"r", "r", "1", "time constant of the falling current over that of the rising", 0.5, 3.0, 1.0,
+       Scale::logarithmic},
   };
 
   template <class T>
-  static std::array<T, 1> rate(const std::array<T, 2>& p, const std::array<T, 1>& s, const Input<T>& in) {
-    const T& tau = p[1];
-    return {(in.drive - s[0]) / tau};
+  static T excite(const std::array<T, 2>& p, std::array<T, excitation_memory>& memory, double elapsed, const T& drive) {
+    T& current = memory[0];
+    T& command = memory[1];
+    if (elapsed <= 0.0) {
+      current = drive;
+    } else {
+      const auto rising = current < drive;
+      const T tau = max(select(rising, p[0], p[0] * p[1]), T(1e-9));
+      const T slope = (drive - command) / T(elapsed);
+      const T behind = slope * tau;
+      current = drive - behind + (current - command + behind) * exp(T(-elapsed) / tau);
+    }
+    command = drive;
+    return current;
   }
   template <class T>
-  static T stiffness(const std::array<T, 2>& p, double /*speed*/) {
-    const T& tau = p[1];
-    return T(1.0) / tau;
-  }
-  template <class T>
-  static T force(const std::array<T, 2>& p, const std::array<T, 1>& s, const Input<T>& in, const T& below) {
-    const T& g = p[0];
-    const T& tau = p[1];
-    const T present = settled_lag(in.drive, s[0], tau, in.age);
-    return below * (T(1.0) + g * abs(present)) / (T(1.0) + g * abs(in.drive));
+  static T force(const std::array<T, 2>& /*p*/, const std::array<T, 0>& /*s*/, const Input<T>& /*in*/, const T& below) {
+    return below;
   }
 };
 

@@ -25,7 +25,7 @@ struct EndStop {
        4.0e-2,
        2.0e-2,
        Scale::linear,
-       {0, 1, 0}},
+       {0, 1, 0, 1}},
       {"x_low",
        "x_low",
        "m",
@@ -34,7 +34,7 @@ struct EndStop {
        4.0e-2,
        2.0e-2,
        Scale::linear,
-       {0, 1, 0}},
+       {0, 1, 0, -1}},
       {"p", "p", "1", "exponent of the stop", 1.0, 2.5, 1.5, Scale::linear, {}},
   };
 

@@ -1,8 +1,8 @@
 // Pinching: the force is smaller around the middle of the stroke, where worn or slipping parts do not bear.
-//   F <- F (1 - p exp(-((x - x_p) / w)^2))
+//   F <- F (1 - p exp(-|(x - x_p) / w|^q))
 // It acts on all of the force below, so p is not linear together with the forces of the law. The law baber-noori has
 // pinching inside its hysteresis instead.
-// Source: the slip function of Baber, Noori, J. Vib. Acoust. 108 (1986) 411-420, written in the displacement.
+// Source: the slip function of Baber, Noori, J. Vib. Acoust. 108 (1986) 411-420, written in the displacement, with an exponent.
 #include "simulate/compile.hpp"
 
 namespace hysteron {
@@ -13,18 +13,20 @@ struct Pinching {
   static constexpr std::string_view title = "Pinching around mid-stroke";
   static constexpr std::string_view reference =
       "after Baber, Noori, J. Vib. Acoust. 108 (1986) 411-420; written in the displacement";
-  static constexpr std::string_view equations[] = {"F <- F (1 - p exp(-((x - x_p) / w)^2))"};
+  static constexpr std::string_view equations[] = {"F <- F (1 - p exp(-|(x - x_p) / w|^q))"};
   static constexpr int states = 0;
   static constexpr Parameter parameters[] = {
       {"p", "p", "1", "relative loss of force in the middle", -0.5, 0.95, 0.0, Scale::linear, {}},
-      {"x_p", "x_p", "m", "middle of the weak range", -1.0e-2, 1.0e-2, 0.0, Scale::linear, {0, 1, 0}},
+      {"x_p", "x_p", "m", "middle of the weak range", -1.5e-2, 1.5e-2, 0.0, Scale::linear, {0, 1, 0, 1}},
       {"w", "w", "m", "half width of the weak range", 5.0e-4, 1.5e-2, 4.0e-3, Scale::logarithmic, {0, 1, 0}},
+      {"q", "q", "1", "sharpness of its borders: 2 is a bell, more a flat bottom", 1.2, 8.0, 2.0, Scale::logarithmic},
   };
 
   template <class T>
-  static T force(const std::array<T, 3>& p, const std::array<T, 0>& /*s*/, const Input<T>& in, const T& below) {
+  static T force(const std::array<T, 4>& p, const std::array<T, 0>& /*s*/, const Input<T>& in, const T& below) {
     const T relative = (in.x - p[1]) / p[2];
-    return below * (T(1.0) - p[0] * exp(-relative * relative));
+    const T square = max(relative * relative, T(1e-12));
+    return below * (T(1.0) - p[0] * exp(-pow(square, T(0.5) * p[3])));
   }
 };
 

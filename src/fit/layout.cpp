@@ -107,6 +107,8 @@ double dominant_frequency(const Recording& recording) {
 DataScale scale_of(const std::vector<Recording>& recordings) {
   DataScale scale{0.0, 0.0, 0.0};
   bool first = true;
+  double lowest = 0.0;
+  double highest = 0.0;
   for (const Recording& recording : recordings) {
     for (const double force : recording.force) {
       scale.force = std::max(scale.force, std::fabs(force));
@@ -116,6 +118,8 @@ DataScale scale_of(const std::vector<Recording>& recordings) {
     }
     const auto [low, high] = std::ranges::minmax(recording.displacement);
     scale.length = std::max(scale.length, 0.5 * (high - low));
+    lowest = first ? low : std::min(lowest, low);
+    highest = first ? high : std::max(highest, high);
     double drive_low = 0.0;
     double drive_high = 0.0;
     if (!recording.drive.empty()) {
@@ -130,6 +134,7 @@ DataScale scale_of(const std::vector<Recording>& recordings) {
     scale.frequency_high = first ? frequency : std::max(scale.frequency_high, frequency);
     first = false;
   }
+  scale.middle = 0.5 * (lowest + highest);
   return scale;
 }
 
@@ -157,6 +162,10 @@ Layout::Layout(CompositeModel model, const DataScale& scale, const LayoutOptions
       card.lower *= factor;
       card.upper *= factor;
       card.initial *= factor;
+      const double shift = card.dimension.place * scale.middle;
+      card.lower += shift;
+      card.upper += shift;
+      card.initial += shift;
     }
     if (const auto own = options.bounds.find(names_[j]); own != options.bounds.end()) {
       card.lower = own->second.first;

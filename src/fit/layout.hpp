@@ -10,8 +10,8 @@
 
 namespace hysteron {
 
-// What scales the identification box: peak force (N), half stroke (m), peak speed (m/s) of the recordings, and the
-// ranges of drive (A or V) and frequency (Hz) over which parameter laws are spanned.
+// What scales the identification box: peak force (N), half stroke (m), peak speed (m/s) of the recordings, the middle of
+// all their displacements (m), and the ranges of drive (A or V) and frequency (Hz) over which parameter laws are spanned.
 struct DataScale {
   double force = 1000.0;
   double length = 0.025;
@@ -20,6 +20,7 @@ struct DataScale {
   double drive_high = 0.0;
   double frequency_low = 0.0;
   double frequency_high = 0.0;
+  double middle = 0.0;
 };
 
 DataScale scale_of(const std::vector<Recording>& recordings);

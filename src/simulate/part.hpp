@@ -32,6 +32,7 @@ struct Dimension {
   double force = 0.0;
   double length = 0.0;
   double velocity = 0.0;
+  double place = 0.0;  // a place in the stroke: the bounds move with this times the middle of the recorded motion
 };
 
 struct Parameter {

@@ -114,9 +114,33 @@ TEST(Drive, RemanencePersistsAfterAStepDown) {
   }
 }
 
+// After a step up from 0.4 to 1.4 and down again, each reached within the sample before it.
+TEST(Drive, CoilLagIsFirstOrderSlowerWhereTheCurrentFalls) {
+  std::vector<double> drive(300, 0.4);
+  std::fill(drive.begin() + 50, drive.begin() + 150, 1.4);
+  const double tau = 0.02;
+  const double fall = 1.5;
+  const auto force = acting("coil-lag", {{"tau", tau}, {"r", fall}}, drive);
+  const double step = 0.01;  // s, as in `acting`
+  // The response to a ramp over one sample, exactly.
+  const auto behind = [&](double constant, double after) {
+    return constant / step * (std::exp(step / constant) - 1.0) * std::exp(-(after + step) / constant);
+  };
+  for (std::size_t n = 0; n < 50; ++n) EXPECT_NEAR(force[n], 0.4, 1e-12);
+  for (std::size_t n = 50; n < 150; ++n) {
+    EXPECT_NEAR(force[n], 1.4 - behind(tau, static_cast<double>(n - 50) * step), 1e-9) << n;
+  }
+  for (std::size_t n = 150; n < 300; ++n) {
+    EXPECT_NEAR(force[n], 0.4 + behind(tau * fall, static_cast<double>(n - 150) * step), 1e-9) << n;
+  }
+  // No lag is none.
+  const auto none = acting("coil-lag", {{"tau", 0.0}, {"r", 1.0}}, drive);
+  for (std::size_t n = 0; n < drive.size(); ++n) EXPECT_NEAR(none[n], drive[n], 1e-6);
+}
+
 // Derivatives through the drive: the gradient of the objective against differences.
 TEST(Drive, GradientOfTheEffectsOnTheDrive) {
-  for (const std::string effect : {"magnetic-saturation", "magnetic-remanence"}) {
+  for (const std::string effect : {"magnetic-saturation", "magnetic-remanence", "coil-lag"}) {
     Recording recording = motion("m.csv", {{0.02, 1.1}}, 1.5, 120, 0.2);
     for (std::size_t n = 0; n < recording.size(); ++n) {
       recording.drive.push_back(0.8 + 0.6 * std::sin(9.0 * recording.time[n]));

@@ -564,25 +564,6 @@ TEST(Effects, VelocityLagIsTheFirstOrderFilterAtMinusItsTimeConstant) {
   }
 }
 
-TEST(Effects, CoilLagIsSilentAtConstantCurrentAndFirstOrderAfterAStep) {
-  Series motion = ramp(0.1, 1000.0, 0.2);
-  motion.drive.assign(motion.size(), 0.7);
-  const CompositeModel model = make_model("viscous", {"coil-lag"});
-  const Vector p = with(model, {{"c0", 1000.0}, {"coil-lag.g", 2.0}, {"coil-lag.tau", 0.01}});
-  for (const double force : simulate(model, motion.motion(), p)) {
-    EXPECT_NEAR(force, 100.0, 1e-3);
-  }
-  for (std::size_t n = 100; n < motion.size(); ++n) {
-    motion.drive[n] = 0.2;
-  }
-  const Vector force = simulate(model, motion.motion(), p);
-  for (std::size_t n = 100; n < motion.size(); ++n) {
-    // The recorded step takes one sample; its middle is half a sample before the first new value.
-    const double current = 0.2 + 0.5 * std::exp(-(motion.time[n] - 0.0995) / 0.01);
-    EXPECT_NEAR(force[n], 100.0 * (1.0 + 2.0 * current) / 1.4, 0.1);
-  }
-}
-
 TEST(Effects, TravelScalesTheForce) {
   const Series motion = ramp(0.1, 200.0, 2.0);
   const auto scaled = [&](const std::string& effect, std::vector<std::pair<std::string, double>> values) {
