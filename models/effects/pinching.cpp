@@ -2,7 +2,8 @@
 //   F <- F (1 - p exp(-|(x - x_p) / w|^q))
 // It acts on all of the force below, so p is not linear together with the forces of the law. The law baber-noori has
 // pinching inside its hysteresis instead.
-// Source: the slip function of Baber, Noori, J. Vib. Acoust. 108 (1986) 411-420, written in the displacement, with an exponent.
+// Source: the slip function of Baber, Noori, J. Vib. Acoust. 108 (1986) 411-420, written in the displacement, with an
+// exponent.
 #include "simulate/compile.hpp"
 
 namespace hysteron {

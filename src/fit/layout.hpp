@@ -10,8 +10,9 @@
 
 namespace hysteron {
 
-// What scales the identification box: peak force (N), half stroke (m), peak speed (m/s) of the recordings, the middle of
-// all their displacements (m), and the ranges of drive (A or V) and frequency (Hz) over which parameter laws are spanned.
+// What scales the identification box: peak force (N), half stroke (m), peak speed (m/s) of the recordings, the middle
+// of all their displacements (m), and the ranges of drive (A or V) and frequency (Hz) over which parameter laws are
+// spanned.
 struct DataScale {
   double force = 1000.0;
   double length = 0.025;

@@ -7,8 +7,8 @@
 
 namespace hysteron {
 
-// Samples of the first period when a recording starts in mid-motion and the motion comes back to where it started, so
-// that marching them first brings the hysteresis into its cycle; 0 when it starts at rest or never returns.
+// Samples of the first period when a recording starts in mid-motion and the motion repeats itself, so that marching them
+// first brings the hysteresis into its cycle; 0 when it starts at rest or does not repeat.
 std::size_t returns_after(const Recording& recording, double frequency);
 
 // What the force says of the start. A recording without force, or with less than two periods, counts as in its cycle.

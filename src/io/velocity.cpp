@@ -180,19 +180,85 @@ bool is_uniform(std::span<const double> t, double dt) {
   return true;
 }
 
-}  // namespace
+// Straight line through samples [first, last].
+struct Line {
+  double middle;    // s
+  double value;     // m, at the middle
+  double slope;     // m/s
+  double residual;  // m, RMS
+};
 
-std::vector<double> derive_velocity(std::span<const double> time, std::span<const double> displacement) {
-  assert(time.size() == displacement.size());
+Line line_through(std::span<const double> t, std::span<const double> x, std::size_t first, std::size_t last) {
+  const auto count = static_cast<double>(last - first + 1);
+  Line line{0.0, 0.0, 0.0, 0.0};
+  for (std::size_t i = first; i <= last; ++i) {
+    line.middle += (t[i] - t[first]) / count;
+    line.value += (x[i] - x[first]) / count;
+  }
+  line.middle += t[first];
+  line.value += x[first];
+  double moment = 0.0;
+  double spread = 0.0;
+  for (std::size_t i = first; i <= last; ++i) {
+    moment += (t[i] - line.middle) * (x[i] - line.value);
+    spread += (t[i] - line.middle) * (t[i] - line.middle);
+  }
+  line.slope = moment / spread;
+  for (std::size_t i = first; i <= last; ++i) {
+    const double away = x[i] - line.value - line.slope * (t[i] - line.middle);
+    line.residual += away * away / count;
+  }
+  line.residual = std::sqrt(line.residual);
+  return line;
+}
+
+// Corners of a displacement made of straight lines, as of triangle waves and ramps: index of the last sample before
+// each. `side` is the half window that would round them. A corner is where the lines through `reach` samples before and
+// after it meet between these samples, bend by a good part of the speed, and miss their samples by so little of the
+// bend that no arc as smooth as the window fits (an arc of constant curvature misses by 0.037 of it).
+std::vector<std::size_t> corners_of(std::span<const double> t, std::span<const double> x, std::size_t side) {
+  constexpr double least_bend = 0.2;  // of the peak speed
+  constexpr double straight = 0.006;  // residual over bend times reach
+  constexpr std::size_t most_reach = 200;
+  const std::size_t n = x.size();
+  const std::size_t reach = std::clamp<std::size_t>(2 * side, 8, most_reach);
+  std::vector<std::size_t> result;
+  if (n < 2 * reach + 2) return result;
+  std::vector<double> speeds;
+  for (std::size_t i = 0; i + reach < n; i += reach / 4) {
+    speeds.push_back(std::abs(x[i + reach] - x[i]) / (t[i + reach] - t[i]));
+  }
+  const double peak = quantile(speeds, 0.95);
+  double best = 0.0;
+  for (std::size_t i = reach - 1; i + reach < n; ++i) {
+    // Chords first: they cost nothing.
+    const double before = (x[i] - x[i + 1 - reach]) / (t[i] - t[i + 1 - reach]);
+    const double after = (x[i + reach] - x[i + 1]) / (t[i + reach] - t[i + 1]);
+    if (!(std::abs(after - before) > 0.5 * least_bend * peak)) continue;
+    const Line left = line_through(t, x, i + 1 - reach, i);
+    const Line right = line_through(t, x, i + 1, i + reach);
+    const double bend = right.slope - left.slope;
+    if (!(std::abs(bend) > least_bend * peak)) continue;
+    const double missed = std::max(left.residual, right.residual) / (std::abs(bend) * (right.middle - left.middle));
+    if (missed > straight) continue;
+    const double meet = (left.value - right.value - left.slope * left.middle + right.slope * right.middle) / bend;
+    const double slack = 0.5 * (t[i + 1] - t[i]);
+    if (meet < t[i] - slack || meet > t[i + 1] + slack) continue;
+    if (!result.empty() && i - result.back() < reach) {
+      if (missed < best) result.back() = i, best = missed;
+    } else {
+      result.push_back(i);
+      best = missed;
+    }
+  }
+  return result;
+}
+
+// Slopes of a stretch without corners; `side` samples on each side of the window, of `median_step` each.
+void derive_stretch(std::span<const double> time, std::span<const double> displacement, double side, double median_step,
+                    std::span<double> velocity) {
   const std::size_t n = time.size();
-  std::vector<double> velocity(n, 0.0);
-  if (n < 2) return velocity;
-
-  std::vector<double> steps(n);
-  std::adjacent_difference(time.begin(), time.end(), steps.begin());
-  steps.erase(steps.begin());
-  const double median_step = quantile(steps, 0.5);
-  const double side = n > 7 ? samples_on_a_side(time, displacement, median_step) : 2.0;
+  if (n < 2) return;
   const auto h = static_cast<std::size_t>(side);
   const double half_width = (side + 0.25) * median_step;  // s; the quarter keeps rounded times inside
 
@@ -253,6 +319,30 @@ std::vector<double> derive_velocity(std::span<const double> time, std::span<cons
       slope += weights[j - begin] * (displacement[j] - displacement[i]);
     }
     velocity[i] = slope;
+  }
+}
+
+}  // namespace
+
+std::vector<double> derive_velocity(std::span<const double> time, std::span<const double> displacement) {
+  assert(time.size() == displacement.size());
+  const std::size_t n = time.size();
+  std::vector<double> velocity(n, 0.0);
+  if (n < 2) return velocity;
+
+  std::vector<double> steps(n);
+  std::adjacent_difference(time.begin(), time.end(), steps.begin());
+  steps.erase(steps.begin());
+  const double median_step = quantile(steps, 0.5);
+  const double side = n > 7 ? samples_on_a_side(time, displacement, median_step) : 2.0;
+  std::vector<std::size_t> ends = corners_of(time, displacement, static_cast<std::size_t>(side));
+  ends.push_back(n - 1);
+  std::size_t first = 0;
+  for (const std::size_t last : ends) {
+    const std::size_t count = last + 1 - first;
+    derive_stretch(time.subspan(first, count), displacement.subspan(first, count), side, median_step,
+                   std::span(velocity).subspan(first, count));
+    first = last + 1;
   }
   return velocity;
 }

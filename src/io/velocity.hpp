@@ -10,7 +10,8 @@
 // of quantum/sqrt(12) and a robust estimate from sixth differences. The window never exceeds a twelfth of the dominant
 // period (gain error 1e-5), a sixth (1.5e-4) when the noise would otherwise be above 1 % of the peak velocity. The
 // period is the short one (tenth percentile) between the recording's own reversals, so sweeps keep their fast end.
-// A corner of the displacement (an ideal triangle wave) is rounded over one half window on each side.
+// Corners between straight lines (ideal triangle waves, ramps) divide the recording, and no window reaches across them;
+// corners that are rounded, or drowned in noise, are smoothed over one half window on each side.
 #pragma once
 
 #include <span>

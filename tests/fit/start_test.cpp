@@ -56,6 +56,21 @@ TEST(Start, IsSeenInTheForce) {
   EXPECT_EQ(start_of(copy), Start::from_nothing);
 }
 
+// A motion that comes back to its first sample after a period, but is no periodic one, has none to march beforehand.
+TEST(Start, OnlyAMotionThatRepeatsHasAPeriodBeforehand) {
+  Recording steady = moving(0.0);
+  EXPECT_EQ(returns_after(steady, frequency), 250u);
+  Recording wandering = steady;
+  for (std::size_t n = 0; n < wandering.size(); ++n) {
+    const double t = wandering.time[n];
+    // Both terms vanish with their slopes at the start and after one period.
+    const double w = 2.0 * std::numbers::pi * frequency;
+    const double away = (1.0 - std::cos(w * t)) * (1.0 - std::cos(w * t));
+    wandering.displacement[n] += 0.01 * away * std::sin(0.37 * w * t);
+  }
+  EXPECT_EQ(returns_after(wandering, frequency), 0u);
+}
+
 // A recording simulated from the neutral state at full speed is predicted as it was simulated.
 TEST(Start, FromNothingNothingIsMarchedBeforehand) {
   Recording recording = moving(0.0);

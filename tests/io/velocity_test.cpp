@@ -113,6 +113,45 @@ TEST(Velocity, ConstantSpeedIsNotTakenForAQuantum) {
   }
 }
 
+// Noise as of a good transducer, deterministic.
+double noise(std::size_t i) {
+  const double x = std::sin(12.9898 * static_cast<double>(i + 1)) * 43758.5453;
+  return 2.0 * (x - std::floor(x)) - 1.0;
+}
+
+TEST(Velocity, CornersOfTrianglesAndRampsStayCorners) {
+  // 42 mm/s, with corners between the samples, and rest before and after.
+  const auto t = uniform(500, 10.0);
+  std::vector<double> x;
+  std::vector<double> truth;
+  for (std::size_t i = 0; i < t.size(); ++i) {
+    const double at = t[i] - 0.5013;
+    const double phase = std::fmod(at, 4.0);
+    const bool rests = at < 0.0 || at > 8.0;
+    const double place = phase < 1.0 ? phase : (phase < 3.0 ? 2.0 - phase : phase - 4.0);
+    x.push_back((rests ? 0.0 : 0.042 * place) + 1.5e-6 * noise(i));
+    truth.push_back(rests ? 0.0 : (phase < 1.0 || phase > 3.0 ? 0.042 : -0.042));
+  }
+  const auto v = derive_velocity(t, x);
+  for (std::size_t i = 0; i < t.size(); ++i) EXPECT_NEAR(v[i], truth[i], 0.05 * 0.042) << i;
+}
+
+TEST(Velocity, ArcsAreNotTakenForCorners) {
+  // Constant acceleration of alternating sign: straight velocity, the sharpest turn of the displacement but a corner.
+  const auto t = uniform(500, 4.0);
+  std::vector<double> x;
+  std::vector<double> truth;
+  for (std::size_t i = 0; i < t.size(); ++i) {
+    const double phase = std::fmod(t[i] + 0.25, 1.0);
+    const double away = phase < 0.5 ? phase - 0.25 : phase - 0.75;
+    const double bow = 0.0625 - away * away;
+    x.push_back((phase < 0.5 ? 0.1 : -0.1) * bow + 1.5e-6 * noise(i));
+    truth.push_back((phase < 0.5 ? -0.2 : 0.2) * away);
+  }
+  const auto v = derive_velocity(t, x);
+  for (std::size_t i = 0; i < t.size(); ++i) EXPECT_NEAR(v[i], truth[i], 0.02 * 0.05) << i;
+}
+
 TEST(Velocity, FewSamples) {
   EXPECT_TRUE(derive_velocity({}, {}).empty());
   for (std::size_t n = 1; n < 12; ++n) {

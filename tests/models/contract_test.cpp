@@ -586,8 +586,8 @@ TEST(Effects, WorkScalesTheForce) {
     return simulate(model, motion.motion(), with(model, values));
   };
   const Vector worn = scaled("degradation", {{"degradation.d", 0.02}});
-  const Vector warm = scaled("self-heating", {{"self-heating.b", 0.02}, {"self-heating.tau", 1e9}});
-  const Vector steady = scaled("self-heating", {{"self-heating.b", 0.02}, {"self-heating.tau", 0.1}});
+  const Vector warm = scaled("self-heating", {{"self-heating.b", 0.02}, {"self-heating.tau", 1e9}, {"self-heating.y", 1.0}});
+  const Vector steady = scaled("self-heating", {{"self-heating.b", 0.02}, {"self-heating.tau", 0.1}, {"self-heating.c_h", 1000.0}});
   for (std::size_t n = 0; n < motion.size(); ++n) {
     const double t = motion.time[n];
     // E' = P / (1 + d E): (1 + d E)^2 = 1 + 2 d P t;  q' = P exp(-b q): exp(b q) = 1 + b P t.
