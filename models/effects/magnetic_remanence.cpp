@@ -1,8 +1,10 @@
 // Remanence of the magnetic circuit: after a step down of the current the field stays higher than after a step up to
 // the same current, and stays so.
 //   m <- min(max(m, i - w), i + w),   i <- i + rho (m - i)
-// m is a play of half width w behind the current, starting at the first current of the recording, so that nothing
-// changes while the current is constant. Without parameters that follow the drive the effect does nothing.
+// m is a play of half width w behind the current; it starts as near to s i as the play allows, i the first
+// current of the recording: s = 1 where the current was the same long before, s = 0 where it was switched on from a
+// circuit without field. It does not change while the current is constant. Without parameters that follow the drive the
+// effect does nothing.
 // Source: play operator; Krasnosel'skii, Pokrovskii, Systems with Hysteresis, Springer 1989.
 #include "simulate/compile.hpp"
 
@@ -20,16 +22,17 @@ struct MagneticRemanence {
   static constexpr Parameter parameters[] = {
       {"rho", "rho", "1", "share of the drive that remains behind", 0.0, 1.0, 0.0, Scale::linear, {}},
       {"w", "w", "A", "half width of the play", 1.0e-2, 2.0, 2.0e-1, Scale::logarithmic, {}},
+      {"s", "s", "1", "field over current before the recording", 0.0, 1.0, 1.0, Scale::linear, {}},
   };
 
   template <class T>
-  static T excite(const std::array<T, 2>& p, std::array<T, excitation_memory>& memory, double elapsed, const T& drive) {
+  static T excite(const std::array<T, 3>& p, std::array<T, excitation_memory>& memory, double elapsed, const T& drive) {
     T& m = memory[0];
-    m = elapsed < 0.0 ? drive : min(max(m, drive - p[1]), drive + p[1]);
+    m = min(max(elapsed < 0.0 ? p[2] * drive : m, drive - p[1]), drive + p[1]);
     return drive + p[0] * (m - drive);
   }
   template <class T>
-  static T force(const std::array<T, 2>& /*p*/, const std::array<T, 0>& /*s*/, const Input<T>& /*in*/, const T& below) {
+  static T force(const std::array<T, 3>& /*p*/, const std::array<T, 0>& /*s*/, const Input<T>& /*in*/, const T& below) {
     return below;
   }
 };

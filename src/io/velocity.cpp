@@ -212,17 +212,24 @@ Line line_through(std::span<const double> t, std::span<const double> x, std::siz
   return line;
 }
 
-// Corners of a displacement made of straight lines, as of triangle waves and ramps: index of the last sample before
-// each. `side` is the half window that would round them. A corner is where the lines through `reach` samples before and
-// after it meet between these samples, bend by a good part of the speed, and miss their samples by so little of the
-// bend that no arc as smooth as the window fits (an arc of constant curvature misses by 0.037 of it).
-std::vector<std::size_t> corners_of(std::span<const double> t, std::span<const double> x, std::size_t side) {
+struct Corner {
+  std::size_t last;  // sample before it
+  double time;       // s
+  double speed;      // m/s, mean of before and after
+};
+
+// Corners of a displacement made of straight lines, as of triangle waves and ramps. `side` is the half window that
+// would round them. A corner is where the lines through `reach` samples before and after it meet between these samples,
+// bend by a good part of the speed, and miss their samples by so little of the bend that no arc as smooth as the window
+// fits (an arc of constant curvature misses by 0.037 of it).
+std::vector<Corner> corners_of(std::span<const double> t, std::span<const double> x, std::size_t side,
+                               double median_step) {
   constexpr double least_bend = 0.2;  // of the peak speed
   constexpr double straight = 0.006;  // residual over bend times reach
   constexpr std::size_t most_reach = 200;
   const std::size_t n = x.size();
   const std::size_t reach = std::clamp<std::size_t>(2 * side, 8, most_reach);
-  std::vector<std::size_t> result;
+  std::vector<Corner> result;
   if (n < 2 * reach + 2) return result;
   std::vector<double> speeds;
   for (std::size_t i = 0; i + reach < n; i += reach / 4) {
@@ -231,6 +238,8 @@ std::vector<std::size_t> corners_of(std::span<const double> t, std::span<const d
   const double peak = quantile(speeds, 0.95);
   double best = 0.0;
   for (std::size_t i = reach - 1; i + reach < n; ++i) {
+    // A stretch with a gap tells nothing of corners.
+    if (t[i + reach] - t[i + 1 - reach] > 3.0 * static_cast<double>(reach) * median_step) continue;
     // Chords first: they cost nothing.
     const double before = (x[i] - x[i + 1 - reach]) / (t[i] - t[i + 1 - reach]);
     const double after = (x[i + reach] - x[i + 1]) / (t[i + reach] - t[i + 1]);
@@ -244,10 +253,11 @@ std::vector<std::size_t> corners_of(std::span<const double> t, std::span<const d
     const double meet = (left.value - right.value - left.slope * left.middle + right.slope * right.middle) / bend;
     const double slack = 0.5 * (t[i + 1] - t[i]);
     if (meet < t[i] - slack || meet > t[i + 1] + slack) continue;
-    if (!result.empty() && i - result.back() < reach) {
-      if (missed < best) result.back() = i, best = missed;
+    const Corner corner{i, meet, 0.5 * (left.slope + right.slope)};
+    if (!result.empty() && i - result.back().last < reach) {
+      if (missed < best) result.back() = corner, best = missed;
     } else {
-      result.push_back(i);
+      result.push_back(corner);
       best = missed;
     }
   }
@@ -335,14 +345,23 @@ std::vector<double> derive_velocity(std::span<const double> time, std::span<cons
   steps.erase(steps.begin());
   const double median_step = quantile(steps, 0.5);
   const double side = n > 7 ? samples_on_a_side(time, displacement, median_step) : 2.0;
-  std::vector<std::size_t> ends = corners_of(time, displacement, static_cast<std::size_t>(side));
-  ends.push_back(n - 1);
+  const std::vector<Corner> corners = corners_of(time, displacement, static_cast<std::size_t>(side), median_step);
   std::size_t first = 0;
-  for (const std::size_t last : ends) {
+  const auto derive_to = [&](std::size_t last) {
     const std::size_t count = last + 1 - first;
     derive_stretch(time.subspan(first, count), displacement.subspan(first, count), side, median_step,
                    std::span(velocity).subspan(first, count));
     first = last + 1;
+  };
+  for (const Corner& corner : corners) derive_to(corner.last);
+  derive_to(n - 1);
+  // A sample on the corner has the speed of neither side: with the mean, the motion between samples does not overshoot.
+  for (const Corner& corner : corners) {
+    for (const std::size_t i : {corner.last, corner.last + 1}) {
+      if (std::abs(corner.time - time[i]) < 0.25 * (time[corner.last + 1] - time[corner.last])) {
+        velocity[i] = corner.speed;
+      }
+    }
   }
   return velocity;
 }

@@ -105,12 +105,16 @@ TEST(Drive, SaturationIsTheCurveOfTheSource) {
 }
 
 TEST(Drive, RemanencePersistsAfterAStepDown) {
-  const auto force =
-      acting("magnetic-remanence", {{"rho", 0.5}, {"w", 0.2}}, {0.5, 0.5, 1.0, 1.0, 2.0, 2.0, 1.0, 1.0, 1.0, 0.5});
+  const auto force = acting("magnetic-remanence", {{"rho", 0.5}, {"w", 0.2}, {"s", 1.0}},
+                            {0.5, 0.5, 1.0, 1.0, 2.0, 2.0, 1.0, 1.0, 1.0, 0.5});
   const std::vector<double> theory = {0.5, 0.5, 0.9, 0.9, 1.9, 1.9, 1.1, 1.1, 1.1, 0.6};
   for (std::size_t n = 0; n < theory.size(); ++n) EXPECT_NEAR(force[n], theory[n], 1e-12) << n;
-  for (const double constant : acting("magnetic-remanence", {{"rho", 0.5}, {"w", 0.2}}, {0.7, 0.7, 0.7})) {
+  for (const double constant : acting("magnetic-remanence", {{"rho", 0.5}, {"w", 0.2}, {"s", 1.0}}, {0.7, 0.7, 0.7})) {
     EXPECT_NEAR(constant, 0.7, 1e-12);
+  }
+  // Switched on from a circuit without field: 0.2 A behind, half of it felt.
+  for (const double constant : acting("magnetic-remanence", {{"rho", 0.5}, {"w", 0.2}, {"s", 0.0}}, {0.7, 0.7, 0.7})) {
+    EXPECT_NEAR(constant, 0.6, 1e-12);
   }
 }
 

@@ -136,6 +136,18 @@ TEST(Velocity, CornersOfTrianglesAndRampsStayCorners) {
   for (std::size_t i = 0; i < t.size(); ++i) EXPECT_NEAR(v[i], truth[i], 0.05 * 0.042) << i;
 }
 
+TEST(Velocity, ASampleOnACornerHasTheMeanOfBothSides) {
+  const auto t = uniform(500, 4.0);
+  std::vector<double> x;
+  for (const double at : t) x.push_back(0.042 * std::abs(std::fmod(at + 1.0, 2.0) - 1.0));
+  const auto v = derive_velocity(t, x);
+  for (std::size_t i = 1; i < t.size(); ++i) {
+    const double place = std::fmod(t[i], 2.0);
+    const double truth = i % 500 == 0 ? 0.0 : (place < 1.0 ? 0.042 : -0.042);
+    EXPECT_NEAR(v[i], truth, 1e-6) << i;
+  }
+}
+
 TEST(Velocity, ArcsAreNotTakenForCorners) {
   // Constant acceleration of alternating sign: straight velocity, the sharpest turn of the displacement but a corner.
   const auto t = uniform(500, 4.0);
