@@ -19,6 +19,11 @@ constexpr std::size_t quick_samples = 4000;
 constexpr std::size_t quick_recordings = 8;
 // Effects that make the prediction of the judging recordings worse than this are no answer.
 constexpr double most_loss = 1.01;
+// A held-out recording that is this many times further above its white noise, in squares, than every fitted one shows
+// what these do not.
+constexpr double surprise = 4.0;
+// Least share of the largest force that counts as noise there.
+constexpr double least_noise = 1e-4;
 // What the base and the augmented model are then fitted on; every sample is predicted in the end.
 constexpr std::size_t fine_samples = 12000;
 
@@ -39,6 +44,26 @@ std::vector<ParameterInterval> intervals_of(const Workbench& bench, const Fit& f
   for (const Estimate& row : identification.estimates) {
     if (row.name.starts_with(effect + ".")) {
       result.push_back({row.name.substr(effect.size() + 1), row.unit, row.term.value, row.half_width});
+    }
+  }
+  return result;
+}
+
+// Files of the held-out recordings that show what the fitted ones do not.
+std::vector<std::string> surprises(const Workbench& bench, const Fit& fit) {
+  const auto above_noise = [&](const Recording& recording) {
+    const double least = least_noise * normaliser(recording, Normalisation::max_abs);
+    const double white = noise_floor(recording).white;
+    return bench.residual(fit, recording).mean_square() / (white * white + least * least);
+  };
+  double usual = 1.0;
+  for (const Recording& recording : bench.split().fit) {
+    usual = std::max(usual, above_noise(recording));
+  }
+  std::vector<std::string> result;
+  for (const Judged& judged : bench.split().judge) {
+    if (judged.from == 0 && above_noise(judged.recording) > surprise * usual) {
+      result.push_back(judged.recording.file);
     }
   }
   return result;
@@ -125,7 +150,9 @@ std::map<std::string, int> base_laws(const std::string& model, const std::vector
   return result;
 }
 
-std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const DiagnoseOptions& options,
+namespace {
+
+std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const Split& split, const DiagnoseOptions& options,
                                     const SearchProgress& progress) {
   LayoutOptions layout = options.layout;
   std::vector<std::string> notes;
@@ -142,7 +169,7 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const DiagnoseOpti
   const DataScale scale = scale_of(campaign.recordings);
   ObjectiveOptions objective = options.objective;
   objective.skip_run_in = true;
-  Workbench bench(scale, split_of(campaign), layout, objective, options.seed, options.stopped);
+  Workbench bench(scale, split, layout, objective, options.seed, options.stopped);
   notes.push_back(bench.split().how);
 
   SearchOptions searching;
@@ -161,7 +188,7 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const DiagnoseOpti
   }
   const Hypothesis base{options.model, {}, {}};
   auto result =
-      std::make_unique<Diagnosis>(Diagnosis{std::move(bench), {}, {}, 0.0, {}, {}, {}, {}, {}, {}, {}, {}, notes});
+      std::make_unique<Diagnosis>(Diagnosis{std::move(bench), {}, {}, 0.0, {}, {}, {}, {}, {}, {}, {}, {}, {}, notes});
   Diagnosis& diagnosis = *result;
   Split fewer = diagnosis.bench.split();
   Split some = fewer;
@@ -196,6 +223,14 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const DiagnoseOpti
   diagnosis.verdict = verdict_of(
       diagnosis.search, {[&](const Fit& fit, const std::string& effect) { return intervals_of(fine, fit, effect); },
                          velocity_channel_lag(diagnosis.bench.split().fit)});
+
+  diagnosis.surprises = surprises(diagnosis.bench, diagnosis.search.augmented);
+  if (diagnosis.verdict.word == "complete" && !diagnosis.surprises.empty()) {
+    diagnosis.verdict.word = "unattributed";
+    diagnosis.verdict.reason = "nothing but noise is left on the fitted recordings, but not on " +
+                               join(diagnosis.surprises, " and ") +
+                               ": what is missing shows there only, and only a fitted recording can tell its cause";
+  }
 
   double floor = 0.0;
   std::set<std::string> methods;
@@ -291,6 +326,21 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const DiagnoseOpti
   diagnosis.final = fine.on_all(diagnosis.search.augmented,
                                 thinned(roles ? diagnosis.bench.split().fit : campaign.recordings, fine_samples), 5);
   return result;
+}
+
+}  // namespace
+
+std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const DiagnoseOptions& options,
+                                    const SearchProgress& progress) {
+  const Split split = split_of(campaign);
+  std::unique_ptr<Diagnosis> result = diagnose(campaign, split, options, progress);
+  if (!split.by_program || result->surprises.empty()) {
+    return result;
+  }
+  // The split was the program's own: what only a held-out recording shows has to be learnt from it.
+  Split other = split_of(campaign, result->surprises);
+  other.how += " (first others, of which " + join(result->surprises, " and ") + " showed what the fitted ones did not)";
+  return diagnose(campaign, other, options, progress);
 }
 
 }  // namespace hysteron

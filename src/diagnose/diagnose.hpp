@@ -39,7 +39,8 @@ struct Diagnosis {
   std::vector<Rejected> rejected;
   std::vector<Unobservable> not_observable;
   std::string next_experiment;
-  Fit final;  // the augmented model fitted to everything that may be fitted
+  std::vector<std::string> surprises;  // held-out recordings that miss by far more than every fitted one
+  Fit final;                           // the augmented model fitted to everything that may be fitted
   std::vector<std::string> notes;
 };
 

@@ -28,7 +28,7 @@ std::string names(const std::vector<Judged>& judged) {
 
 }  // namespace
 
-Split split_of(const Campaign& campaign) {
+Split split_of(const Campaign& campaign, const std::vector<std::string>& learn_from) {
   Split split;
   const std::vector<Recording>& all = campaign.recordings;
   std::vector<bool> judged(all.size(), false);
@@ -41,9 +41,19 @@ Split split_of(const Campaign& campaign) {
     }
     split.how = "held out by campaign.toml: ";
   } else if (all.size() >= 4) {
-    for (const std::size_t k : choose_heldout(all)) {
-      judged[k] = true;
+    std::vector<std::size_t> free;
+    std::vector<Recording> choice;
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      if (std::ranges::find(learn_from, all[k].file) == learn_from.end()) {
+        free.push_back(k);
+        choice.push_back(all[k]);
+      }
     }
+    const bool all_free = choice.size() < 4;
+    for (const std::size_t k : choose_heldout(all_free ? all : choice)) {
+      judged[all_free ? k : free[k]] = true;
+    }
+    split.by_program = true;
     split.how = "held out by the program: ";
   } else {
     for (const Recording& recording : all) {

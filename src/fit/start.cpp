@@ -57,24 +57,33 @@ bool force_settles(const Recording& recording, std::size_t period) {
   return early[1] > settling_factor * late && early[1] > settling_share * peak;
 }
 
-// Share of the stroke by which a motion of this period may miss itself one period later, and the part of a period that
-// must be there to tell.
-constexpr double repeating_share = 0.1;
+// Share of its standard deviation by which a motion of this period may miss itself one period later, and the part of a
+// period that must be there to tell.
+constexpr double repeating_share = 0.3;
 constexpr double telling_part = 0.25;
 
 // Whether the first period of the motion comes again, so far as the recording lasts: a broadband motion may come back
 // to its first sample and go on elsewhere.
-bool repeats(const Recording& recording, std::size_t period, double stroke) {
+bool repeats(const Recording& recording, std::size_t period) {
   const std::size_t count = std::min(period, recording.size() - period);
   if (static_cast<double>(count) < telling_part * static_cast<double>(period)) {
     return true;
   }
+  double mean = 0.0;
+  for (std::size_t n = 0; n < period; ++n) {
+    mean += recording.displacement[n] / static_cast<double>(period);
+  }
   double squares = 0.0;
+  double variance = 0.0;
   for (std::size_t n = 0; n < count; ++n) {
     const double change = recording.displacement[n + period] - recording.displacement[n];
     squares += change * change;
   }
-  return std::sqrt(squares / static_cast<double>(count)) < repeating_share * stroke;
+  for (std::size_t n = 0; n < period; ++n) {
+    const double away = recording.displacement[n] - mean;
+    variance += away * away / static_cast<double>(period);
+  }
+  return std::sqrt(squares / static_cast<double>(count)) < repeating_share * std::sqrt(variance);
 }
 
 }  // namespace
@@ -114,7 +123,7 @@ std::size_t returns_after(const Recording& recording, double frequency) {
       best = n;
     }
   }
-  return best > 0 && repeats(recording, best, stroke) ? best : 0;
+  return best > 0 && repeats(recording, best) ? best : 0;
 }
 
 Start start_of(const Recording& recording) {
