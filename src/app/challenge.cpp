@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 #include "app/command.hpp"
 #include "challenge/effects.hpp"
@@ -100,19 +101,28 @@ challenge::Diagnose diagnose_by_process(const Options& options) {
 }
 
 // What is hidden in recordings of a real damper: what --effect names, else everything that can be, and the placebos.
-std::string hide(const Options& options, const std::filesystem::path& out) {
-  Campaign campaign = load_campaign(options.data);
+struct Hidden {
+  Campaign campaign;
+  std::vector<std::string> ids;
+};
+
+Hidden hidden_of(const Options& options) {
+  Hidden result;
+  Campaign& campaign = result.campaign;
+  campaign = load_campaign(options.data);
   if (!options.model.empty()) campaign.model = options.model;
   if (campaign.model.empty()) campaign.model = "bouc-wen";
   if (!options.by_current.empty()) campaign.by_current = parse_orders("--by-current", options.by_current);
-  std::vector<std::string> ids = options.effects;
+  std::vector<std::string>& ids = result.ids;
+  ids = options.effects;
+  for (const std::string& id : ids) challenge::check_hideable(id);
   if (ids.empty()) {
     ids.assign(challenge::hideable().begin(), challenge::hideable().end());
     for (const std::string_view id : challenge::placebos()) {
       if (id != "shuffled-drive" || !campaign.recordings.front().drive.empty()) ids.emplace_back(id);
     }
   }
-  return challenge::hide_all(out, campaign, ids, options.seed);
+  return result;
 }
 
 void write_hidden(const std::filesystem::path& out, const std::string& hash) {
@@ -133,9 +143,17 @@ void write_simulated(const std::filesystem::path& out, const std::string& hash) 
 }
 
 void run(const Options& options) {
-  make_output_folder(options.out);
   const std::filesystem::path out(options.out);
   const bool hidden = !options.data.empty();
+  // What is wrong with the options is said before a folder is made.
+  std::optional<Hidden> hiding;
+  std::vector<challenge::Task> tasks;
+  if (hidden && !options.score_only) {
+    hiding = hidden_of(options);
+  } else if (!hidden) {
+    tasks = tasks_of(options);
+  }
+  make_output_folder(options.out);
   std::string hash;
   {
     ProgressLine line(options.quiet);
@@ -146,7 +164,8 @@ void run(const Options& options) {
       line.show(stage, share, detail);
     };
     if (!options.score_only) {
-      hash = hidden ? hide(options, out) : challenge::make_all(out, tasks_of(options), options.seed, steps);
+      hash = hidden ? challenge::hide_all(out, hiding->campaign, hiding->ids, options.seed)
+                    : challenge::make_all(out, tasks, options.seed, steps);
       line.finish();
       fmt::print("sha256 of the sealed answers: {}\n", hash);
       std::fflush(stdout);

@@ -213,6 +213,17 @@ const std::vector<std::string_view>& placebos() {
   return ids;
 }
 
+void check_hideable(const std::string& id) {
+  std::string known;
+  for (const auto* list : {&hideable(), &placebos()}) {
+    for (const std::string_view one : *list) {
+      if (one == id) return;
+      known += (known.empty() ? "" : ", ") + std::string(one);
+    }
+  }
+  throw InputError("cannot hide '" + id + "' in recordings, expected one of " + known);
+}
+
 Altered alter(const std::vector<Recording>& recordings, const std::string& id, Draws& draws) {
   const std::vector<Source> sources = sources_of(recordings);
   std::vector<Recording> plain = bare(recordings);
@@ -249,7 +260,7 @@ Altered alter(const std::vector<Recording>& recordings, const std::string& id, D
     }
     result.recordings = std::move(plain);
   } else {
-    throw InputError("cannot hide '" + id + "' in recordings");
+    check_hideable(id);
   }
   result.id = id;
   return result;

@@ -25,9 +25,10 @@
 
 namespace hysteron::challenge {
 
-// What can be hidden, and the placebos.
+// What can be hidden, and the placebos; the check throws InputError for anything else.
 [[nodiscard]] const std::vector<std::string_view>& hideable();
 [[nodiscard]] const std::vector<std::string_view>& placebos();
+void check_hideable(const std::string& id);
 
 struct HiddenParameter {
   std::string name;

@@ -23,7 +23,7 @@ constexpr double margin_of_leftover = 0.5;
 constexpr double least_evidence = 10.0;
 // An effect is named only if it explains at least this many times what stays unexplained; more where what stays surely
 // is structure, because the cause of that may be the cause of all.
-constexpr double least_gain_over_leftover = 1.0;
+constexpr double least_gain_over_leftover = 2.5;
 constexpr double least_gain_over_structure = 3.0;
 // Where this many times the noise stays, the cause of what stays may be the cause of all, unless the effect explains
 // this many times as much, or has the same size in all recordings within this share.
