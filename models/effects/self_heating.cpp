@@ -21,7 +21,7 @@ struct SelfHeating {
       {"b", "b", "1/J", "relative loss of viscosity per stored heat", 0.0, 2.0e-3, 0.0, Scale::linear, {-1, -1, 0}},
       {"tau", "tau", "s", "thermal time constant", 1.0, 2.0e3, 6.0e1, Scale::logarithmic, {}},
       {"y", "y", "1", "loss of the other forces over that of the viscosity", 0.0, 1.0, 0.7},
-      {"c_h", "c_h", "N s/m", "damping that thins", 0.0, 2.0e4, 0.0, Scale::linear, {1, 0, -1}, true},
+      {"c_h", "c_h", "N s/m", "damping that thins", 0.0, 2.0e4, 0.0, Scale::linear, {1, 0, -1}},
   };
 
   template <class T>
