@@ -173,12 +173,13 @@ void lead_in(Target& target, const Recording& recording) {
   target.motion.lead = target.lead_in.time.back();
 }
 
-// Sum over the parts of their bounds of |d rate / d state|, 1/s.
+// Sum over the parts of their bounds of |d rate / d state|, 1/s. A series element has none of its own: its state is
+// solved for together with the force.
 double stiffness_bound(const CompositeModel& model, const double* p, double speed) {
   double bound = model.law->states > 0 ? model.law->on_double.stiffness(p, speed) : 0.0;
   std::size_t at = model.law->parameters.size();
   for (const Part* effect : model.effects) {
-    if (effect->states > 0) {
+    if (effect->on_double.stiffness != nullptr) {
       bound += effect->on_double.stiffness(p + at, speed);
     }
     at += effect->parameters.size();

@@ -61,6 +61,34 @@ INSTANTIATE_TEST_SUITE_P(Effects, SeriesFit,
                          ::testing::Values(Truth{"clearance", "gap", 1.2e-3, 0.1}, Truth{"compliance", "C", 3e-6, 0.2}),
                          [](const auto& instance) { return instance.param.effect; });
 
+// More candidates than a pack holds are sorted by their stiffness; each gets what it gets alone, whatever the effect.
+TEST(EveryEffect, ManyCandidatesGetWhatEachGetsAlone) {
+  Recording recording = motion("many.csv", {{0.015, 1.3}}, 1.0, 100, 0.2);
+  for (std::size_t n = 0; n < recording.size(); ++n) {
+    recording.drive.push_back(n < recording.size() / 2 ? 0.3 : 0.8);
+    recording.force.push_back(800.0 * recording.velocity[n] + 5.0);
+  }
+  recording.drive_kind = DriveKind::current;
+  LayoutOptions laws;
+  laws.by_current = {{"alpha", 1}};
+  for (const Part* effect : effect_catalogue()) {
+    SCOPED_TRACE(effect->id);
+    const Layout layout(make_model("bouc-wen", {std::string(effect->id)}), scale_of({recording}), laws);
+    const Objective objective(layout, {recording}, {});
+    const Stream stream = Stream(seed).child(effect->id);
+    Request all;
+    const std::size_t count = lane_count + 3;
+    for (std::size_t k = 0; k < count * layout.dimension(); ++k) all.points.push_back(0.1 + 0.8 * stream.uniform(k));
+    const Response together = objective.evaluate(all);
+    for (std::size_t row = 0; row < count; row += 5) {
+      const auto first = all.points.begin() + static_cast<std::ptrdiff_t>(row * layout.dimension());
+      Request one;
+      one.points.assign(first, first + static_cast<std::ptrdiff_t>(layout.dimension()));
+      EXPECT_EQ(objective.evaluate(one).cost[0], together.cost[row]);
+    }
+  }
+}
+
 // Force of a dashpot whose coefficient follows the drive, at constant speed: the drive that acts.
 std::vector<double> acting(const std::string& effect, const std::map<std::string, double>& values,
                            const std::vector<double>& drive) {
