@@ -1,7 +1,8 @@
 // Gas entrapped in the fluid: a series spring that is soft at small force and hardens as the gas is compressed, so that
 // the force lags after a reversal.
-//   F = F_law(x - d, v - d') = q + tau q',   d = d_a tanh(q / f_a)
-// 2 d_a is the travel lost between the directions, d_a / f_a the compliance at small force. tau = 0.5 ms.
+//   F = F_law(x - d, v - d') = q + tau q',   d = C_c q + d_a tanh(q / f_a)
+// 2 d_a is the travel lost between the directions, C_c + d_a / f_a the compliance at small force, C_c that of fluid and
+// mounts without gas. tau = 0.5 ms.
 // Source: saturating form of the gas law in a closed pocket; no accepted form is known.
 #include "simulate/compile.hpp"
 
@@ -12,12 +13,22 @@ struct EntrappedGas {
   static constexpr std::string_view id = "entrapped-gas";
   static constexpr std::string_view title = "Entrapped gas (hardening series spring)";
   static constexpr std::string_view reference = "no accepted form; hardening series spring";
-  static constexpr std::string_view equations[] = {"F = F_law(x - d, v - d') = q + tau q'", "d = d_a tanh(q / f_a)"};
+  static constexpr std::string_view equations[] = {"F = F_law(x - d, v - d') = q + tau q'",
+                                                   "d = C_c q + d_a tanh(q / f_a)"};
   static constexpr int states = 1;
   static constexpr bool is_series = true;
   static constexpr Parameter parameters[] = {
       {"d_a", "d_a", "m", "travel that compresses the gas", 0.0, 5.0e-3, 0.0, Scale::linear, {0, 1, 0}},
       {"f_a", "f_a", "N", "force at which the gas is compressed", 3.0e1, 1.0e3, 2.0e2, Scale::logarithmic, {1, 0, 0}},
+      {"C_c",
+       "C_c",
+       "m/N",
+       "compliance of the compressed gas, fluid and mounts",
+       0.0,
+       1.0e-6,
+       0.0,
+       Scale::linear,
+       {-1, 1, 0}},
       {"tau",
        "tau",
        "s",
@@ -32,11 +43,11 @@ struct EntrappedGas {
   };
 
   template <class T>
-  static Yield<T> yield(const std::array<T, 3>& p, const T& q) {
+  static Yield<T> yield(const std::array<T, 4>& p, const T& q) {
     const T inverse = T(1.0) / p[1];
     const T full = tanh(q * inverse);
     const T slope = p[0] * inverse * (T(1.0) - full * full);
-    return {p[0] * full, slope, T(-2.0) * slope * full * inverse, T(1.0) / p[2], T(1.0), p[1]};
+    return {p[2] * q + p[0] * full, p[2] + slope, T(-2.0) * slope * full * inverse, T(1.0) / p[3], T(1.0), p[1]};
   }
 };
 

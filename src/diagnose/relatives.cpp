@@ -45,7 +45,7 @@ struct Limit {
 constexpr std::array<Limit, 6> limits = {{{"offset-force", "gas-spring", "g"},
                                           {"linear-stiffness", "gas-spring", ""},
                                           {"coulomb-friction", "seal-friction", "fb"},
-                                          {"compliance", "entrapped-gas", ""},
+                                          {"compliance", "entrapped-gas", "d_a"},
                                           {"compliance", "clearance", "gap"},
                                           {"cubic-stiffness", "end-stop", "x_up"}}};
 

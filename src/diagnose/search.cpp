@@ -55,6 +55,12 @@ Hypothesis without(const Hypothesis& what, const std::string& id) {
   return result;
 }
 
+// The same parts, whatever their order of discovery.
+bool same_parts(const Hypothesis& a, const Hypothesis& b) {
+  return a.model == b.model && std::ranges::is_permutation(a.effects, b.effects) &&
+         std::ranges::is_permutation(a.richer, b.richer);
+}
+
 bool contains(const Hypothesis& what, const std::string& id) {
   return is_law(id) ? std::ranges::find(what.richer, id.substr(4)) != what.richer.end()
                     : std::ranges::find(what.effects, id) != what.effects.end();
@@ -253,6 +259,12 @@ Search search(const Workbench& bench, const Workbench& fine, const Hypothesis& b
 
   // Drop what stopped helping; set each against its rivals, and take a rival that does clearly better.
   progress(0.7, "setting each effect against its rivals");
+  std::vector<Fit> seen;
+  for (const std::vector<Tried>& tried : stages) {
+    for (const Tried& one : tried) {
+      seen.push_back(one.fit);
+    }
+  }
   for (int pass = 0; pass < 3; ++pass) {
     bool changed = false;
     result.found.clear();
@@ -268,6 +280,12 @@ Search search(const Workbench& bench, const Workbench& fine, const Hypothesis& b
       if (found.without.cost > result.quick_base.cost) {
         // The base is among what is left: the descent from the fuller model went astray.
         found.without = bench.from_fit(less, result.quick_base, fitting_rounds);
+      }
+      // Descents go astray; what was reached before with the same parts is no less true.
+      for (const Fit& fit : seen) {
+        if (same_parts(fit.what, less) && fit.cost < found.without.cost) {
+          found.without = fit;
+        }
       }
       found.gain = squared(found.without.cost) - squared(current.cost);
       found.evidence = evidence(
@@ -315,6 +333,7 @@ Search search(const Workbench& bench, const Workbench& fine, const Hypothesis& b
         row.id = rival.id;
         row.share = rival.gain / found.gain;
         row.fit = rival.fit;
+        seen.push_back(rival.fit);
         row.evidence =
             evidence(squared(rival.fit.cost), squared(current.cost),
                      static_cast<double>(current.dimension()) - static_cast<double>(rival.fit.dimension()), effective);

@@ -47,6 +47,48 @@ std::vector<bool> take_over(const Fit& from, const Layout& to, std::vector<doubl
   return fresh;
 }
 
+// What parameters of kindred effects mean of each other: the value of `to` is `factor` times that of `from`.
+struct Kindred {
+  std::string_view from;
+  std::string_view to;
+  double factor;
+};
+constexpr std::array<Kindred, 8> kindred = {{{"entrapped-gas.d_a", "clearance.gap", 2.0},
+                                             {"entrapped-gas.C_c", "clearance.C_c", 1.0},
+                                             {"clearance.gap", "entrapped-gas.d_a", 0.5},
+                                             {"clearance.C_c", "entrapped-gas.C_c", 1.0},
+                                             {"compliance.C", "clearance.C_c", 1.0},
+                                             {"compliance.C", "entrapped-gas.C_c", 1.0},
+                                             {"clearance.C_c", "compliance.C", 1.0},
+                                             {"entrapped-gas.C_c", "compliance.C", 1.0}}};
+
+// Values for the parameters of an effect that a fit does not have, from a kindred effect that it has; whether there are
+// any.
+bool take_over_kindred(const Fit& from, const Layout& to, std::vector<double>& point) {
+  bool any = false;
+  const std::vector<std::string>& known = from.layout->names();
+  for (const ParameterLaw& law : to.laws()) {
+    const std::string& name = to.names()[law.parameter];
+    if (std::ranges::find(known, name) != known.end()) {
+      continue;
+    }
+    for (const Kindred& row : kindred) {
+      const auto found = row.to == name ? std::ranges::find(known, row.from) : known.end();
+      if (found == known.end()) {
+        continue;
+      }
+      const double value = parameters_at(from.layout->held(), from.terms, law.drive_nodes.front(),
+                                         law.frequency_nodes.front())[static_cast<std::size_t>(found - known.begin())];
+      const std::size_t count = law.drive_nodes.size() * law.frequency_nodes.size();
+      for (std::size_t k = 0; k < count; ++k) {
+        point[law.first + k] = std::clamp(to.unit(law.first + k, row.factor * value), 0.0, 1.0);
+      }
+      any = true;
+    }
+  }
+  return any;
+}
+
 // Radical inverse: evenly spread numbers in (0, 1).
 double halton(std::size_t index, std::size_t base) {
   double result = 0.0;
@@ -245,6 +287,9 @@ Fit Workbench::from_fit(const Hypothesis& what, const Fit& warm, int rounds, con
     starts.resize(1);
   } else if (added == 1 && also == nullptr && added_effect != nullptr && added_effect->starts.empty()) {
     starts.resize(survivors_of(layout.dimension()));  // one size: where it starts from matters little
+  }
+  if (also != nullptr && take_over_kindred(*also, layout, known_also)) {
+    starts.push_back(known_also);
   }
   return descended(what, layout, objective, starts, rounds);
 }
