@@ -34,35 +34,36 @@ template <class T>
 
 namespace detail {
 
-// mantissa * 2^k, where `shifted` holds k + 1.5 * 2^52 so that k stands in its low bits.
+// mantissa * 2^k, where `shifted` holds k + 1.5 * 2^52 so that k stands in its low bits. Bits are unsigned here and
+// below: lanes whose result is not taken may hold anything, and wrap.
 [[gnu::always_inline]] inline double scale(double mantissa, double shifted) {
-  const auto k = std::bit_cast<std::int64_t>(shifted) << 52;
-  return std::bit_cast<double>(std::bit_cast<std::int64_t>(mantissa) + k);
+  const auto k = std::bit_cast<std::uint64_t>(shifted) << 52;
+  return std::bit_cast<double>(std::bit_cast<std::uint64_t>(mantissa) + k);
 }
 [[gnu::always_inline]] inline Lanes scale(Lanes mantissa, const Lanes& shifted) {
   repeat<vectors_per_pack>([&](auto i) __attribute__((always_inline)) {
-    const VectorInt k = reinterpret_cast<VectorInt>(shifted.v[i]) << 52;
-    mantissa.v[i] = reinterpret_cast<VectorDouble>(reinterpret_cast<VectorInt>(mantissa.v[i]) + k);
+    const VectorUnsigned k = reinterpret_cast<VectorUnsigned>(shifted.v[i]) << 52;
+    mantissa.v[i] = reinterpret_cast<VectorDouble>(reinterpret_cast<VectorUnsigned>(mantissa.v[i]) + k);
   });
   return mantissa;
 }
 
 // Splits a positive normal number into mantissa in [sqrt(1/2), sqrt(2)) and exponent.
 [[gnu::always_inline]] inline void split(double a, double& mantissa, double& exponent) {
-  constexpr std::int64_t half_root = 0x3fe6a09e667f3bcdLL;  // bits of sqrt(1/2)
-  const std::int64_t bits = std::bit_cast<std::int64_t>(a);
-  const std::int64_t e = (bits - half_root) & ~0xfffffffffffffLL;
+  constexpr std::uint64_t half_root = 0x3fe6a09e667f3bcdULL;  // bits of sqrt(1/2)
+  const auto bits = std::bit_cast<std::uint64_t>(a);
+  const std::uint64_t e = (bits - half_root) & ~0xfffffffffffffULL;
   mantissa = std::bit_cast<double>(bits - e);
-  exponent = std::bit_cast<double>((e >> 52) + 0x4338000000000000LL) - 0x1.8p52;
+  exponent = std::bit_cast<double>((static_cast<std::int64_t>(e) >> 52) + 0x4338000000000000LL) - 0x1.8p52;
 }
 [[gnu::always_inline]] inline void split(const Lanes& a, Lanes& mantissa, Lanes& exponent) {
-  constexpr std::int64_t half_root = 0x3fe6a09e667f3bcdLL;
+  constexpr std::uint64_t half_root = 0x3fe6a09e667f3bcdULL;
   repeat<vectors_per_pack>([&](auto i) __attribute__((always_inline)) {
-    const VectorInt bits = reinterpret_cast<VectorInt>(a.v[i]);
-    const VectorInt e = (bits - half_root) & ~0xfffffffffffffLL;
+    const VectorUnsigned bits = reinterpret_cast<VectorUnsigned>(a.v[i]);
+    const VectorUnsigned e = (bits - half_root) & ~0xfffffffffffffULL;
     mantissa.v[i] = reinterpret_cast<VectorDouble>(bits - e);
     // AVX2 has no 64-bit arithmetic shift: a logical one and a bias do the same for |exponent| < 1024.
-    const VectorUnsigned biased = reinterpret_cast<VectorUnsigned>(e + (1024LL << 52)) >> 52;
+    const VectorUnsigned biased = (e + (1024ULL << 52)) >> 52;
     exponent.v[i] = reinterpret_cast<VectorDouble>(biased + 0x4338000000000000ULL) - (0x1.8p52 + 1024.0);
   });
 }
