@@ -29,13 +29,4 @@ T acceleration(const T& v, const T& h, const T& g, const T& tau, const T& time) 
   return a + select(age < T(1e-3), T(0.0), (v - T(2.0) * h + g - transient) / tau);
 }
 
-// Mean of a signal over the recording so far with weights fading as exp(-age / tau), given y' = (signal - y) / tau from
-// y = 0: a first-order lag that starts settled.
-template <class T>
-T settled_lag(const T& signal, const T& y, const T& tau, const T& time) {
-  const T age = time / tau;
-  const auto young = age < T(1e-3);
-  return select(young, signal, y / select(young, T(1.0), T(1.0) - exp(-age)));
-}
-
 }  // namespace hysteron

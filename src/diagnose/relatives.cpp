@@ -55,7 +55,18 @@ const Limit* find_limit(const std::string& effect, const std::string& wider) {
   return at == limits.end() ? nullptr : at;
 }
 
+constexpr std::array<Kindred, 8> kindred_parameters = {{{"entrapped-gas.d_a", "clearance.gap", 2.0},
+                                                        {"entrapped-gas.C_c", "clearance.C_c", 1.0},
+                                                        {"clearance.gap", "entrapped-gas.d_a", 0.5},
+                                                        {"clearance.C_c", "entrapped-gas.C_c", 1.0},
+                                                        {"compliance.C", "clearance.C_c", 1.0},
+                                                        {"compliance.C", "entrapped-gas.C_c", 1.0},
+                                                        {"clearance.C_c", "compliance.C", 1.0},
+                                                        {"entrapped-gas.C_c", "compliance.C", 1.0}}};
+
 }  // namespace
+
+std::span<const Kindred> kindred() { return kindred_parameters; }
 
 bool is_limit(const std::string& effect, const std::string& wider) { return find_limit(effect, wider) != nullptr; }
 

@@ -2,7 +2,9 @@
 // agree on all but few motions.
 #pragma once
 
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace hysteron {
@@ -14,5 +16,14 @@ std::vector<std::string> relatives(const std::string& id);
 bool is_limit(const std::string& effect, const std::string& wider);
 // The parameter of `wider` that is zero at that limit; empty where none is, or where it is no limit.
 std::string limit_parameter(const std::string& effect, const std::string& wider);
+
+// What parameters of related effects, "effect.parameter", mean of each other: the value of `to` is `factor` times that
+// of `from`, so that a fit with one effect tells where to start one with the other.
+struct Kindred {
+  std::string_view from;
+  std::string_view to;
+  double factor;
+};
+std::span<const Kindred> kindred();
 
 }  // namespace hysteron

@@ -1,8 +1,10 @@
 #include "diagnose/workbench.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
+#include "diagnose/relatives.hpp"
 #include "fit/driver.hpp"
 #include "fit/identify.hpp"
 #include "fit/parallel.hpp"
@@ -47,21 +49,6 @@ std::vector<bool> take_over(const Fit& from, const Layout& to, std::vector<doubl
   return fresh;
 }
 
-// What parameters of kindred effects mean of each other: the value of `to` is `factor` times that of `from`.
-struct Kindred {
-  std::string_view from;
-  std::string_view to;
-  double factor;
-};
-constexpr std::array<Kindred, 8> kindred = {{{"entrapped-gas.d_a", "clearance.gap", 2.0},
-                                             {"entrapped-gas.C_c", "clearance.C_c", 1.0},
-                                             {"clearance.gap", "entrapped-gas.d_a", 0.5},
-                                             {"clearance.C_c", "entrapped-gas.C_c", 1.0},
-                                             {"compliance.C", "clearance.C_c", 1.0},
-                                             {"compliance.C", "entrapped-gas.C_c", 1.0},
-                                             {"clearance.C_c", "compliance.C", 1.0},
-                                             {"entrapped-gas.C_c", "compliance.C", 1.0}}};
-
 // Values for the parameters of an effect that a fit does not have, from a kindred effect that it has; whether there are
 // any.
 bool take_over_kindred(const Fit& from, const Layout& to, std::vector<double>& point) {
@@ -72,7 +59,7 @@ bool take_over_kindred(const Fit& from, const Layout& to, std::vector<double>& p
     if (std::ranges::find(known, name) != known.end()) {
       continue;
     }
-    for (const Kindred& row : kindred) {
+    for (const Kindred& row : kindred()) {
       const auto found = row.to == name ? std::ranges::find(known, row.from) : known.end();
       if (found == known.end()) {
         continue;
