@@ -4,8 +4,8 @@
 # Needs pagmo2 and NLopt (libpagmo-dev, libnlopt-dev, libnlopt-cxx-dev), and SciPy for its rows (python3-scipy; without
 # it they are left out). HYSTERON_BUILD names the build folder (build/release), HYSTERON_PEERS an already built program
 # (nothing is built then), PYTHON the interpreter.
-# --only WORD takes the methods whose name holds the word. One thread throughout; takes 5 to 15 minutes. Leave the machine alone meanwhile: the times are CPU times, but caches
-# and clocks are shared.
+# --only WORD takes the methods whose name holds the word. One thread throughout; takes 5 to 15 minutes. Leave the
+# machine alone meanwhile: the times are CPU times, but caches and clocks are shared.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 root=$(cd "$here/../.." && pwd)

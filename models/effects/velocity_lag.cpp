@@ -1,9 +1,8 @@
 // The recorded velocity lags the one that acts on the law below, as where its channel went through a filter that force
 // and displacement did not; negative lag: it leads.
-//   v <- v + lag a,   a = (v - h) / tau, h' = (v - h) / tau
-// It is the exact first-order filter for lag = -tau, and the identity for lag = 0. tau = 2 ms.
-// Source: standard.
-#include "models/motion_filter.hpp"
+//   v <- v + lag a
+// It undoes a first-order filter of time constant lag exactly. a is the slope of the recorded velocity, smoothed as its
+// noise asks for (io/velocity.hpp). Source: standard.
 #include "simulate/compile.hpp"
 
 namespace hysteron {
@@ -12,9 +11,9 @@ namespace {
 struct VelocityLag {
   static constexpr std::string_view id = "velocity-lag";
   static constexpr std::string_view title = "Lag of the velocity channel";
-  static constexpr std::string_view reference = "standard; first-order lead or lag";
-  static constexpr std::string_view equations[] = {"v <- v + lag a", "a from h' = (v - h) / tau"};
-  static constexpr int states = 1;
+  static constexpr std::string_view reference = "standard; inverse of a first-order filter";
+  static constexpr std::string_view equations[] = {"v <- v + lag a"};
+  static constexpr int states = 0;
   static constexpr bool has_drive = true;
   static constexpr Parameter parameters[] = {
       {"lag",
@@ -26,37 +25,15 @@ struct VelocityLag {
        0.0,
        Scale::linear,
        {0, 1, -1}},
-      {"tau",
-       "tau",
-       "s",
-       "time constant of the acceleration estimate",
-       5.0e-4,
-       2.0e-2,
-       2.0e-3,
-       Scale::logarithmic,
-       {0, 1, -1},
-       false,
-       true},
   };
 
   template <class T>
-  static std::array<T, 1> rate(const std::array<T, 2>& p, const std::array<T, 1>& s, const Input<T>& in) {
-    const T& tau = p[1];
-    return {(in.v - s[0]) / tau};
-  }
-  template <class T>
-  static T stiffness(const std::array<T, 2>& p, double /*speed*/) {
-    const T& tau = p[1];
-    return T(1.0) / tau;
-  }
-  template <class T>
-  static void drive(const std::array<T, 2>& p, const std::array<T, 1>& s, Input<T>& in) {
+  static void drive(const std::array<T, 1>& p, const std::array<T, 0>& /*s*/, Input<T>& in) {
     const T& lag = p[0];
-    const T& tau = p[1];
-    in.v = in.v + lag * acceleration(in.v, s[0], tau, in.age);
+    in.v = fma(lag, in.a, in.v);
   }
   template <class T>
-  static T force(const std::array<T, 2>& /*p*/, const std::array<T, 1>& /*s*/, const Input<T>& /*in*/, const T& below) {
+  static T force(const std::array<T, 1>& /*p*/, const std::array<T, 0>& /*s*/, const Input<T>& /*in*/, const T& below) {
     return below;
   }
 };

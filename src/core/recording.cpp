@@ -5,9 +5,9 @@
 
 namespace hysteron {
 
-std::array<std::vector<double>*, 7> channels_of(Recording& recording) {
-  return {&recording.time,         &recording.displacement, &recording.velocity,   &recording.force,
-          &recording.acceleration, &recording.drive,        &recording.temperature};
+std::array<std::vector<double>*, 8> channels_of(Recording& recording) {
+  return {&recording.time,         &recording.displacement,         &recording.velocity, &recording.force,
+          &recording.acceleration, &recording.derived_acceleration, &recording.drive,    &recording.temperature};
 }
 
 Recording every_kth(const Recording& recording, std::size_t k) {

@@ -18,15 +18,16 @@ enum class Start { unknown, in_cycle, from_nothing };
 
 // One test of one damper. All channels have the length of `time`; absent optional channels are empty.
 struct Recording {
-  std::string file;                  // as the user named it, relative to the campaign folder, forward slashes
-  std::string sha256;                // of the file's bytes, lower-case hex
-  std::vector<double> time;          // s, strictly increasing
-  std::vector<double> displacement;  // m
-  std::vector<double> velocity;      // m/s, measured or derived (see velocity_measured)
-  std::vector<double> force;         // N; empty only where a motion without force is allowed (simulate)
-  std::vector<double> acceleration;  // m/s^2, optional
-  std::vector<double> drive;         // A or V, optional
-  std::vector<double> temperature;   // degC, optional
+  std::string file;                          // as the user named it, relative to the campaign folder, forward slashes
+  std::string sha256;                        // of the file's bytes, lower-case hex
+  std::vector<double> time;                  // s, strictly increasing
+  std::vector<double> displacement;          // m
+  std::vector<double> velocity;              // m/s, measured or derived (see velocity_measured)
+  std::vector<double> force;                 // N; empty only where a motion without force is allowed (simulate)
+  std::vector<double> acceleration;          // m/s^2, optional
+  std::vector<double> derived_acceleration;  // m/s^2, slope of the velocity, smoothed as its noise asks; may be empty
+  std::vector<double> drive;                 // A or V, optional
+  std::vector<double> temperature;           // degC, optional
   DriveKind drive_kind = DriveKind::none;
   bool velocity_measured = false;
   Start start = Start::unknown;  // known of copies with fewer samples, which no longer show it
@@ -35,7 +36,7 @@ struct Recording {
 };
 
 // All channels, absent ones too.
-std::array<std::vector<double>*, 7> channels_of(Recording& recording);
+std::array<std::vector<double>*, 8> channels_of(Recording& recording);
 // Every k-th sample of every channel, from the first on; k > 0.
 Recording every_kth(const Recording& recording, std::size_t k);
 // Whether the drive moves by more than 2 % of its largest size; false when there is none.

@@ -9,6 +9,7 @@
 
 #include "diagnose/noise.hpp"
 #include "diagnose/thin.hpp"
+#include "diagnose/wander.hpp"
 #include "fit/identify.hpp"
 
 namespace hysteron {
@@ -22,6 +23,8 @@ constexpr double most_loss = 1.01;
 // A held-out recording that is this many times further above its white noise, in squares, than every fitted one shows
 // what these do not.
 constexpr double surprise = 4.0;
+// Squares over those of the white noise above which what is left is asked whether it follows the force.
+constexpr double above_white = 1.5;
 // Least share of the largest force that counts as noise there.
 constexpr double least_noise = 1e-4;
 // What the base and the augmented model are then fitted on; every sample is predicted in the end.
@@ -230,6 +233,19 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const Split& split
     diagnosis.verdict.reason = "nothing but noise is left on the fitted recordings, but not on " +
                                join(diagnosis.surprises, " and ") +
                                ": what is missing shows there only, and only a fitted recording can tell its cause";
+  }
+
+  const Misfit& left = diagnosis.search.misfit;
+  if (diagnosis.verdict.word == "complete" && left.squares > above_white * left.white) {
+    const Wandering wander = wandering(fine, diagnosis.search.augmented);
+    if (wanders(wander)) {
+      diagnosis.verdict.word = "unattributed";
+      diagnosis.verdict.reason = fmt::format(
+          "{:.0f} % of what is left is a factor of the force that changes from moment to moment: a supply that cycles "
+          "or "
+          "a grip that changes, say; no known effect describes it",
+          100.0 * wander.share);
+    }
   }
 
   double floor = 0.0;

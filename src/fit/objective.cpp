@@ -157,6 +157,11 @@ void march_target(const CompositeModel& model, const Target& target, const Param
   march_window<T>(model, target, parameters_at_drive, 0, target.force.size(), state, sink, before);
 }
 
+Motion motion_of(const Recording& recording, double tolerance) {
+  return make_motion(recording.time, recording.displacement, recording.velocity, recording.drive, tolerance,
+                     recording.derived_acceleration);
+}
+
 // The period to march beforehand, if any, so that the recording goes on from its end.
 void lead_in(Target& target, const Recording& recording) {
   target.preroll = start_of(recording) == Start::from_nothing ? 0 : returns_after(recording, target.frequency);
@@ -165,8 +170,8 @@ void lead_in(Target& target, const Recording& recording) {
   }
   target.lead_in = target.motion;
   const std::size_t count = std::min(target.preroll + 1, recording.size());
-  for (std::vector<double>* channel :
-       {&target.lead_in.time, &target.lead_in.x, &target.lead_in.v, &target.lead_in.drive}) {
+  for (std::vector<double>* channel : {&target.lead_in.time, &target.lead_in.x, &target.lead_in.v, &target.lead_in.a,
+                                       &target.lead_in.jerk, &target.lead_in.drive}) {
     channel->resize(std::min(count, channel->size()));
   }
   target.lead_in.intervals.resize(count - 1);
@@ -283,8 +288,7 @@ double normaliser(const Recording& recording, Normalisation normalisation) {
 
 Target make_target(const Recording& recording, const ObjectiveOptions& options) {
   Target target;
-  target.motion =
-      make_motion(recording.time, recording.displacement, recording.velocity, recording.drive, options.tolerance);
+  target.motion = motion_of(recording, options.tolerance);
   target.force = recording.force;
   target.frequency = dominant_frequency(recording);
   if (!recording.drive.empty()) {
@@ -325,8 +329,7 @@ Objective::Objective(const Layout& layout, const std::vector<Recording>& recordi
     const Target& full = targets_[k];
     const Recording recording = every_kth(recordings[k], screening_stride(recordings[k], full.frequency));
     Target target = full;
-    target.motion =
-        make_motion(recording.time, recording.displacement, recording.velocity, recording.drive, options.tolerance);
+    target.motion = motion_of(recording, options.tolerance);
     target.preroll = 0;
     if (full.preroll > 0) {
       lead_in(target, recording);

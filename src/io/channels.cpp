@@ -209,6 +209,8 @@ Recording make_recording(Channels&& channels) {
   recording.temperature = take(Quantity::temperature);
   recording.velocity_measured = !recording.velocity.empty();
   if (!recording.velocity_measured) recording.velocity = derive_velocity(recording.time, recording.displacement);
+  recording.derived_acceleration =
+      derive_acceleration(recording.time, recording.displacement, recording.velocity, recording.velocity_measured);
   recording.drive = take(Quantity::current);
   recording.drive_kind = DriveKind::current;
   if (recording.drive.empty()) {

@@ -332,38 +332,126 @@ void derive_stretch(std::span<const double> time, std::span<const double> displa
   }
 }
 
+// Of the slope of a cubic over 2 side + 1 samples of spacing 1.
+std::vector<double> uniform_weights(std::size_t side) {
+  std::vector<double> u(2 * side + 1);
+  for (std::size_t j = 0; j < u.size(); ++j) u[j] = static_cast<double>(j) - static_cast<double>(side);
+  std::vector<double> weights;
+  std::vector<double> p;
+  std::vector<double> previous;
+  slope_weights(u, weights, p, previous);
+  return weights;
+}
+
+double median_step_of(std::span<const double> time) {
+  std::vector<double> steps(time.size());
+  std::adjacent_difference(time.begin(), time.end(), steps.begin());
+  steps.erase(steps.begin());
+  return quantile(steps, 0.5);
+}
+
+// Slopes of y over windows of `side` samples on each side that do not reach across corners.
+std::vector<double> slopes_between(const std::vector<Corner>& corners, std::span<const double> time,
+                                   std::span<const double> y, double side, double median_step) {
+  std::vector<double> slopes(time.size(), 0.0);
+  std::size_t first = 0;
+  const auto derive_to = [&](std::size_t last) {
+    const std::size_t count = last + 1 - first;
+    derive_stretch(time.subspan(first, count), y.subspan(first, count), side, median_step,
+                   std::span(slopes).subspan(first, count));
+    first = last + 1;
+  };
+  for (const Corner& corner : corners) derive_to(corner.last);
+  derive_to(time.size() - 1);
+  return slopes;
+}
+
+// Samples on a corner, where neither side's slope holds.
+std::vector<std::size_t> samples_on(const std::vector<Corner>& corners, std::span<const double> time) {
+  std::vector<std::size_t> result;
+  for (const Corner& corner : corners) {
+    for (const std::size_t i : {corner.last, corner.last + 1}) {
+      if (std::abs(corner.time - time[i]) < 0.25 * (time[corner.last + 1] - time[corner.last])) result.push_back(i);
+    }
+  }
+  return result;
+}
+
 }  // namespace
 
 std::vector<double> derive_velocity(std::span<const double> time, std::span<const double> displacement) {
   assert(time.size() == displacement.size());
   const std::size_t n = time.size();
-  std::vector<double> velocity(n, 0.0);
-  if (n < 2) return velocity;
+  if (n < 2) return std::vector<double>(n, 0.0);
 
-  std::vector<double> steps(n);
-  std::adjacent_difference(time.begin(), time.end(), steps.begin());
-  steps.erase(steps.begin());
-  const double median_step = quantile(steps, 0.5);
+  const double median_step = median_step_of(time);
   const double side = n > 7 ? samples_on_a_side(time, displacement, median_step) : 2.0;
   const std::vector<Corner> corners = corners_of(time, displacement, static_cast<std::size_t>(side), median_step);
-  std::size_t first = 0;
-  const auto derive_to = [&](std::size_t last) {
-    const std::size_t count = last + 1 - first;
-    derive_stretch(time.subspan(first, count), displacement.subspan(first, count), side, median_step,
-                   std::span(velocity).subspan(first, count));
-    first = last + 1;
-  };
-  for (const Corner& corner : corners) derive_to(corner.last);
-  derive_to(n - 1);
+  std::vector<double> velocity = slopes_between(corners, time, displacement, side, median_step);
   // A sample on the corner has the speed of neither side: with the mean, the motion between samples does not overshoot.
   for (const Corner& corner : corners) {
-    for (const std::size_t i : {corner.last, corner.last + 1}) {
-      if (std::abs(corner.time - time[i]) < 0.25 * (time[corner.last + 1] - time[corner.last])) {
-        velocity[i] = corner.speed;
-      }
-    }
+    for (const std::size_t i : samples_on({corner}, time)) velocity[i] = corner.speed;
   }
   return velocity;
+}
+
+std::vector<double> derive_acceleration(std::span<const double> time, std::span<const double> displacement,
+                                        std::span<const double> velocity, bool measured) {
+  assert(time.size() == velocity.size() && time.size() == displacement.size());
+  constexpr std::array<std::size_t, 13> sides = {2, 3, 4, 6, 8, 11, 16, 23, 32, 45, 64, 91, 128};
+  const std::size_t n = time.size();
+  if (n < 2) return std::vector<double>(n, 0.0);
+  const double step = median_step_of(time);
+  const double of_velocity = n > 7 ? samples_on_a_side(time, displacement, step) : 2.0;
+  const std::vector<Corner> corners = corners_of(time, displacement, static_cast<std::size_t>(of_velocity), step);
+  // For the windows beside a corner the sample on it belongs to neither line.
+  std::vector<double> beside(velocity.begin(), velocity.end());
+  for (const Corner& corner : corners) {
+    for (const std::size_t i : samples_on({corner}, time)) {
+      const bool before = i == corner.last;
+      if (before ? i > 0 : i + 1 < n) beside[i] = velocity[before ? i - 1 : i + 1];
+    }
+  }
+  // On a corner itself the change of velocity happens within as few samples as can show it.
+  const auto slopes_over = [&](double side) {
+    std::vector<double> slopes = slopes_between(corners, time, beside, side, step);
+    for (const Corner& corner : corners) {
+      for (std::size_t i = std::max<std::size_t>(corner.last, 2) - 1; i < std::min(corner.last + 3, n - 1); ++i) {
+        slopes[i] = (velocity[i + 1] - velocity[i - 1]) / (time[i + 1] - time[i - 1]);
+      }
+    }
+    return slopes;
+  };
+  if (!measured || n < 8) return slopes_over(of_velocity);
+
+  std::vector<double> best = slopes_over(static_cast<double>(sides.front()));
+  const std::vector<double> reference = best;
+  const auto [low, high] = std::ranges::minmax_element(velocity);
+  const double noise = std::max(noise_of(time, velocity), quantum_of(velocity, *high - *low) / std::sqrt(12.0)) / step;
+  const std::vector<double> shortest = uniform_weights(sides.front());
+  double least = noise * noise * std::inner_product(shortest.begin(), shortest.end(), shortest.begin(), 0.0);
+  for (const std::size_t side : std::span(sides).subspan(1)) {
+    if (8 * side > n) break;
+    const std::vector<double> weights = uniform_weights(side);
+    double of_difference = 0.0;
+    double of_noise = 0.0;
+    for (std::size_t j = 0; j < weights.size(); ++j) {
+      const std::size_t shift = side - sides.front();
+      const double other = j < shift || j >= shift + shortest.size() ? 0.0 : shortest[j - shift];
+      of_difference += (weights[j] - other) * (weights[j] - other);
+      of_noise += weights[j] * weights[j];
+    }
+    std::vector<double> slopes = slopes_over(static_cast<double>(side));
+    double difference = 0.0;
+    for (std::size_t i = 0; i < n; ++i) difference += (slopes[i] - reference[i]) * (slopes[i] - reference[i]);
+    const double bias = std::max(difference / static_cast<double>(n) - noise * noise * of_difference, 0.0);
+    const double error = bias + noise * noise * of_noise;
+    if (error < least) {
+      least = error;
+      best = std::move(slopes);
+    }
+  }
+  return best;
 }
 
 }  // namespace hysteron

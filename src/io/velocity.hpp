@@ -1,4 +1,4 @@
-// The velocity of a recording that holds only displacement.
+// The velocity of a recording that holds only displacement, and the acceleration of any.
 //
 // At every sample a cubic is fitted by least squares to the displacement in a window centred on it, and its slope
 // taken (Savitzky and Golay 1964, on the true sampling times). The window is symmetric in time, so on uniform samples
@@ -21,5 +21,13 @@ namespace hysteron {
 
 // m/s from s and m; time strictly increasing, any spacing. O(N w) with w the samples of a window, at most 1001.
 [[nodiscard]] std::vector<double> derive_velocity(std::span<const double> time, std::span<const double> displacement);
+
+// m/s^2: slopes of local cubics through the velocity. Of a measured velocity the window is the one whose expected error
+// is least (Mallows 1973): the noise that passes, and what the slopes differ from those of the shortest window beyond
+// what noise explains. A derived velocity keeps the window it was derived with. No phase error; no window reaches
+// across corners of the displacement: there the velocity changes within two to three samples.
+[[nodiscard]] std::vector<double> derive_acceleration(std::span<const double> time,
+                                                      std::span<const double> displacement,
+                                                      std::span<const double> velocity, bool measured);
 
 }  // namespace hysteron

@@ -119,7 +119,8 @@ class Assembly {
   };
 
   static Input<Value> value_input(const Input<T>& in) {
-    return {value_of(in.x), value_of(in.v), value_of(in.drive), value_of(in.time), value_of(in.age)};
+    return {value_of(in.x),   value_of(in.v), value_of(in.drive), value_of(in.time),
+            value_of(in.age), value_of(in.a), value_of(in.jerk)};
   }
   template <class U>
   static const PartOperations<U>& operations(const Link& link) {
@@ -144,7 +145,7 @@ class Assembly {
       Yield<U> yield;
       part.yield(own, *state, yield);
       yield.gain = yield.gain * U(relief.factor[top - 1]);
-      const Input<U> shifted{in.x - yield.deflection, in.v, in.drive, in.time, in.age};
+      const Input<U> shifted{in.x - yield.deflection, in.v, in.drive, in.time, in.age, in.a, in.jerk};
       const U u = solve(top - 1, p, s, shifted, *state, yield, relief);
       if (rates != nullptr) {
         rates[link.state] = u;
@@ -169,7 +170,7 @@ class Assembly {
 
   template <class U>
   static Input<U> moved(const Input<U>& in, const U& speed) {
-    return {in.x, in.v - speed, in.drive, in.time, in.age};
+    return {in.x, in.v - speed, in.drive, in.time, in.age, in.a, in.jerk};
   }
 
   // Rate u of the state of a series element above the links [0, top); `in` holds the deflected displacement.
@@ -274,7 +275,7 @@ class Assembly {
         Yield<Value> yield;
         link.values->yield(p + link.parameter, *state, yield);
         const Value& u = rates[link.state];
-        in = {in.x - yield.deflection, in.v - yield.slope * u, in.drive, in.time, in.age};
+        in = {in.x - yield.deflection, in.v - yield.slope * u, in.drive, in.time, in.age, in.a, in.jerk};
         relief.speed[i] = in.v;
         const Value stiffness = instantaneous_stiffness(i, s, in, speed, relief);
         const Value resistance = relief.resistance[i];

@@ -50,26 +50,38 @@ template <class T, class V>
 [[gnu::always_inline]] inline Input<T> input_at(const Motion& motion, std::size_t n, const V& theta) {
   const MotionInterval& interval = motion.intervals[n];
   const V time = fma(V(interval.length), theta, V(motion.time[n]));
-  return {T(cubic(interval.x, theta)), T(cubic(interval.v, theta)),
+  return {T(cubic(interval.x, theta)),
+          T(cubic(interval.v, theta)),
           motion.drive.empty() ? T(0.0) : T(fma(V(motion.drive[n + 1] - motion.drive[n]), theta, V(motion.drive[n]))),
-          T(time), T(time + V(motion.lead))};
+          T(time),
+          T(time + V(motion.lead)),
+          T(cubic(interval.a, theta)),
+          T(cubic_slope(interval.a, theta) / V(interval.length))};
 }
 
 // Equals input_at theta = 0: the polynomials' constant terms are the samples.
 template <class T>
 [[gnu::always_inline]] inline Input<T> input_of_sample(const Motion& motion, std::size_t n) {
-  return {T(motion.x[n]), T(motion.v[n]), T(motion.drive.empty() ? 0.0 : motion.drive[n]), T(motion.time[n]),
-          T(motion.time[n] + motion.lead)};
+  return {T(motion.x[n]),
+          T(motion.v[n]),
+          T(motion.drive.empty() ? 0.0 : motion.drive[n]),
+          T(motion.time[n]),
+          T(motion.time[n] + motion.lead),
+          T(motion.a[n]),
+          T(motion.jerk[n])};
 }
 
 // Equals input_at theta = 1/2 or 1, from stored values: most intervals need one step only.
 template <class T>
 [[gnu::always_inline]] inline Input<T> input_stored(const Motion& motion, std::size_t n, double theta,
-                                                    const double (&stored)[2]) {
-  return {T(stored[0]), T(stored[1]),
+                                                    const double (&stored)[4]) {
+  return {T(stored[0]),
+          T(stored[1]),
           T(motion.drive.empty() ? 0.0 : fma(motion.drive[n + 1] - motion.drive[n], theta, motion.drive[n])),
           T(fma(motion.intervals[n].length, theta, motion.time[n])),
-          T(fma(motion.intervals[n].length, theta, motion.time[n]) + motion.lead)};
+          T(fma(motion.intervals[n].length, theta, motion.time[n]) + motion.lead),
+          T(stored[2]),
+          T(stored[3])};
 }
 
 // Chains that know their size while compiling keep states, stages and parameters in registers or on the stack, where

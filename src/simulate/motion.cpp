@@ -49,7 +49,7 @@ double zero_crossing(const double* c) {
 }  // namespace
 
 Motion make_motion(std::span<const double> time, std::span<const double> displacement, std::span<const double> velocity,
-                   std::span<const double> drive, double tolerance) {
+                   std::span<const double> drive, double tolerance, std::span<const double> acceleration) {
   Motion motion;
   // Parts count time from the start of the recording.
   for (const double t : time) {
@@ -59,20 +59,27 @@ Motion make_motion(std::span<const double> time, std::span<const double> displac
   motion.v.assign(velocity.begin(), velocity.end());
   motion.drive.assign(drive.begin(), drive.end());
   motion.step_limit = 0.5 * std::min(2.0, std::pow(tolerance / 1e-4, 0.25));
-  const std::vector<double> acceleration = slopes(time, velocity);
+  const std::vector<double> slope = slopes(time, velocity);
+  motion.a = acceleration.empty() ? slope : std::vector<double>(acceleration.begin(), acceleration.end());
+  motion.jerk = slopes(time, motion.a);
   motion.intervals.resize(time.empty() ? 0 : time.size() - 1);
   for (std::size_t n = 0; n < motion.intervals.size(); ++n) {
     MotionInterval& interval = motion.intervals[n];
     interval.length = time[n + 1] - time[n];
     hermite(interval.length, displacement[n], displacement[n + 1], velocity[n], velocity[n + 1], interval.x);
-    hermite(interval.length, velocity[n], velocity[n + 1], acceleration[n], acceleration[n + 1], interval.v);
+    hermite(interval.length, velocity[n], velocity[n + 1], slope[n], slope[n + 1], interval.v);
+    hermite(interval.length, motion.a[n], motion.a[n + 1], motion.jerk[n], motion.jerk[n + 1], interval.a);
     interval.middle[0] = cubic(interval.x, 0.5);
     interval.middle[1] = cubic(interval.v, 0.5);
+    interval.middle[2] = cubic(interval.a, 0.5);
+    interval.middle[3] = cubic_slope(interval.a, 0.5) / interval.length;
     interval.end[0] = cubic(interval.x, 1.0);
     interval.end[1] = cubic(interval.v, 1.0);
+    interval.end[2] = cubic(interval.a, 1.0);
+    interval.end[3] = cubic_slope(interval.a, 1.0) / interval.length;
     // A Hermite cubic stays within its end values plus 4/27 of h |slope| of either end.
     interval.speed = std::max(std::fabs(velocity[n]), std::fabs(velocity[n + 1])) +
-                     4.0 / 27.0 * interval.length * (std::fabs(acceleration[n]) + std::fabs(acceleration[n + 1]));
+                     4.0 / 27.0 * interval.length * (std::fabs(slope[n]) + std::fabs(slope[n + 1]));
     interval.reversal = velocity[n] * velocity[n + 1] < 0.0;
     interval.reversal_at = interval.reversal ? zero_crossing(interval.v) : 1.0;
   }

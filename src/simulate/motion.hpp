@@ -15,13 +15,20 @@ V cubic(const double* c, const V& theta) {
   return fma(fma(fma(V(c[3]), theta, V(c[2])), theta, V(c[1])), theta, V(c[0]));
 }
 
+// d/dtheta of it.
+template <class V>
+V cubic_slope(const double* c, const V& theta) {
+  return fma(fma(V(3.0 * c[3]), theta, V(2.0 * c[2])), theta, V(c[1]));
+}
+
 // Polynomials in theta in [0, 1] over the interval from sample n to n + 1.
 struct MotionInterval {
   double length;       // s
   double x[4];         // Hermite cubic through both displacements with the velocities as slopes
   double v[4];         // cubic through four velocity samples (quadratic slopes at the ends)
-  double middle[2];    // x and v at theta = 1/2
-  double end[2];       // x and v at theta = 1, as the polynomials round
+  double a[4];         // likewise through the accelerations
+  double middle[4];    // x, v, a and its slope at theta = 1/2
+  double end[4];       // at theta = 1, as the polynomials round
   double speed;        // bound of |v| on the interval
   bool reversal;       // velocity changes sign
   double reversal_at;  // theta of the change
@@ -31,6 +38,8 @@ struct Motion {
   std::vector<double> time;
   std::vector<double> x;
   std::vector<double> v;
+  std::vector<double> a;
+  std::vector<double> jerk;
   std::vector<double> drive;  // empty: zero
   std::vector<MotionInterval> intervals;
   double lead = 0.0;  // s marched before the first sample
@@ -51,9 +60,10 @@ struct Motion {
   double followed_rate_limit = 1e300;
 };
 
-// Arrays of equal length; time strictly increasing (s), displacement (m), velocity (m/s), drive (A or V, may be empty).
+// Arrays of equal length; time strictly increasing (s), displacement (m), velocity (m/s), drive (A or V, may be empty),
+// acceleration (m/s^2; empty: the differences of the velocity).
 Motion make_motion(std::span<const double> time, std::span<const double> displacement, std::span<const double> velocity,
-                   std::span<const double> drive, double tolerance = 1e-4);
+                   std::span<const double> drive, double tolerance = 1e-4, std::span<const double> acceleration = {});
 
 // For comparing hypotheses with each other, not for forces: kinks between samples are not resolved, and series elements
 // relax within half a sampling interval, since what is faster is not seen between samples.

@@ -57,6 +57,8 @@ struct Input {
   T drive;  // current or voltage, A or V
   T time;   // s since the start of the recording
   T age;    // s since the march began: later than time where a period is marched beforehand
+  T a;      // acceleration of the recorded motion, m/s^2, also behind series elements
+  T jerk;   // m/s^3, likewise
 };
 
 // Deflection D(q) of a series element and the law of its state, whose element force is that of the links below it:

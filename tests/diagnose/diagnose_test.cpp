@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+
 #include "diagnose/record.hpp"
 #include "diagnose/relatives.hpp"
 #include "diagnose/thin.hpp"
@@ -92,6 +95,47 @@ TEST(Diagnosis, TellsTheLagOfTheVelocityChannelWithoutAModel) {
   const auto lag = velocity_channel_lag({recording});
   ASSERT_TRUE(lag);
   EXPECT_NEAR(lag->lag, 3e-3, 2e-4);
+}
+
+TEST(Diagnosis, TellsALongLagOfTheVelocityChannelFromANoisySlope) {
+  // 20 ms at up to 6 Hz is far from a small shift, and the noise of the displacement makes most of its slope's slope.
+  Recording recording = testing::motion("r.csv", {{0.01, 1.0}, {0.002, 6.0}}, 4.0, 4001, 0.2);
+  const double keep = std::exp(-1e-3 / 0.02);
+  double lagged = 0.0;
+  const Stream noise = Stream(seed).child("noise");
+  for (std::size_t n = 0; n < recording.size(); ++n) {
+    lagged = n == 0 ? recording.velocity[0] : recording.velocity[n] + (lagged - recording.velocity[n]) * keep;
+    recording.velocity[n] = lagged;
+    recording.displacement[n] += 2e-6 * noise.normal(n, 0);
+  }
+  const auto lag = velocity_channel_lag({recording});
+  ASSERT_TRUE(lag);
+  EXPECT_NEAR(lag->lag, 0.02, 1e-3);
+}
+
+TEST(Diagnosis, DoesNotCallAForceCompleteThatASupplyScales) {
+  // 15 % up and down in 1.7 s: it repeats with nothing of the motion.
+  const Layout layout(make_model("viscous", {}), DataScale{}, {});
+  Campaign campaign;
+  for (int k = 0; k < 3; ++k) {
+    const double f = 1.0 + 0.3 * k;
+    Recording recording = testing::motion("r" + std::to_string(k) + ".csv",
+                                          {{0.006, 1.7 * f}, {0.003, 4.1 * f}, {0.002, 6.3 * f}}, 8.0, 2000, 0.1);
+    testing::set_force(recording, layout, layout.terms(layout.initial()), {}, 0.005,
+                       Stream(seed).child(static_cast<std::uint64_t>(k)));
+    for (std::size_t n = 0; n < recording.size(); ++n) {
+      recording.force[n] *= 1.0 + 0.15 * std::sin(2.0 * std::numbers::pi * recording.time[n] / 1.7);
+    }
+    campaign.recordings.push_back(recording);
+    campaign.roles.push_back(k == 1 ? Role::validate : Role::fit);
+  }
+  DiagnoseOptions options;
+  options.model = "viscous";
+  options.seed = seed;
+  options.candidates = {"inertia", "force-drift"};
+  const auto diagnosis = diagnose(campaign, options, [](double, const std::string&) {});
+  EXPECT_EQ(diagnosis->verdict.word, "unattributed");
+  EXPECT_TRUE(diagnosis->verdict.effects.empty());
 }
 
 TEST(Diagnosis, RecordHoldsWhatTheContractNames) {

@@ -164,13 +164,67 @@ TEST(Velocity, ArcsAreNotTakenForCorners) {
   for (std::size_t i = 0; i < t.size(); ++i) EXPECT_NEAR(v[i], truth[i], 0.02 * 0.05) << i;
 }
 
+double root_mean_square_error(const std::vector<double>& a, const std::vector<double>& b) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
+  return std::sqrt(sum / static_cast<double>(a.size()));
+}
+
+TEST(Acceleration, OfANoisyMeasuredVelocityIsSmoothedWithoutPhaseError) {
+  const double w = 2.0 * pi * 3.0;
+  const auto t = uniform(1000, 3.0);
+  std::vector<double> x, v, noisy, truth;
+  for (std::size_t i = 0; i < t.size(); ++i) {
+    x.push_back(0.01 * std::sin(w * t[i]));
+    v.push_back(0.01 * w * std::cos(w * t[i]));
+    noisy.push_back(v.back() + 5e-4 * noise(i));
+    truth.push_back(-0.01 * w * w * std::sin(w * t[i]));
+  }
+  const double peak = 0.01 * w * w;
+  EXPECT_LT(root_mean_square_error(derive_acceleration(t, x, v, true), truth), 1e-3 * peak);
+  const auto a = derive_acceleration(t, x, noisy, true);
+  // The shortest window would pass sqrt(75/8) noise / (dt 2^1.5), a third of the peak.
+  EXPECT_LT(root_mean_square_error(a, truth), 0.02 * peak);
+  double in_phase = 0.0, late = 0.0;
+  for (std::size_t i = 0; i < t.size(); ++i) {
+    in_phase -= a[i] * std::sin(w * t[i]);
+    late += a[i] * std::cos(w * t[i]);
+  }
+  EXPECT_NEAR(late / in_phase, 0.0, 5e-3);
+  EXPECT_NEAR(2.0 * in_phase / static_cast<double>(t.size()), peak, 0.02 * peak);
+}
+
+TEST(Acceleration, OfTrianglesIsAllInTheCorners) {
+  const auto t = uniform(500, 6.0);
+  std::vector<double> x;
+  for (const double at : t) x.push_back(0.042 * std::abs(std::fmod(at + 1.0, 2.0) - 1.0));
+  const auto v = derive_velocity(t, x);
+  for (const bool measured : {false, true}) {
+    const auto a = derive_acceleration(t, x, v, measured);
+    double impulse = 0.0;
+    for (std::size_t i = 0; i < t.size(); ++i) {
+      const std::size_t place = i % 500;
+      const bool at_corner = i > 2 && i + 3 < t.size() && (place < 3 || place > 497);
+      if (!at_corner) {
+        EXPECT_NEAR(a[i], 0.0, 1e-6) << i;
+      }
+      if (i > 250 && i < 750) impulse += a[i] / 500.0;
+    }
+    EXPECT_NEAR(impulse, -2.0 * 0.042, 1e-6);
+  }
+}
+
 TEST(Velocity, FewSamples) {
   EXPECT_TRUE(derive_velocity({}, {}).empty());
+  EXPECT_TRUE(derive_acceleration({}, {}, {}, true).empty());
   for (std::size_t n = 1; n < 12; ++n) {
     std::vector<double> t(n);
     for (std::size_t i = 0; i < n; ++i) t[i] = static_cast<double>(i);
     const auto v = derive_velocity(t, t);
     for (const double value : v) EXPECT_NEAR(value, n > 1 ? 1.0 : 0.0, 1e-9);
+    for (const bool measured : {false, true}) {
+      for (const double value : derive_acceleration(t, t, v, measured)) EXPECT_NEAR(value, 0.0, 1e-9);
+    }
   }
 }
 

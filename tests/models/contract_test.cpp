@@ -546,21 +546,24 @@ TEST(Effects, SensorDelayShiftsTheForce) {
     for (std::size_t n = 10; n < motion.size(); ++n) {
       const double t = motion.time[n] - sign * delay;
       const double theory = 0.025 * (800.0 * w * std::cos(w * t) + 9000.0 * std::sin(w * t));
-      EXPECT_NEAR(force[n], theory, 0.005 * largest(force));
+      EXPECT_NEAR(force[n], theory, 2e-4 * largest(force));
     }
   }
 }
 
-TEST(Effects, VelocityLagIsTheFirstOrderFilterAtMinusItsTimeConstant) {
+TEST(Effects, VelocityLagUndoesAFirstOrderFilter) {
   const double w = 4.0 * std::numbers::pi;
-  const double tau = 0.002;
-  const Series motion = sine(2.0, 0.025, 500.0, 1.0);
-  const CompositeModel model = make_model("viscous", {"velocity-lag"});
-  const Vector force = simulate(model, motion.motion(), with(model, {{"velocity-lag.lag", -tau}}));
-  for (std::size_t n = 20; n < motion.size(); ++n) {
+  const double tau = 0.02;
+  Series motion = sine(2.0, 0.025, 500.0, 1.0);
+  const Vector acting = motion.v;
+  for (std::size_t n = 0; n < motion.size(); ++n) {
     const double t = motion.time[n];
-    const double lagged = 0.025 * w * (std::cos(w * t) + w * tau * std::sin(w * t)) / (1.0 + w * w * tau * tau);
-    EXPECT_NEAR(force[n], 1000.0 * lagged, 1e-4 * largest(force));
+    motion.v[n] = 0.025 * w * (std::cos(w * t) + w * tau * std::sin(w * t)) / (1.0 + w * w * tau * tau);
+  }
+  const CompositeModel model = make_model("viscous", {"velocity-lag"});
+  const Vector force = simulate(model, motion.motion(), with(model, {{"velocity-lag.lag", tau}}));
+  for (std::size_t n = 1; n + 1 < motion.size(); ++n) {
+    EXPECT_NEAR(force[n], 1000.0 * acting[n], 2e-4 * largest(force));
   }
 }
 

@@ -67,7 +67,7 @@ TEST_F(Bench, KilledAndResumedGivesTheSameBytes) {
 TEST_F(Bench, InterruptKeepsFinishedRuns) {
   folder.write(
       "long.toml",
-      "schema = \"hysteron.study/1\"\nmodels = [\"viscous\"]\nsolvers = [\"pso\"]\nbudgets = 200\nseeds = 3000\n"
+      "schema = \"hysteron.study/1\"\nmodels = [\"viscous\"]\nsolvers = [\"pso\"]\nbudgets = 5000\nseeds = 3000\n"
       "[[data]]\ndataset = \"rd8040-twin\"\nonly = \"2.0Hz_1.0A\"\n");
   const pid_t child = start({"bench", "long.toml", "--out", "out", "--quiet"}, folder.path());
   // Until the store holds runs; the plan alone, which comes first, takes a while to write. Watched from a folder of its
