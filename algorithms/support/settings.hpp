@@ -31,7 +31,7 @@ inline void check_problem(const Problem& problem, const SolverEntry& entry) {
   }
   for (const auto& [name, value] : problem.settings) {
     const auto row = std::find_if(entry.settings.begin(), entry.settings.end(),
-                                  [&name](const Setting& known) { return known.name == name; });
+                                  [&name = name](const Setting& known) { return known.name == name; });
     if (row == entry.settings.end()) {
       std::string known_names;
       for (const Setting& known : entry.settings) {

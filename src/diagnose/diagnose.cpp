@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <boost/math/special_functions/gamma.hpp>
 #include <cmath>
 #include <set>
 
+#include "diagnose/account.hpp"
 #include "diagnose/noise.hpp"
 #include "diagnose/thin.hpp"
 #include "diagnose/wander.hpp"
@@ -29,15 +29,6 @@ constexpr double above_white = 1.5;
 constexpr double least_noise = 1e-4;
 // What the base and the augmented model are then fitted on; every sample is predicted in the end.
 constexpr std::size_t fine_samples = 12000;
-
-std::string title_of(const std::string& effect) {
-  const Part* part = find_effect(effect);
-  std::string title(part == nullptr ? effect : part->title);
-  if (title.size() > 1 && std::islower(static_cast<unsigned char>(title[1])) != 0) {
-    title[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(title[0])));
-  }
-  return title;
-}
 
 std::vector<ParameterInterval> intervals_of(const Workbench& bench, const Fit& fit, const std::string& effect) {
   const Objective objective(*fit.layout, bench.split().fit, bench.options());
@@ -72,63 +63,6 @@ std::vector<std::string> surprises(const Workbench& bench, const Fit& fit) {
   return result;
 }
 
-std::string join(const std::vector<std::string>& words, const std::string& last) {
-  std::string result;
-  for (std::size_t k = 0; k < words.size(); ++k) {
-    result += (k == 0 ? "" : (k + 1 == words.size() ? last : ", ")) + words[k];
-  }
-  return result;
-}
-
-std::string sentence_of(const Diagnosis& diagnosis, const Named& named,
-                        const std::vector<ParameterInterval>& parameters) {
-  std::vector<std::string> values;
-  for (const ParameterInterval& p : parameters) {
-    std::string text = fmt::format("{} = {:.3g}{}", p.name, p.value, p.unit == "1" ? "" : " " + p.unit);
-    if (p.half_width) {
-      text += fmt::format(" (95 %: {:.3g} to {:.3g})", p.value - *p.half_width, p.value + *p.half_width);
-    }
-    values.push_back(text);
-  }
-  std::string text = "Consistent with " + title_of(named.id);
-  for (const Found& found : diagnosis.search.found) {
-    if (found.id == named.id && !found.by_law.empty()) {
-      text += ": " + found.by_law + " rises ever less with the drive";
-    }
-  }
-  if (!values.empty()) {
-    text += ", " + join(values, " and ");
-  }
-  text += fmt::format(", which takes the held-out NRMSE from {:.3g} to {:.3g} (noise floor {:.2g})",
-                      named.without->heldout, named.fit->heldout, diagnosis.noise_floor);
-  if (!named.indistinguishable_from.empty()) {
-    std::vector<std::string> others;
-    for (const std::string& id : named.indistinguishable_from) {
-      others.push_back(title_of(id));
-    }
-    text += "; these recordings cannot tell it from " + join(others, " or ");
-  }
-  if (!named.laws_as_good.empty()) {
-    text += "; a richer dependence of " + join(named.laws_as_good, " or ") + " on the drive would explain as much";
-  }
-  for (const Found& found : diagnosis.search.found) {
-    if (found.id != named.id || !named.indistinguishable_from.empty()) {
-      continue;
-    }
-    std::vector<std::string> beaten;
-    for (const Rival& rival : found.rivals) {
-      if (beaten.size() < 2 && find_effect(rival.id) != nullptr && rival.share > 0.05) {
-        beaten.push_back(
-            fmt::format("{} ({:.0f} % of its gain)", title_of(rival.id), 100.0 * std::min(rival.share, 1.0)));
-      }
-    }
-    if (!beaten.empty()) {
-      text += "; next best in its place: " + join(beaten, " and ");
-    }
-  }
-  return text + ".";
-}
-
 }  // namespace
 
 std::map<std::string, int> base_laws(const std::string& model, const std::vector<Recording>& recordings) {
@@ -155,54 +89,42 @@ std::map<std::string, int> base_laws(const std::string& model, const std::vector
 
 namespace {
 
-std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const Split& split, const DiagnoseOptions& options,
-                                    const SearchProgress& progress) {
+// The laws of the user's choice, or the base model's own with a note.
+LayoutOptions with_laws(const DiagnoseOptions& options, const Campaign& campaign, std::vector<std::string>& notes) {
   LayoutOptions layout = options.layout;
-  std::vector<std::string> notes;
-  if (layout.by_current.empty() && layout.by_frequency.empty()) {
-    layout.by_current = base_laws(options.model, campaign.recordings);
-    std::string list;
-    for (const auto& [name, order] : layout.by_current) {
-      list += (list.empty() ? "" : ",") + fmt::format("{}:{}", name, order);
-    }
-    if (!list.empty()) {
-      notes.push_back("the drive varies and no laws were given: --by-current " + list + " assumed");
-    }
+  if (!layout.by_current.empty() || !layout.by_frequency.empty()) {
+    return layout;
   }
-  const DataScale scale = scale_of(campaign.recordings);
-  ObjectiveOptions objective = options.objective;
-  objective.skip_run_in = true;
-  Workbench bench(scale, split, layout, objective, options.seed, options.stopped);
-  notes.push_back(bench.split().how);
+  layout.by_current = base_laws(options.model, campaign.recordings);
+  std::string list;
+  for (const auto& [name, order] : layout.by_current) {
+    list += (list.empty() ? "" : ",") + fmt::format("{}:{}", name, order);
+  }
+  if (!list.empty()) {
+    notes.push_back("the drive varies and no laws were given: --by-current " + list + " assumed");
+  }
+  return layout;
+}
 
-  SearchOptions searching;
-  searching.most_effects = options.most_effects;
-  std::vector<Unobservable> hidden;
+// Effects that the inputs excite; the others are noted as not observable.
+std::vector<std::string> candidates_of(const DiagnoseOptions& options, Diagnosis& diagnosis) {
+  std::vector<std::string> result;
   for (const Part* effect : effect_catalogue()) {
     const std::string id(effect->id);
     if (!options.candidates.empty() && std::ranges::find(options.candidates, id) == options.candidates.end()) {
       continue;
     }
-    if (const auto reason = excluded_by_inputs(id, bench.split().fit)) {
-      hidden.push_back({id, *reason, ""});
+    if (const auto reason = excluded_by_inputs(id, diagnosis.bench.split().fit)) {
+      diagnosis.not_observable.push_back({id, *reason, ""});
     } else {
-      searching.candidates.push_back(id);
+      result.push_back(id);
     }
   }
-  const Hypothesis base{options.model, {}, {}};
-  auto result =
-      std::make_unique<Diagnosis>(Diagnosis{std::move(bench), {}, {}, 0.0, {}, {}, {}, {}, {}, {}, {}, {}, {}, notes});
-  Diagnosis& diagnosis = *result;
-  Split fewer = diagnosis.bench.split();
-  Split some = fewer;
-  fewer.fit = thinned(spread(fewer.fit, quick_recordings), quick_samples);
-  some.fit = thinned(some.fit, fine_samples);
-  ObjectiveOptions coarse = objective;
-  coarse.comparing = true;
-  const Workbench quick(scale, std::move(fewer), layout, coarse, options.seed, options.stopped);
-  const Workbench fine(scale, std::move(some), layout, coarse, options.seed, options.stopped);
-  diagnosis.search = search(quick, fine, base, searching, progress);
-  // What is reported is of every sample at the tolerance asked for.
+  return result;
+}
+
+// What was found on fewer samples, of every sample at the tolerance asked for; found nothing where that predicts worse.
+void score_on_all(Diagnosis& diagnosis) {
   Search& found = diagnosis.search;
   found.base = diagnosis.bench.scored(found.base);
   found.augmented = diagnosis.bench.scored(found.augmented);
@@ -223,41 +145,80 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const Split& split
     diagnosis.notes.push_back(
         "effects that improved the fit made the prediction of the held-out recordings worse and were dropped");
   }
-  diagnosis.verdict = verdict_of(
-      diagnosis.search, {[&](const Fit& fit, const std::string& effect) { return intervals_of(fine, fit, effect); },
-                         velocity_channel_lag(diagnosis.bench.split().fit)});
+}
 
+// `complete` is withdrawn where a held-out recording, or the residual's bond to the force, shows that something is
+// left.
+void doubt_completeness(Diagnosis& diagnosis, const Workbench& fine) {
   diagnosis.surprises = surprises(diagnosis.bench, diagnosis.search.augmented);
-  if (diagnosis.verdict.word == "complete" && !diagnosis.surprises.empty()) {
+  if (diagnosis.verdict.word != "complete") {
+    return;
+  }
+  if (!diagnosis.surprises.empty()) {
     diagnosis.verdict.word = "unattributed";
     diagnosis.verdict.reason = "nothing but noise is left on the fitted recordings, but not on " +
-                               join(diagnosis.surprises, " and ") +
+                               joined(diagnosis.surprises, " and ") +
                                ": what is missing shows there only, and only a fitted recording can tell its cause";
+    return;
   }
-
   const Misfit& left = diagnosis.search.misfit;
-  if (diagnosis.verdict.word == "complete" && left.squares > above_white * left.white) {
-    const Wandering wander = wandering(fine, diagnosis.search.augmented);
-    if (wanders(wander)) {
-      diagnosis.verdict.word = "unattributed";
-      diagnosis.verdict.reason = fmt::format(
-          "{:.0f} % of what is left is a factor of the force that changes from moment to moment: a supply that cycles "
-          "or "
-          "a grip that changes, say; no known effect describes it",
-          100.0 * wander.share);
-    }
+  if (left.squares <= above_white * left.white) {
+    return;
   }
+  const Wandering wander = wandering(fine, diagnosis.search.augmented);
+  if (wanders(wander)) {
+    diagnosis.verdict.word = "unattributed";
+    diagnosis.verdict.reason = fmt::format(
+        "{:.0f} % of what is left is a factor of the force that changes from moment to moment, as of a supply that "
+        "cycles or a grip that changes; no known effect describes it",
+        100.0 * wander.share);
+  }
+}
 
+void estimate_noise_floor(Diagnosis& diagnosis, Normalisation normalisation) {
   double floor = 0.0;
   std::set<std::string> methods;
-  for (const Recording& recording : diagnosis.bench.split().fit) {
+  const std::vector<Recording>& fitted = diagnosis.bench.split().fit;
+  for (const Recording& recording : fitted) {
     const NoiseFloor noise = noise_floor(recording);
-    const double relative = noise.sigma / normaliser(recording, options.objective.normalisation);
-    floor += relative * relative / static_cast<double>(diagnosis.bench.split().fit.size());
+    const double relative = noise.sigma / normaliser(recording, normalisation);
+    floor += relative * relative / static_cast<double>(fitted.size());
     methods.insert(noise.method);
   }
   diagnosis.noise_floor = std::sqrt(floor);
   diagnosis.noise_floor_method = methods.size() == 1 ? *methods.begin() : "cycles where periodic, high-pass elsewhere";
+}
+
+std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const Split& split, const DiagnoseOptions& options,
+                                    const SearchProgress& progress) {
+  std::vector<std::string> notes;
+  const LayoutOptions layout = with_laws(options, campaign, notes);
+  const DataScale scale = scale_of(campaign.recordings);
+  ObjectiveOptions objective = options.objective;
+  objective.skip_run_in = true;
+  auto result = std::make_unique<Diagnosis>(Workbench(scale, split, layout, objective, options.seed, options.stopped),
+                                            std::move(notes));
+  Diagnosis& diagnosis = *result;
+  diagnosis.notes.push_back(split.how);
+
+  SearchOptions searching;
+  searching.most_effects = options.most_effects;
+  searching.candidates = candidates_of(options, diagnosis);
+  Split fewer = diagnosis.bench.split();
+  Split some = fewer;
+  fewer.fit = thinned(spread(fewer.fit, quick_recordings), quick_samples);
+  some.fit = thinned(some.fit, fine_samples);
+  ObjectiveOptions coarse = objective;
+  coarse.comparing = true;
+  const Workbench quick(scale, std::move(fewer), layout, coarse, options.seed, options.stopped);
+  const Workbench fine(scale, std::move(some), layout, coarse, options.seed, options.stopped);
+  diagnosis.search = search(quick, fine, {options.model, {}, {}}, searching, progress);
+  score_on_all(diagnosis);
+  diagnosis.verdict = verdict_of(
+      diagnosis.search, {[&](const Fit& fit, const std::string& effect) { return intervals_of(fine, fit, effect); },
+                         velocity_channel_lag(diagnosis.bench.split().fit)});
+  doubt_completeness(diagnosis, fine);
+  estimate_noise_floor(diagnosis, options.objective.normalisation);
 
   progress(0.95, "locating the misfit");
   if (structured(diagnosis.search.base_misfit) || !diagnosis.search.found.empty()) {
@@ -267,75 +228,19 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const Split& split
     diagnosis.parameters.push_back(intervals_of(fine, *named.fit, named.id));
     diagnosis.sentences.push_back(sentence_of(diagnosis, named, diagnosis.parameters.back()));
   }
-
   std::vector<std::string> absent;
-  const auto listed = [&](const std::string& id) {
-    return std::ranges::any_of(diagnosis.verdict.effects, [&](const Named& named) { return named.id == id; });
-  };
   for (const std::string& id : searching.candidates) {
-    if (!listed(id) && std::ranges::find(diagnosis.search.augmented.what.effects, id) ==
-                           diagnosis.search.augmented.what.effects.end()) {
+    const std::vector<std::string>& used = diagnosis.search.augmented.what.effects;
+    if (!is_named(diagnosis.verdict, id) && std::ranges::find(used, id) == used.end()) {
       absent.push_back(id);
     }
   }
   for (Unobservable& row : detection_limits(fine, diagnosis.search.augmented, diagnosis.search.misfit, absent)) {
-    hidden.push_back(std::move(row));
+    diagnosis.not_observable.push_back(std::move(row));
   }
-  diagnosis.not_observable = std::move(hidden);
-
-  for (const Tried& tried : diagnosis.search.first_stage) {
-    if (listed(tried.id) || find_effect(tried.id) == nullptr) {
-      continue;
-    }
-    const Fit& before = diagnosis.search.quick_base;
-    const double effective = diagnosis.search.effective;
-    const double statistic =
-        effective * std::log(std::max(before.cost * before.cost / (tried.fit.cost * tried.fit.cost), 1.0));
-    const double more = std::max(1.0, static_cast<double>(tried.fit.dimension() - before.dimension()));
-    Rejected row;
-    row.id = tried.id;
-    row.p = boost::math::gamma_q(0.5 * more, 0.5 * statistic);
-    const double share =
-        std::max(0.0, tried.gain) / std::max(before.cost * before.cost - diagnosis.search.quick_augmented.cost *
-                                                                             diagnosis.search.quick_augmented.cost,
-                                             1e-300);
-    if (tried.evidence < 0.0) {
-      row.reason = "alone it explains no more than the best of so many candidates would by chance";
-    } else if (!diagnosis.search.found.empty()) {
-      row.reason =
-          fmt::format("alone it explains {:.0f} % of what the augmented model explains", 100.0 * std::min(share, 1.0));
-    } else {
-      row.reason =
-          fmt::format("alone it takes {:.2g} % off the squared error: too little, or not on the held-out recordings",
-                      100.0 * tried.gain / (before.cost * before.cost));
-    }
-    diagnosis.rejected.push_back(std::move(row));
-  }
-
-  std::vector<std::string> candidates;
-  for (const Named& named : diagnosis.verdict.effects) {
-    candidates.push_back(named.id);
-  }
-  if (diagnosis.verdict.word == "ambiguous") {
-    diagnosis.next_experiment = next_experiment(candidates);
-  } else if (diagnosis.verdict.word == "unattributed") {
-    diagnosis.next_experiment = next_experiment({});
-  } else if (diagnosis.verdict.word == "missing-physics") {
-    diagnosis.next_experiment = "to confirm: " + next_experiment(candidates);
-  } else {
-    diagnosis.next_experiment =
-        "none is needed for this model; effects listed as not observable need their own recordings";
-  }
-  if (!diagnosis.verdict.reason.empty()) {
-    diagnosis.notes.push_back(diagnosis.verdict.reason);
-  }
-  if (diagnosis.verdict.word == "unattributed" && !diagnosis.search.augmented.what.effects.empty()) {
-    diagnosis.notes.push_back("the augmented model uses " + join(diagnosis.search.augmented.what.effects, " and ") +
-                              " as a shape that predicts better; it is not offered as the cause");
-  }
-  for (const std::string& name : diagnosis.search.richer) {
-    diagnosis.notes.push_back("the recordings also ask for a richer dependence of " + name + " on the drive");
-  }
+  diagnosis.rejected = rejected_of(diagnosis);
+  diagnosis.next_experiment = experiment_after(diagnosis.verdict);
+  note_verdict(diagnosis);
 
   progress(0.98, "final fit");
   const bool roles = std::ranges::any_of(campaign.roles, [](Role role) { return role == Role::validate; });
@@ -355,7 +260,8 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const DiagnoseOpti
   }
   // The split was the program's own: what only a held-out recording shows has to be learnt from it.
   Split other = split_of(campaign, result->surprises);
-  other.how += " (first others, of which " + join(result->surprises, " and ") + " showed what the fitted ones did not)";
+  other.how +=
+      " (first others, of which " + joined(result->surprises, " and ") + " showed what the fitted ones did not)";
   return diagnose(campaign, other, options, progress);
 }
 

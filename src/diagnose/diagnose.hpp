@@ -28,6 +28,8 @@ struct Rejected {
 };
 
 struct Diagnosis {
+  Diagnosis(Workbench on, std::vector<std::string> said) : bench(std::move(on)), notes(std::move(said)) {}
+
   Workbench bench;
   Search search;
   Verdict verdict;

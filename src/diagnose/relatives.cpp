@@ -34,6 +34,11 @@ std::vector<std::string> relatives(const std::string& id) {
   return result;
 }
 
+bool mistaken_for_channel_lag(const std::string& effect) {
+  const std::vector<std::string> alike = relatives(std::string(channel_lag));
+  return std::ranges::find(alike, effect) != alike.end();
+}
+
 namespace {
 
 struct Limit {

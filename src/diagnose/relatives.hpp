@@ -17,6 +17,11 @@ bool is_limit(const std::string& effect, const std::string& wider);
 // The parameter of `wider` that is zero at that limit; empty where none is, or where it is no limit.
 std::string limit_parameter(const std::string& effect, const std::string& wider);
 
+// The effect that a lag of the velocity channel is, which the channels show without any model, and whether `effect` is
+// mistaken for it in what it does to the force.
+constexpr std::string_view channel_lag = "velocity-lag";
+bool mistaken_for_channel_lag(const std::string& effect);
+
 // What parameters of related effects, "effect.parameter", mean of each other: the value of `to` is `factor` times that
 // of `from`, so that a fit with one effect tells where to start one with the other.
 struct Kindred {

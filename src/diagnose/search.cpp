@@ -26,8 +26,6 @@ constexpr double wider_evidence = 3.0;
 // last one added: the next could not be named.
 constexpr double negligible = 0.05;
 
-constexpr const char* saturation = "magnetic-saturation";
-
 bool is_series(const std::string& id) {
   const Part* part = find_effect(id);
   return part != nullptr && part->in_series();

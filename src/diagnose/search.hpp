@@ -66,6 +66,8 @@ struct SearchOptions {
 Search search(const Workbench& quick, const Workbench& fine, const Hypothesis& base, const SearchOptions& options,
               const SearchProgress& progress);
 
+// The effect that a yield force is which rises ever less with the drive, whichever parameter law shows it.
+constexpr const char* saturation = "magnetic-saturation";
 // Whether an id of Tried, Rival or Found is of a richer parameter law: "law:PARAMETER".
 bool is_law(const std::string& id);
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "diagnose/relatives.hpp"
 
@@ -54,7 +53,7 @@ bool confirmed(const Found& found, const Fit& augmented) {
 
 // Whether the lag of the velocity channel that a fit found is the one that the channels show.
 bool as_channels_show(const Fit& fit, const Circumstances& known) {
-  const std::vector<ParameterInterval> intervals = known.intervals(fit, "velocity-lag");
+  const std::vector<ParameterInterval> intervals = known.intervals(fit, std::string(channel_lag));
   if (!known.channel || intervals.empty()) {
     return false;
   }
@@ -152,18 +151,17 @@ Verdict verdict_of(const Search& search, const Circumstances& known) {
         continue;
       }
       // The channels tell a lag of one of them from a delay of the force.
-      const bool force_is_late = found.id == "sensor-delay" || found.id == "inertia";
-      if (close && rival.id == "velocity-lag" && force_is_late) {
+      if (close && rival.id == channel_lag && mistaken_for_channel_lag(found.id)) {
         instead = as_channels_show(rival.fit, known) ? &rival : instead;
         continue;
       }
-      if (close && found.id == "velocity-lag" && (rival.id == "sensor-delay" || rival.id == "inertia") &&
+      if (close && found.id == channel_lag && mistaken_for_channel_lag(rival.id) &&
           as_channels_show(search.augmented, known)) {
         continue;
       }
       if (close) {
         if (is_law(rival.id)) {
-          if (found.id == "magnetic-saturation" && follows_drive(*search.base.layout, rival.id.substr(4))) {
+          if (found.id == saturation && follows_drive(*search.base.layout, rival.id.substr(4))) {
             continue;
           }
           named.laws_as_good.push_back(rival.id.substr(4));
@@ -217,53 +215,6 @@ Verdict verdict_of(const Search& search, const Circumstances& known) {
   }
   verdict.word = "missing-physics";
   return verdict;
-}
-
-std::string next_experiment(const std::vector<std::string>& candidates) {
-  static const std::map<std::string, std::string> separating = {
-      {"clearance",
-       "two strokes at the same speed, one about as small as the suspected gap, at two currents: a gap keeps its width "
-       "in mm, a compliance grows with the force"},
-      {"compliance",
-       "current steps while the damper is held, and the same stroke at three currents: the deflection of a compliance "
-       "grows with the force"},
-      {"entrapped-gas", "the same run at two charge pressures or after a long rest: only entrapped gas changes"},
-      {"inertia",
-       "the same amplitude at frequencies an octave apart, and a run with the damper disconnected for the mass of the "
-       "fixture"},
-      {"sensor-delay",
-       "a current step at constant velocity and sines at frequencies an octave apart: a delay stays constant in ms"},
-      {"velocity-lag",
-       "a sine at each of three frequencies with displacement and velocity recorded: the slope of the displacement "
-       "shows the lag of the velocity channel"},
-      {"shear-thinning", "constant-velocity runs over at least a decade of speed"},
-      {"quadratic-damping", "constant-velocity runs over at least a decade of speed"},
-      {"series-dashpot", "slow triangles from 1 to 20 mm/s, and a hold after a fast stroke to see the force relax"},
-      {"seal-friction", "a slow triangle without current at several speeds below 20 mm/s"},
-      {"coulomb-friction", "a slow triangle without current at several speeds below 20 mm/s"},
-      {"gas-spring", "a slow full stroke around two mid-positions"},
-      {"asymmetry",
-       "the same sine around two mid-positions: asymmetry follows the velocity, a gas spring the position"},
-      {"cavitation", "the same run at two gas pressures and at rising speed"},
-      {"end-stop", "a slow stroke to both ends"},
-      {"cubic-stiffness", "a slow full stroke around two mid-positions"},
-      {"self-heating", "a long run of constant severity, a pause, and the first recording again"},
-      {"degradation", "the first recording again at the end of the campaign, cold"},
-      {"stiction", "the same run after rests of different length"},
-      {"force-drift", "a minute of recording at rest before and after the run"},
-      {"coil-lag", "current steps up and down at constant velocity, at several levels"},
-      {"magnetic-remanence", "a current staircase up and down at constant velocity"},
-      {"magnetic-saturation", "at least five current levels up to the highest"},
-      {"pre-yield-hysteresis", "small strokes at several amplitudes below the knee"},
-      {"pinching", "small strokes inside a large one, at two amplitudes"},
-  };
-  for (const std::string& id : candidates) {
-    const auto found = separating.find(id);
-    if (found != separating.end()) {
-      return found->second;
-    }
-  }
-  return "the same motion at other frequencies, amplitudes and currents";
 }
 
 }  // namespace hysteron

@@ -47,7 +47,4 @@ struct Circumstances {
 // Pointers refer into `search`.
 Verdict verdict_of(const Search& search, const Circumstances& known);
 
-// The recording that would separate an effect from its relatives.
-std::string next_experiment(const std::vector<std::string>& candidates);
-
 }  // namespace hysteron

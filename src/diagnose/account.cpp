@@ -1,0 +1,195 @@
+#include "diagnose/account.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <boost/math/special_functions/gamma.hpp>
+#include <cctype>
+#include <cmath>
+#include <map>
+
+namespace hysteron {
+namespace {
+
+std::string title_of(const std::string& effect) {
+  const Part* part = find_effect(effect);
+  std::string title(part == nullptr ? effect : part->title);
+  if (title.size() > 1 && std::islower(static_cast<unsigned char>(title[1])) != 0) {
+    title[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(title[0])));
+  }
+  return title;
+}
+
+// What separates the first of the candidates that a recording can separate.
+std::string next_experiment(const std::vector<std::string>& candidates) {
+  static const std::map<std::string, std::string> separating = {
+      {"clearance",
+       "two strokes at the same speed, one about as small as the suspected gap, at two currents: a gap keeps its width "
+       "in mm, a compliance grows with the force"},
+      {"compliance",
+       "current steps while the damper is held, and the same stroke at three currents: the deflection of a compliance "
+       "grows with the force"},
+      {"entrapped-gas", "the same run at two charge pressures or after a long rest: only entrapped gas changes"},
+      {"inertia",
+       "the same amplitude at frequencies an octave apart, and a run with the damper disconnected for the mass of the "
+       "fixture"},
+      {"sensor-delay",
+       "a current step at constant velocity and sines at frequencies an octave apart: a delay stays constant in ms"},
+      {"velocity-lag",
+       "a sine at each of three frequencies with displacement and velocity recorded: the slope of the displacement "
+       "shows the lag of the velocity channel"},
+      {"shear-thinning", "constant-velocity runs over at least a decade of speed"},
+      {"quadratic-damping", "constant-velocity runs over at least a decade of speed"},
+      {"series-dashpot", "slow triangles from 1 to 20 mm/s, and a hold after a fast stroke to see the force relax"},
+      {"seal-friction", "a slow triangle without current at several speeds below 20 mm/s"},
+      {"coulomb-friction", "a slow triangle without current at several speeds below 20 mm/s"},
+      {"gas-spring", "a slow full stroke around two mid-positions"},
+      {"asymmetry",
+       "the same sine around two mid-positions: asymmetry follows the velocity, a gas spring the position"},
+      {"cavitation", "the same run at two gas pressures and at rising speed"},
+      {"end-stop", "a slow stroke to both ends"},
+      {"cubic-stiffness", "a slow full stroke around two mid-positions"},
+      {"self-heating", "a long run of constant severity, a pause, and the first recording again"},
+      {"degradation", "the first recording again at the end of the campaign, cold"},
+      {"stiction", "the same run after rests of different length"},
+      {"force-drift", "a minute of recording at rest before and after the run"},
+      {"coil-lag", "current steps up and down at constant velocity, at several levels"},
+      {"magnetic-remanence", "a current staircase up and down at constant velocity"},
+      {"magnetic-saturation", "at least five current levels up to the highest"},
+      {"pre-yield-hysteresis", "small strokes at several amplitudes below the knee"},
+      {"pinching", "small strokes inside a large one, at two amplitudes"},
+  };
+  for (const std::string& id : candidates) {
+    const auto found = separating.find(id);
+    if (found != separating.end()) {
+      return found->second;
+    }
+  }
+  return "the same motion at other frequencies, amplitudes and currents";
+}
+
+}  // namespace
+
+std::string joined(const std::vector<std::string>& words, const std::string& last) {
+  std::string result;
+  for (std::size_t k = 0; k < words.size(); ++k) {
+    result += (k == 0 ? "" : (k + 1 == words.size() ? last : ", ")) + words[k];
+  }
+  return result;
+}
+
+std::string sentence_of(const Diagnosis& diagnosis, const Named& named,
+                        const std::vector<ParameterInterval>& parameters) {
+  std::vector<std::string> values;
+  for (const ParameterInterval& p : parameters) {
+    std::string text = fmt::format("{} = {:.3g}{}", p.name, p.value, p.unit == "1" ? "" : " " + p.unit);
+    if (p.half_width) {
+      text += fmt::format(" (95 %: {:.3g} to {:.3g})", p.value - *p.half_width, p.value + *p.half_width);
+    }
+    values.push_back(text);
+  }
+  std::string text = "Consistent with " + title_of(named.id);
+  for (const Found& found : diagnosis.search.found) {
+    if (found.id == named.id && !found.by_law.empty()) {
+      text += ": " + found.by_law + " rises ever less with the drive";
+    }
+  }
+  if (!values.empty()) {
+    text += ", " + joined(values, " and ");
+  }
+  text += fmt::format(", which takes the held-out NRMSE from {:.3g} to {:.3g} (noise floor {:.2g})",
+                      named.without->heldout, named.fit->heldout, diagnosis.noise_floor);
+  if (!named.indistinguishable_from.empty()) {
+    std::vector<std::string> others;
+    for (const std::string& id : named.indistinguishable_from) {
+      others.push_back(title_of(id));
+    }
+    text += "; these recordings cannot tell it from " + joined(others, " or ");
+  }
+  if (!named.laws_as_good.empty()) {
+    text += "; a richer dependence of " + joined(named.laws_as_good, " or ") + " on the drive would explain as much";
+  }
+  for (const Found& found : diagnosis.search.found) {
+    if (found.id != named.id || !named.indistinguishable_from.empty()) {
+      continue;
+    }
+    std::vector<std::string> beaten;
+    for (const Rival& rival : found.rivals) {
+      if (beaten.size() < 2 && find_effect(rival.id) != nullptr && rival.share > 0.05) {
+        beaten.push_back(
+            fmt::format("{} ({:.0f} % of its gain)", title_of(rival.id), 100.0 * std::min(rival.share, 1.0)));
+      }
+    }
+    if (!beaten.empty()) {
+      text += "; next best in its place: " + joined(beaten, " and ");
+    }
+  }
+  return text + ".";
+}
+
+bool is_named(const Verdict& verdict, const std::string& effect) {
+  return std::ranges::any_of(verdict.effects, [&](const Named& named) { return named.id == effect; });
+}
+
+std::vector<Rejected> rejected_of(const Diagnosis& diagnosis) {
+  std::vector<Rejected> result;
+  const Fit& before = diagnosis.search.quick_base;
+  const double base = before.cost * before.cost;
+  const double augmented = diagnosis.search.quick_augmented.cost * diagnosis.search.quick_augmented.cost;
+  for (const Tried& tried : diagnosis.search.first_stage) {
+    if (is_named(diagnosis.verdict, tried.id) || find_effect(tried.id) == nullptr) {
+      continue;
+    }
+    const double statistic =
+        diagnosis.search.effective * std::log(std::max(base / (tried.fit.cost * tried.fit.cost), 1.0));
+    const double more = std::max(1.0, static_cast<double>(tried.fit.dimension() - before.dimension()));
+    Rejected row;
+    row.id = tried.id;
+    row.p = boost::math::gamma_q(0.5 * more, 0.5 * statistic);
+    const double share = std::max(0.0, tried.gain) / std::max(base - augmented, 1e-300);
+    if (tried.evidence < 0.0) {
+      row.reason = "alone it explains no more than the best of so many candidates would by chance";
+    } else if (!diagnosis.search.found.empty()) {
+      row.reason =
+          fmt::format("alone it explains {:.0f} % of what the augmented model explains", 100.0 * std::min(share, 1.0));
+    } else {
+      row.reason =
+          fmt::format("alone it takes {:.2g} % off the squared error: too little, or not on the held-out recordings",
+                      100.0 * tried.gain / base);
+    }
+    result.push_back(std::move(row));
+  }
+  return result;
+}
+
+std::string experiment_after(const Verdict& verdict) {
+  std::vector<std::string> candidates;
+  for (const Named& named : verdict.effects) {
+    candidates.push_back(named.id);
+  }
+  if (verdict.word == "ambiguous") {
+    return next_experiment(candidates);
+  }
+  if (verdict.word == "unattributed") {
+    return next_experiment({});
+  }
+  if (verdict.word == "missing-physics") {
+    return "to confirm: " + next_experiment(candidates);
+  }
+  return "none is needed for this model; effects listed as not observable need their own recordings";
+}
+
+void note_verdict(Diagnosis& diagnosis) {
+  if (!diagnosis.verdict.reason.empty()) {
+    diagnosis.notes.push_back(diagnosis.verdict.reason);
+  }
+  if (diagnosis.verdict.word == "unattributed" && !diagnosis.search.augmented.what.effects.empty()) {
+    diagnosis.notes.push_back("the augmented model uses " + joined(diagnosis.search.augmented.what.effects, " and ") +
+                              " as a shape that predicts better; it is not offered as the cause");
+  }
+  for (const std::string& name : diagnosis.search.richer) {
+    diagnosis.notes.push_back("the recordings also ask for a richer dependence of " + name + " on the drive");
+  }
+}
+
+}  // namespace hysteron
