@@ -62,12 +62,9 @@ StudyTable ranking_table(const json& analysis, const Names& names) {
   }
   table.note = fmt::format(
       "Mean rank over {} pairs of (problem, seed) on {} problems, at {} evaluations; costs within {} of each other "
-      "tie. "
-      "Friedman's test: chi-squared {} with {} degrees of freedom, p {}. Solvers whose mean ranks differ by less than "
-      "the "
-      "critical difference {} (Nemenyi, 5 %) tie: the place is one more than the number of solvers that are better. "
-      "The "
-      "test speaks of these problems, not of others.",
+      "tie. Friedman's test: chi-squared {} with {} degrees of freedom, p {}. Solvers whose mean ranks differ by less "
+      "than the critical difference {} (Nemenyi, 5 %) tie: the place is one more than the number of solvers that are "
+      "better. The test speaks of these problems, not of others.",
       whole(ranking.at("blocks")), whole(ranking.at("problems")), analysis.at("budgets").back().get<std::size_t>(),
       percent(analysis.at("tie").get<double>()), shown(ranking.at("chi_squared"), 3), whole(ranking.at("degrees")),
       p_value(ranking.at("p")), shown(ranking.at("critical_difference"), 3));
@@ -265,19 +262,28 @@ std::string left_open(const json& analysis) {
 }
 
 std::string state_of(const json& analysis) {
-  return fmt::format("{} of {} runs: {} problems, {} solvers, {} seeds", whole(analysis.at("done")),
-                     whole(analysis.at("planned")), analysis.at("problems").size(), analysis.at("solvers").size(),
-                     analysis.at("seeds").size());
+  const auto counted = [&](const char* what) {
+    const std::size_t count = analysis.at(what).size();
+    const std::string words(what);
+    return fmt::format("{} {}", count, count == 1 ? words.substr(0, words.size() - 1) : words);
+  };
+  return fmt::format("{} of {} runs: {}, {}, {}", whole(analysis.at("done")), whole(analysis.at("planned")),
+                     counted("problems"), counted("solvers"), counted("seeds"));
 }
 
 }  // namespace
 
 std::vector<StudyTable> study_tables(const json& analysis, const json& times) {
   const Names names(analysis);
-  std::vector<StudyTable> tables{ranking_table(analysis, names), fixed_budget_table(analysis, names),
-                                 fixed_target_table(analysis, names), pair_table(analysis, names, "pairs")};
-  if (!analysis.at("models").empty()) tables.insert(tables.begin() + 1, model_table(analysis, names));
-  if (analysis.at("problems").size() > 1) tables.push_back(pair_table(analysis, names, "problem_pairs"));
+  // A single solver has no rank and nothing to be paired with.
+  const bool several = analysis.at("solvers").size() > 1;
+  std::vector<StudyTable> tables;
+  if (several) tables.push_back(ranking_table(analysis, names));
+  if (!analysis.at("models").empty()) tables.push_back(model_table(analysis, names));
+  tables.push_back(fixed_budget_table(analysis, names));
+  tables.push_back(fixed_target_table(analysis, names));
+  if (several) tables.push_back(pair_table(analysis, names, "pairs"));
+  if (several && analysis.at("problems").size() > 1) tables.push_back(pair_table(analysis, names, "problem_pairs"));
   tables.push_back(problem_table(analysis));
   if (analysis.contains("identifiability")) tables.push_back(identifiability_table(analysis, names));
   if (!times.is_null()) tables.push_back(time_table(times, names));
@@ -288,7 +294,10 @@ std::string study_verdict(const json& analysis) {
   const json& ranking = analysis.at("ranking");
   const Names names(analysis);
   if (ranking.at("rows").empty()) return "No seed has been finished by every solver yet: nothing can be compared.";
-  if (ranking.at("rows").size() == 1) return "One solver only: nothing to compare.";
+  if (ranking.at("rows").size() == 1) {
+    return analysis.at("models").empty() ? "One solver only: nothing to compare."
+                                         : "One solver: models are ranked, solvers are not.";
+  }
   if (!ranking.at("different").get<bool>()) {
     return fmt::format("No difference between the {} solvers was shown (Friedman p = {}): they tie.",
                        ranking.at("rows").size(), p_value(ranking.at("p")));

@@ -89,6 +89,19 @@ TEST_F(Bench, InterruptKeepsFinishedRuns) {
   EXPECT_NE(analysis.at("warnings").dump().find("runs are missing"), std::string::npos);
 }
 
+TEST_F(Bench, OneSolverIsNotRanked) {
+  folder.write("one.toml",
+               "schema = \"hysteron.study/1\"\nmodels = [\"viscous\", \"bingham\"]\nsolvers = [\"pso\"]\n"
+               "budgets = 50\nseeds = 2\n[[data]]\ndataset = \"rd8040-twin\"\nonly = \"2.0Hz_1.0A\"\n");
+  ASSERT_EQ(run({"bench", "one.toml", "--out", "one", "--quiet"}, folder.path()).status, 0);
+  ASSERT_EQ(run({"report", "one"}, folder.path()).status, 0);
+  const std::string text = read(folder.path() / "one" / "report.md");
+  EXPECT_NE(text.find("One solver: models are ranked, solvers are not."), std::string::npos) << text;
+  EXPECT_NE(text.find("2 problems, 1 solver, 2 seeds"), std::string::npos) << text;
+  EXPECT_NE(text.find("## Ranking of models"), std::string::npos);
+  EXPECT_EQ(text.find("Friedman"), std::string::npos);
+}
+
 TEST_F(Bench, AGrownStudyDoesOnlyWhatIsNew) {
   ASSERT_EQ(run({"bench", "study.toml", "--out", "out", "--quiet"}, folder.path()).status, 0);
   std::string grown = small_study;
