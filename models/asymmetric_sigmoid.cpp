@@ -94,7 +94,7 @@ struct AsymmetricSigmoid {
   template <class T>
   static T force(const std::array<T, 9>& p, const std::array<T, 1>& s, const Input<T>& in, const T& /*below*/) {
     const auto& [f_t, c_c, c_e, f_d, v_t, v_h, v_d, tau, a_s] = p;
-    const T branch = tanh(acceleration(in.v, s[0], tau, in.time) / a_s);
+    const T branch = tanh(acceleration(in.v, s[0], tau, in.age) / a_s);
     const T slope = c_c * max(in.v, T(0.0)) + c_e * max(-in.v, T(0.0));
     return tanh((in.v - v_d - v_h * branch) / v_t) * (f_t + slope) + f_d;
   }

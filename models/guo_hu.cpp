@@ -87,7 +87,7 @@ struct GuoHu {
   template <class T>
   static T force(const std::array<T, 7>& p, const std::array<T, 1>& s, const Input<T>& in, const T& /*below*/) {
     const auto& [f_y, c0, f0, v_y, v_h, tau, a_s] = p;
-    const T branch = tanh(acceleration(in.v, s[0], tau, in.time) / a_s);
+    const T branch = tanh(acceleration(in.v, s[0], tau, in.age) / a_s);
     constexpr double two_over_pi = 0.63661977236758134308;
     return f0 + c0 * in.v + T(two_over_pi) * f_y * arc_tangent((in.v - v_h * branch) / v_y);
   }

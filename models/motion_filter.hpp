@@ -8,25 +8,15 @@
 
 namespace hysteron {
 
-// Error for a sine of frequency w: a lag of tau. Zero at the very start of a recording, where h says nothing yet.
+// Error for a sine of frequency w: a lag of tau. `age` is the time since the march began, which is not the start of the
+// recording where a period is marched beforehand (Input::age); zero at its very start, where h says nothing yet.
 template <class T>
-T acceleration(const T& v, const T& h, const T& tau, const T& time) {
-  const T age = time / tau;
-  const T fading = exp(-age);
+T acceleration(const T& v, const T& h, const T& tau, const T& age) {
+  const T fading = exp(-age / tau);
   const T grown = T(1.0) - fading;
-  const auto young = age < T(1e-3);
-  const T span = select(young, T(1.0), tau * grown - time * fading);
+  const auto young = age < T(1e-3) * tau;
+  const T span = select(young, T(1.0), tau * grown - age * fading);
   return select(young, T(0.0), (v * grown - h) / span);
-}
-
-// With a second lag g' = (h - g) / tau: the lag of tau is compensated, relative error (w tau)^2.
-template <class T>
-T acceleration(const T& v, const T& h, const T& g, const T& tau, const T& time) {
-  const T age = time / tau;
-  const T a = acceleration(v, h, tau, time);
-  const T start = v - a * time;
-  const T transient = exp(-age) * (start * (T(1.0) - age) + a * time);
-  return a + select(age < T(1e-3), T(0.0), (v - T(2.0) * h + g - transient) / tau);
 }
 
 }  // namespace hysteron

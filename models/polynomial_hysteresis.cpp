@@ -93,7 +93,7 @@ struct PolynomialHysteresis {
       rise = rise * r + p[i];
       fall = fall * r + p[terms + i];
     }
-    const T rising = T(0.5) + T(0.5) * tanh(acceleration(in.v, s[0], p[15], in.time) / p[16]);
+    const T rising = T(0.5) + T(0.5) * tanh(acceleration(in.v, s[0], p[15], in.age) / p[16]);
     return rising * rise + (T(1.0) - rising) * fall;
   }
 };

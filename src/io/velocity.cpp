@@ -367,12 +367,10 @@ std::vector<double> slopes_between(const std::vector<Corner>& corners, std::span
 }
 
 // Samples on a corner, where neither side's slope holds.
-std::vector<std::size_t> samples_on(const std::vector<Corner>& corners, std::span<const double> time) {
+std::vector<std::size_t> samples_on(const Corner& corner, std::span<const double> time) {
   std::vector<std::size_t> result;
-  for (const Corner& corner : corners) {
-    for (const std::size_t i : {corner.last, corner.last + 1}) {
-      if (std::abs(corner.time - time[i]) < 0.25 * (time[corner.last + 1] - time[corner.last])) result.push_back(i);
-    }
+  for (const std::size_t i : {corner.last, corner.last + 1}) {
+    if (std::abs(corner.time - time[i]) < 0.25 * (time[corner.last + 1] - time[corner.last])) result.push_back(i);
   }
   return result;
 }
@@ -390,7 +388,7 @@ std::vector<double> derive_velocity(std::span<const double> time, std::span<cons
   std::vector<double> velocity = slopes_between(corners, time, displacement, side, median_step);
   // A sample on the corner has the speed of neither side: with the mean, the motion between samples does not overshoot.
   for (const Corner& corner : corners) {
-    for (const std::size_t i : samples_on({corner}, time)) velocity[i] = corner.speed;
+    for (const std::size_t i : samples_on(corner, time)) velocity[i] = corner.speed;
   }
   return velocity;
 }
@@ -407,7 +405,7 @@ std::vector<double> derive_acceleration(std::span<const double> time, std::span<
   // For the windows beside a corner the sample on it belongs to neither line.
   std::vector<double> beside(velocity.begin(), velocity.end());
   for (const Corner& corner : corners) {
-    for (const std::size_t i : samples_on({corner}, time)) {
+    for (const std::size_t i : samples_on(corner, time)) {
       const bool before = i == corner.last;
       if (before ? i > 0 : i + 1 < n) beside[i] = velocity[before ? i - 1 : i + 1];
     }

@@ -426,22 +426,21 @@ std::vector<Recording> three_levels() {
 }
 
 TEST(MidMotion, FiltersOfTheMotionAreSettledByThePeriodBeforehand) {
-  // A sine that is under way at the first sample: m a is there from that sample on, without a transient.
-  const std::vector<Recording> moving{motion("moving.csv", {{0.01, 2.0}}, 2.0, 1000, 0.0)};
+  // A sine that is under way at the first sample: the branch, which the law tells by its own acceleration filter, and
+  // with it the force, is that of the next period from the first sample on.
+  const std::vector<Recording> moving{motion("moving.csv", {{0.01, 2.0}}, 2.0, 1001, 0.0)};
   const Target target = make_target(moving[0], {});
   ASSERT_GT(target.preroll, 0U);
-  const CompositeModel model = make_model("viscous", {"inertia"});
-  const std::vector<std::string> names = model.parameter_names();
-  constexpr double mass = 12.0;
+  const CompositeModel model = make_model("guo-hu", {});
   std::vector<double> values;
   for (const Parameter& card : model.parameters()) {
-    values.push_back(card.fixed ? card.initial : 0.0);
+    values.push_back(card.initial);
   }
-  values[static_cast<std::size_t>(std::ranges::find(names, "inertia.m") - names.begin())] = mass;
   const std::vector<double> force = predict(model, values, {}, target);
-  const double w2 = std::pow(2.0 * std::numbers::pi * 2.0, 2);
-  for (std::size_t n = 0; n < force.size(); ++n) {
-    EXPECT_NEAR(force[n], -mass * w2 * moving[0].displacement[n], 0.01 * mass * w2 * 0.01) << n;
+  const double peak = *std::ranges::max_element(force);
+  ASSERT_GT(peak, 0.0);
+  for (std::size_t n = 0; n < 250; ++n) {
+    EXPECT_NEAR(force[n], force[n + 250], 1e-3 * peak) << n;
   }
 }
 
