@@ -771,7 +771,7 @@ function diagnosisSection() {
     // Many effects share a reason: a row a reason, not an effect.
     const reasons = [...new Set(d.rejected.map((x) => x.reason || ""))];
     const named = (x) => [el("code", { class: "nowrap" }, x.id), isNumber(x.p) ? ` (${fmt(x.p, 2)})` : ""];
-    parts.push(el("h3", {}, "Examined and rejected"), plainTable("Effects tested that do not help; in brackets the p value of the test",
+    parts.push(el("h3", {}, "Examined and rejected"), plainTable("Effects tested and not named; in brackets the p value of each alone",
       [{ title: "Reason", head: true }, { title: "Effects" }],
       reasons.map((reason) => [prose(reason), el("span", {}, d.rejected.filter((x) => (x.reason || "") === reason).flatMap((x, i) => [i ? ", " : "", ...named(x)]))])));
   }

@@ -395,7 +395,6 @@ Search search(const Workbench& bench, const Workbench& fine, const Hypothesis& b
       result.other_laws.emplace_back(law, squared(other.cost));
     }
   }
-  progress(1.0, "done");
   return result;
 }
 
