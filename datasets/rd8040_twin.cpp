@@ -69,12 +69,12 @@ Campaign generate(const Stream& stream) {
         peak = std::max(peak, std::fabs(value));
       }
       const Stream noise = stream.child(recording.file);
-      for (int n = settling_periods * samples_per_period; n < all; ++n) {
-        const auto k = static_cast<std::size_t>(n);
-        recording.time.push_back(time[k] - time[static_cast<std::size_t>(settling_periods * samples_per_period)]);
+      constexpr std::size_t first = std::size_t{settling_periods} * samples_per_period;
+      for (std::size_t k = first; k < time.size(); ++k) {
+        recording.time.push_back(time[k] - time[first]);
         recording.displacement.push_back(x[k]);
         recording.velocity.push_back(v[k]);
-        recording.force.push_back(force[k] + noise_share * peak * noise.normal(static_cast<std::uint64_t>(n)));
+        recording.force.push_back(force[k] + noise_share * peak * noise.normal(k));
         recording.drive.push_back(current);
       }
       campaign.recordings.push_back(std::move(recording));

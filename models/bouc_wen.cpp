@@ -49,6 +49,15 @@ struct BoucWen {
     const T against = share * select(z < T(0.0), -abs(in.v), abs(in.v)) + (T(1.0) - share) * in.v;
     return {(in.v - grip * against) * (T(1.0) / x_y)};
   }
+  static constexpr int settles = 0;
+  template <class T>
+  static T towards(const std::array<T, 7>& /*p*/, const std::array<T, 1>& /*s*/, const Input<T>& in) {
+    return in.v;
+  }
+  template <class T>
+  static T slack(const std::array<T, 7>& /*p*/) {
+    return T(0.0);
+  }
   template <class T>
   static T stiffness(const std::array<T, 7>& p, double speed) {
     const T steepest = max(T(1.0), abs(T(1.0) - T(2.0) * p[5]));

@@ -239,6 +239,7 @@ void add_catalogue(CLI::App& program) {
       return;
     }
     std::vector<std::vector<std::string>> cells;
+    cells.reserve(rows.size());
     for (const Row& row : rows) {
       cells.push_back({row.id, row.title});
     }

@@ -24,8 +24,6 @@
 #include "io/output.hpp"
 #include "report/hidden.hpp"
 
-extern char** environ;
-
 namespace hysteron::app {
 namespace {
 
@@ -74,6 +72,7 @@ challenge::Diagnose diagnose_by_process(const Options& options) {
                                       "--threads",
                                       std::to_string(options.threads)};
     std::vector<char*> arguments;
+    arguments.reserve(words.size() + 1);
     for (std::string& word : words) arguments.push_back(word.data());
     arguments.push_back(nullptr);
     posix_spawn_file_actions_t actions;

@@ -1,6 +1,8 @@
 // The command line: exit status 0 done, 1 the work failed, 2 wrong input, 130 interrupted.
 #include <fmt/format.h>
 
+#include <cstdio>
+
 #include "app/command.hpp"
 #include "core/error.hpp"
 #include "mpi/mpi_peers.hpp"
@@ -22,9 +24,7 @@ void load_plugins(int count, char** arguments) {
   }
 }
 
-}  // namespace
-
-int main(int count, char** arguments) {
+int run(int count, char** arguments) {
   using namespace hysteron;
   app::remember_command(count, arguments);
   app::catch_interrupts();
@@ -86,4 +86,15 @@ int main(int count, char** arguments) {
     return 1;
   }
   return app::interrupted() ? 130 : 0;
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+  try {
+    return run(count, arguments);
+  } catch (...) {
+    std::fputs("error: internal: no more is known\n", stderr);
+    return 1;
+  }
 }

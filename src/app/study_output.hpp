@@ -30,6 +30,7 @@ RunProgress run_with_progress(const Plan& plan, Store& store, const RunOptions& 
 // Works out what the data say of the parameters of the best fits, where the store does not have it for these runs.
 void add_identifiability(const Plan& plan, Store& store, int threads, bool quiet);
 
+// NOLINTNEXTLINE(bugprone-exception-escape): a move of nlohmann::json does not throw, its assertions hide that.
 struct StudyView {
   nlohmann::json plan;
   nlohmann::json analysis;

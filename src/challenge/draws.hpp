@@ -20,7 +20,7 @@ class Draws {
   bool chance(double probability) { return stream_.uniform(next_++) < probability; }
   // An integer in [low, high].
   int integer(int low, int high) {
-    return low + static_cast<int>(stream_.below(static_cast<std::uint64_t>(high - low + 1), next_++));
+    return low + static_cast<int>(stream_.below(static_cast<std::uint64_t>(high - low) + 1, next_++));
   }
   template <class Items>
   const auto& pick(const Items& items) {

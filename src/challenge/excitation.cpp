@@ -43,8 +43,10 @@ Run multisine_test(Draws& draws, double amplitude, double highest_frequency) {
   Run test;
   test.kind = "multisine";
   const double f0 = draws.uniform(0.15, 0.3);
-  for (double f = f0; f <= highest_frequency; f += 2.0 * f0) {
+  double f = f0;
+  while (f <= highest_frequency) {
     test.motion.sines.push_back({1.0 / (f + 0.3), two_pi * f, draws.uniform(0.0, two_pi)});
+    f += 2.0 * f0;
   }
   test.duration = 5.0;
   measure(test);
@@ -92,6 +94,7 @@ std::vector<double> draw_levels(Draws& draws, const Needs& needs, double highest
   if (needs.one_level) return {highest * draws.uniform(0.3, 1.0)};
   const int count = std::max(needs.levels, draws.integer(2, 4));
   std::vector<double> levels;
+  levels.reserve(static_cast<std::size_t>(count));
   for (int k = 0; k < count; ++k) levels.push_back(std::round(100.0 * highest * k / (count - 1)) / 100.0);
   return levels;
 }
@@ -109,6 +112,7 @@ void add_sines(Draws& draws, const Needs& needs, double amplitude, const std::ve
   }
   const int amplitude_count = draws.integer(2, 3);
   std::vector<double> amplitudes;
+  amplitudes.reserve(static_cast<std::size_t>(amplitude_count));
   const double smallest = needs.small_amplitudes ? draws.uniform(0.05, 0.12) : draws.uniform(0.15, 0.4);
   for (int k = 0; k < amplitude_count; ++k) {
     amplitudes.push_back(amplitude * std::pow(smallest, 1.0 - k / (amplitude_count - 1.0)));

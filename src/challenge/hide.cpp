@@ -68,6 +68,7 @@ double largest(const std::vector<Channel>& channels) {
 
 std::vector<Channel> of_each(const std::vector<Source>& sources, const std::function<Channel(const Source&)>& channel) {
   std::vector<Channel> result;
+  result.reserve(sources.size());
   for (const Source& source : sources) result.push_back(channel(source));
   return result;
 }

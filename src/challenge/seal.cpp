@@ -14,7 +14,7 @@ constexpr auto seal_name = "seal.sha256";
 
 std::string seal(const nlohmann::json& answers, const std::filesystem::path& folder) {
   const std::string text = answers.dump(1) + "\n";
-  const std::string hash = sha256_hex(text);
+  std::string hash = sha256_hex(text);
   write_file_atomically(folder / answers_name, text);
   write_file_atomically(folder / seal_name, hash + "  " + answers_name + "\n");
   return hash;

@@ -10,9 +10,11 @@ namespace {
 // P(X <= k) for X binomial(n, p), 0 < p < 1.
 double at_most(int k, int n, double p) {
   double sum = 0.0;
+  double log_term = n * std::log1p(-p);
+  const double log_odds = std::log(p) - std::log1p(-p);
   for (int j = 0; j <= k; ++j) {
-    sum += std::exp(std::lgamma(n + 1.0) - std::lgamma(j + 1.0) - std::lgamma(n - j + 1.0) + j * std::log(p) +
-                    (n - j) * std::log1p(-p));
+    sum += std::exp(log_term);
+    log_term += std::log((n - j) / (j + 1.0)) + log_odds;
   }
   return std::min(sum, 1.0);
 }

@@ -101,7 +101,9 @@ Periodicity periodicity(const Recording& recording) {
     return result;
   }
   double best = 1e300;
-  for (double width = 0.04; width > 1e-6; width /= 4.0) {
+  constexpr int zooms = 8;
+  for (int zoom = 0; zoom < zooms; ++zoom) {
+    const double width = 0.04 * std::pow(0.25, zoom);
     const double centre = period;
     for (int k = -4; k <= 4; ++k) {
       const double trial = centre * (1.0 + width * k / 4.0);

@@ -90,6 +90,7 @@ std::vector<Recording> spread(const std::vector<Recording>& recordings, std::siz
   }
   std::ranges::sort(order);
   std::vector<std::size_t> chosen;
+  chosen.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
     chosen.push_back(std::get<2>(order[i * (order.size() - 1) / (count - 1)]));
   }

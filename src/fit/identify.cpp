@@ -54,7 +54,7 @@ Problem make_problem(const Objective& objective, const SolverEntry& entry, const
   problem.screening = true;
   objective.describe_data(problem);
   for (const auto& [name, value] : options.settings) {
-    const bool known = std::ranges::any_of(entry.settings, [&](const Setting& row) { return row.name == name; });
+    const bool known = std::ranges::any_of(entry.settings, [&name = name](const Setting& row) { return row.name == name; });
     if (known || options.solvers.size() == 1) {
       problem.settings[name] = value;
     }

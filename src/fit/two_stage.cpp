@@ -108,7 +108,7 @@ TwoStage fit_two_stage(const Campaign& campaign, const Layout& layout, const std
     }
     return samples;
   };
-  const std::size_t all_samples = samples_of(fitted);
+  const std::size_t all_samples = std::max<std::size_t>(samples_of(fitted), 1);
   const DataScale scale = scale_of(pick(campaign.recordings, fitted));
   std::size_t spent = 0;                                // samples marched
   std::vector<std::vector<double>> nodes(laws.size());  // of frozen laws
@@ -197,6 +197,7 @@ TwoStage fit_two_stage(const Campaign& campaign, const Layout& layout, const std
 
   const auto values_of = [&](std::size_t l) {
     std::vector<ConditionValue> values;
+    values.reserve(current.size());
     for (const ConditionFit& one : current) {
       values.push_back(one.values[l]);
     }

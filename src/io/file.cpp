@@ -2,8 +2,8 @@
 
 #include <cerrno>
 #include <cstdio>
-#include <cstring>
 #include <memory>
+#include <system_error>
 
 #include "core/error.hpp"
 
@@ -20,7 +20,7 @@ std::string read_file(const std::filesystem::path& path) {
   const auto close = [](std::FILE* file) { std::fclose(file); };
   const std::unique_ptr<std::FILE, decltype(close)> file(std::fopen(name.c_str(), "rb"), close);
   if (!file) {
-    throw InputError(name, 0, std::string("cannot be opened (") + std::strerror(errno) + "), expected a readable file");
+    throw InputError(name, 0, std::string("cannot be opened (") + std::system_category().message(errno) + "), expected a readable file");
   }
   std::string bytes;
   if (const auto size = std::filesystem::file_size(path, code); !code) bytes.reserve(size + 1);
@@ -33,7 +33,7 @@ std::string read_file(const std::filesystem::path& path) {
     if (got < chunk) break;
   }
   if (std::ferror(file.get()) != 0) {
-    throw InputError(name, 0, std::string("cannot be read (") + std::strerror(errno) + "), expected a readable file");
+    throw InputError(name, 0, std::string("cannot be read (") + std::system_category().message(errno) + "), expected a readable file");
   }
   return bytes;
 }

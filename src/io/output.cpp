@@ -7,7 +7,7 @@
 #include <cassert>
 #include <cerrno>
 #include <charconv>
-#include <cstring>
+#include <system_error>
 #include <vector>
 
 #include "core/error.hpp"
@@ -16,7 +16,7 @@ namespace hysteron {
 namespace {
 
 [[noreturn]] void fail(const std::filesystem::path& path, int reason) {
-  throw WorkError(path.string() + ": cannot be written: " + std::strerror(reason));
+  throw WorkError(path.string() + ": cannot be written: " + std::system_category().message(reason));
 }
 
 // 0, or the errno of the first failure.
@@ -96,7 +96,7 @@ void make_output_folder(const std::filesystem::path& path) {
   if (::access(path.c_str(), W_OK | X_OK) != 0) {
     throw InputError(
         name, 0,
-        std::string("the folder cannot be written to (") + std::strerror(errno) + "), expected a writable place");
+        std::string("the folder cannot be written to (") + std::system_category().message(errno) + "), expected a writable place");
   }
 }
 

@@ -52,6 +52,7 @@ class Assembly {
     values_.resize(parameters_);
     still_.resize(links_.size());
     moving_.resize(links_.size());
+    slack_.resize(links_.size());
   }
 
   [[nodiscard]] int states() const { return states_; }
@@ -66,6 +67,7 @@ class Assembly {
       if (link.values->stiffness != nullptr) {
         still_[i] = link.values->stiffness(values_.data() + link.parameter, 0.0);
         moving_[i] = link.values->stiffness(values_.data() + link.parameter, 1.0) - still_[i];
+        if (link.values->settles >= 0) slack_[i] = link.values->slack(values_.data() + link.parameter);
       }
     }
   }
@@ -76,6 +78,7 @@ class Assembly {
     States<T> rates;
     Value elements;   // stiffness of the series elements, 1/s
     Value stiffness;  // of all other links
+    Value at_rest;    // likewise without states that rest at their bounds
     Relief<Value> relief;
   };
   // `speed` and `acceleration` bound those of the recorded motion over the interval. The relief of the step before is
@@ -107,6 +110,17 @@ class Assembly {
 
   void rate(const States<T>& s, const Input<T>& in, const Relief<Value>& relief, States<T>& rates) const {
     evaluate(links_.size(), p_, s.data(), in, relief, rates.data());
+  }
+
+  // Lanes in which a state that rested at its bound in `before` moves on by more than `little` a second in `now`.
+  [[nodiscard]] auto woken(const States<T>& before, const States<T>& now, const Value& little) const {
+    auto result = little < Value(0.0);
+    for (const Link& link : links_) {
+      if (link.operations->settles < 0) continue;
+      const auto k = static_cast<std::size_t>(link.state + link.operations->settles);
+      result = result | (detail::rests(value_of(before[k])) & (abs(value_of(now[k])) > little));
+    }
+    return result;
   }
 
  private:
@@ -162,6 +176,7 @@ class Assembly {
         part.loaded_rate(own, state, in, force, rates + link.state);
       } else {
         part.rate(own, state, in, rates + link.state);
+        if (part.settles >= 0) part.rest(own, state, in, rates + link.state);
       }
     }
     part.force(own, state, in, force);
@@ -266,6 +281,7 @@ class Assembly {
               Start& result) const {
     result.elements = Value(0.0);
     result.stiffness = Value(0.0);
+    result.at_rest = Value(0.0);
     Relief<Value>& relief = result.relief;
     const Value* p = values_.data();
     for (std::size_t i = links_.size(); i-- > 0;) {
@@ -295,7 +311,11 @@ class Assembly {
         continue;
       }
       if (link.states > 0 && link.values->stiffness != nullptr) {
-        result.stiffness = result.stiffness + fma(max(abs(in.v), Value(speed)), moving_[i], still_[i]);
+        const Value whole = fma(max(abs(in.v), Value(speed)), moving_[i], still_[i]);
+        result.stiffness = result.stiffness + whole;
+        const int settles = link.values->settles;
+        result.at_rest = result.at_rest +
+                         (settles < 0 ? whole : select(detail::rests(rates[link.state + settles]), slack_[i], whole));
       }
       if (link.values->drive != nullptr) {
         link.values->drive(p + link.parameter, state, in);
@@ -341,6 +361,7 @@ class Assembly {
   std::vector<Value> values_;
   std::vector<Value> still_;  // stiffness bound of a link = still + moving |v|
   std::vector<Value> moving_;
+  std::vector<Value> slack_;  // in place of both while the link's state rests at its bound
 };
 
 // Room for one step, made once: clearing it would cost as much as the step.
@@ -376,8 +397,7 @@ void advance(const Assembly<T>& system, const value_t<T>& h, const Input<T>& mid
 }
 
 double acceleration_of(const MotionInterval& interval) {
-  const double* c = interval.v;
-  return (std::fabs(c[1]) + 2.0 * std::fabs(c[2]) + 3.0 * std::fabs(c[3])) / interval.length;
+  return detail::change_of_velocity(interval) / interval.length;
 }
 
 // Over the part [from, to] of interval n; `start` belongs to `from` when `known`.
@@ -391,9 +411,11 @@ void march_segment(const Assembly<T>& system, const Motion& motion, std::size_t 
   const double finer = detail::near_reversal(motion, n) ? std::max(motion.finer_at_reversals, coarse) : coarse;
   const double limit = motion.step_limit / interval.length;
   const Value shortest((to - from) / motion.most_substeps);
+  const Value little(1e-9 / (interval.length * (to - from)));
   Value theta(from);
   auto& start = room.start;
   auto active = theta < Value(to);
+  auto careful = theta < Value(0.0);  // lanes in which a state woke up within a step over which it was to rest
   while (any(active)) {
     const Input<T> in = detail::input_at<T>(motion, n, theta);
     if (!known) {
@@ -406,17 +428,22 @@ void march_segment(const Assembly<T>& system, const Motion& motion, std::size_t 
     }
     known = false;
     const Value left = Value(to) - theta;
-    Value step = Value(limit) / fma(Value(finer), start.stiffness, Value(element_margin) * start.elements);
+    const Value stiffness = select(careful, start.stiffness, start.at_rest);
+    Value step = Value(limit) / fma(Value(finer), stiffness, Value(element_margin) * start.elements);
     step = select(step < shortest, shortest, step);
     step = select(step < left, step, left);  // all that is left for a lane with NaN
     const Value reached = select(step < left * Value(1.0 - 1e-9), theta + step, Value(to));
     const Value middle = fma(Value(0.5), step, theta);
     advance<T>(system, step * Value(interval.length), detail::input_at<T>(motion, n, middle),
                detail::input_at<T>(motion, n, reached), state, room);
+    const auto awake = (stiffness < start.stiffness) &
+                       (system.woken(start.rates, room.k2, little) | system.woken(start.rates, room.k3, little) |
+                        system.woken(start.rates, room.k4, little));
     for (std::size_t i = 0; i < static_cast<std::size_t>(system.states()); ++i) {
-      state[i] = select(active, room.next[i], state[i]);
+      state[i] = select(active, select(awake, state[i], room.next[i]), state[i]);
     }
-    theta = select(active, reached, theta);
+    theta = select(active, select(awake, theta, reached), theta);
+    careful = careful | (active & awake);
     active = theta < Value(to);
   }
 }

@@ -19,6 +19,20 @@ template <class T, std::size_t N>
   return *reinterpret_cast<const std::array<T, N>*>(p);
 }
 
+template <class M>
+concept Settles = requires {
+  M::settles;
+};
+
+template <class M>
+constexpr int settling_state() {
+  if constexpr (Settles<M>) {
+    return M::settles;
+  } else {
+    return -1;
+  }
+}
+
 // A part alone, fused for speed.
 template <class M>
 struct Fused {
@@ -31,6 +45,58 @@ struct Fused {
       repeat<M::states>([&](auto i) __attribute__((always_inline)) { rates[i] = result[i]; });
     }
   }
+  static constexpr bool settles() { return Settles<M>; }
+  template <class T>
+  [[gnu::always_inline]] static void rest([[maybe_unused]] const T* p, [[maybe_unused]] const T* s,
+                                          [[maybe_unused]] const Input<T>& in, [[maybe_unused]] T* rates) {
+    if constexpr (Settles<M>) {
+      const T towards = M::towards(as_array<T, parameter_count<M>>(p), as_array<T, M::states>(s), in);
+      rates[M::settles] = select(at_bound(value_of(s[M::settles]), value_of(towards)), T(0.0), rates[M::settles]);
+    }
+  }
+  template <class T>
+  [[gnu::always_inline]] static value_t<T> slack([[maybe_unused]] const T* p) {
+    if constexpr (Settles<M>) {
+      return M::slack(values(p));
+    } else {
+      return value_t<T>(0.0);
+    }
+  }
+  template <class T>
+  [[gnu::always_inline]] static value_t<T> stiffness_now(const T* p, const T* s, const T* rates, const Input<T>& in,
+                                                         double speed, double change) {
+    if constexpr (!Settles<M>) {
+      return stiffness(p, speed);
+    } else {
+      value_t<T> bound = stiffness(p, speed);
+      if constexpr (requires { &M::template stiffness_near<double>; }) {
+        std::array<value_t<T>, M::states> state;
+        repeat<M::states>([&](auto i) __attribute__((always_inline)) { state[i] = value_of(s[i]); });
+        bound = M::stiffness_near(values(p), state, value_of(in.v), speed, change);
+      }
+      return select(rests(value_of(rates[M::settles])), slack(p), bound);
+    }
+  }
+  // What drives the hysteresis and the hysteresis itself bend the equations where they change sign.
+  static constexpr bool knows_kinks() { return Settles<M>; }
+  template <class T>
+  [[gnu::always_inline]] static auto kinked(const T* p, const T* before, const Input<T>& in_before, const T* now,
+                                            const Input<T>& in_now) {
+    if constexpr (Settles<M>) {
+      const auto towards = [&](const T* s, const Input<T>& in) __attribute__((always_inline)) {
+        return value_of(M::towards(as_array<T, parameter_count<M>>(p), as_array<T, M::states>(s), in));
+      };
+      return (towards(before, in_before) * towards(now, in_now) < value_t<T>(0.0)) |
+             (value_of(before[M::settles]) * value_of(now[M::settles]) < value_t<T>(0.0));
+    } else {
+      return value_of(in_now.v) < value_of(in_now.v);
+    }
+  }
+  template <class T>
+  [[gnu::always_inline]] static auto woken(const T* before, const T* now, const value_t<T>& little) {
+    constexpr auto k = static_cast<std::size_t>(std::max(settling_state<M>(), 0));
+    return rests(value_of(before[k])) & (abs(value_of(now[k])) > little);
+  }
   template <class T>
   [[gnu::always_inline]] static T force(const T* p, const T* s, const Input<T>& in) {
     return M::force(as_array<T, parameter_count<M>>(p), as_array<T, M::states>(s), in, T(0.0));
@@ -38,13 +104,20 @@ struct Fused {
   template <class T>
   [[gnu::always_inline]] static value_t<T> stiffness(const T* p, double speed) {
     if constexpr (M::states > 0) {
-      std::array<value_t<T>, parameter_count<M>> values;  // the bound needs no derivatives
-      repeat<static_cast<int>(parameter_count<M>)>([&](auto i)
-                                                       __attribute__((always_inline)) { values[i] = value_of(p[i]); });
-      return M::stiffness(values, speed);
+      return M::stiffness(values(p), speed);
     } else {
       return value_t<T>(0.0);
     }
+  }
+
+ private:
+  // Bounds need no derivatives.
+  template <class T>
+  [[gnu::always_inline]] static std::array<value_t<T>, parameter_count<M>> values(const T* p) {
+    std::array<value_t<T>, parameter_count<M>> result;
+    repeat<static_cast<int>(parameter_count<M>)>([&](auto i)
+                                                     __attribute__((always_inline)) { result[i] = value_of(p[i]); });
+    return result;
   }
 };
 
@@ -97,6 +170,11 @@ constexpr PartOperations<T> operations() {
       result.rate = [](const T* p, const T* s, const Input<T>& in, T* rates) { Fused<M>::rate(p, s, in, rates); };
     }
     result.stiffness = [](const T* p, double speed) { return Fused<M>::stiffness(p, speed); };
+    if constexpr (Settles<M>) {
+      result.settles = M::settles;
+      result.rest = [](const T* p, const T* s, const Input<T>& in, T* rates) { Fused<M>::rest(p, s, in, rates); };
+      result.slack = [](const T* p) { return Fused<M>::slack(p); };
+    }
   }
   result.force = [](const T* p, const T* s, const Input<T>& in, T& force) {
     force = M::force(as_array<T, parameter_count<M>>(p), as_array<T, M::states>(s), in, force);

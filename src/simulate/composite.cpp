@@ -53,6 +53,49 @@ struct Chain {
     }
   }
 
+  [[nodiscard]] bool settles() const {
+    return std::ranges::any_of(links, [](const Link& link) { return link.operations->settles >= 0; });
+  }
+  void rest(const T* p, const T* s, Input<T> in, T* rates) const {
+    for (std::size_t i = links.size(); i-- > 0;) {
+      const Link& link = links[i];
+      if (link.operations->settles >= 0) {
+        link.operations->rest(p + link.parameter, s + link.state, in, rates + link.state);
+      }
+      if (link.operations->drive != nullptr) {
+        link.operations->drive(p + link.parameter, s + link.state, in);
+      }
+    }
+  }
+  value_t<T> stiffness_now(const T* p, const T* /*s*/, const T* rates, const Input<T>& /*in*/, double speed,
+                           double /*change*/) const {
+    value_t<T> bound(0.0);
+    for (const Link& link : links) {
+      if (link.states == 0) continue;
+      const value_t<T> whole = link.operations->stiffness(p + link.parameter, speed);
+      bound = bound + (link.operations->settles < 0
+                           ? whole
+                           : select(detail::rests(value_of(rates[link.state + link.operations->settles])),
+                                    link.operations->slack(p + link.parameter), whole));
+    }
+    return bound;
+  }
+  // The links see motions that their own states may bend.
+  static constexpr bool knows_kinks() { return false; }
+  auto kinked(const T* /*p*/, const T* /*before*/, const Input<T>& /*in_before*/, const T* /*now*/,
+              const Input<T>& in_now) const {
+    return value_of(in_now.v) < value_of(in_now.v);
+  }
+  auto woken(const T* before, const T* now, const value_t<T>& little) const {
+    auto result = little < value_t<T>(0.0);
+    for (const Link& link : links) {
+      if (link.operations->settles < 0) continue;
+      const int k = link.state + link.operations->settles;
+      result = result | (detail::rests(value_of(before[k])) & (abs(value_of(now[k])) > little));
+    }
+    return result;
+  }
+
   T force(const T* p, const T* s, const Input<T>& in) const {
     std::array<Input<T>, max_links> seen;
     seen[links.size() - 1] = in;
@@ -78,6 +121,13 @@ struct Chain {
     }
     return bound;
   }
+};
+
+// Knows its number of states while compiling: room for all that a chain may have would be cleared at every step.
+template <class T, int N>
+struct SizedChain : Chain<T> {
+  explicit SizedChain(const CompositeModel& model) : Chain<T>(model) {}
+  static constexpr int states() { return N; }
 };
 
 std::vector<std::string> ids(std::span<const Part* const> catalogue) {
@@ -165,7 +215,17 @@ void CompositeModel::march(const Motion& motion, const T* p, std::size_t stride,
     march_assembly<T>(*this, motion, p, stride, begin, end, state, out);
     return;
   }
-  hysteron::march<T>(Chain<T>(*this), motion, p, stride, begin, end, state, out);
+  const auto run = [&](const auto& chain) { hysteron::march<T>(chain, motion, p, stride, begin, end, state, out); };
+  switch (states()) {
+    case 1:
+      return run(SizedChain<T, 1>(*this));
+    case 2:
+      return run(SizedChain<T, 2>(*this));
+    case 3:
+      return run(SizedChain<T, 3>(*this));
+    default:
+      return run(Chain<T>(*this));
+  }
 }
 
 template void CompositeModel::march<double>(const Motion&, const double*, std::size_t, std::size_t, std::size_t,

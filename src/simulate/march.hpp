@@ -87,8 +87,11 @@ template <class T>
 // Chains that know their size while compiling keep states, stages and parameters in registers or on the stack, where
 // no store to the output can alias them.
 template <class Chain>
-concept FixedChain = requires {
+concept FixedStates = requires {
   typename std::integral_constant<int, Chain::states()>;
+};
+template <class Chain>
+concept FixedChain = FixedStates<Chain> && requires {
   typename std::integral_constant<std::size_t, Chain::parameters()>;
 };
 
@@ -105,7 +108,7 @@ template <int N, class F>
 
 template <class Chain>
 constexpr int fixed_states() {
-  if constexpr (FixedChain<Chain>) {
+  if constexpr (FixedStates<Chain>) {
     return Chain::states();
   } else {
     return -1;
@@ -145,18 +148,36 @@ class Parameters {
   typename Storage<Chain>::type copy_;
 };
 
+// Whether a state of bound 1 that `towards` drives is as good as there: nothing is left to follow until that turns.
+// What is given away, 1e-10 of the bound, is below every tolerance.
+template <class V>
+[[gnu::always_inline]] inline auto at_bound(const V& state, const V& towards) {
+  const V reached = abs(state);
+  return (reached > V(1.0 - 1e-10)) & (reached < V(1.0 + 1e-10)) & (state * towards > V(0.0));
+}
+// Whether a rate was set to 0 because its state is at its bound.
+template <class V>
+[[gnu::always_inline]] inline auto rests(const V& rate) {
+  return abs(rate) < V(1e-300);
+}
+
 inline double coarseness(const Motion& motion, double length) {
   return 1.0 + motion.finer_when_long * std::min(1.0, length / 5e-3);
+}
+// Bound of the change of v over an interval.
+inline double change_of_velocity(const MotionInterval& interval) {
+  const double* c = interval.v;
+  return std::fabs(c[1]) + 2.0 * std::fabs(c[2]) + 3.0 * std::fabs(c[3]);
 }
 [[gnu::always_inline]] inline bool near_reversal(const Motion& motion, std::size_t n) {
   return motion.intervals[n].reversal || (n > 0 && motion.intervals[n - 1].reversal) ||
          (n + 1 < motion.intervals.size() && motion.intervals[n + 1].reversal);
 }
 
-// One step of length h from `state` into `next`.
-template <int N, class T, class Chain>
-[[gnu::always_inline]] inline void advance(const Chain& system, int states, const T* p, const value_t<T>& h,
-                                           const Input<T>& at_start, const Input<T>& at_middle, const Input<T>& at_end,
+// One step of length h from `state` into `next`; rate(state, input, rates).
+template <int N, class T, class Rate>
+[[gnu::always_inline]] inline void advance(const Rate& rate, int states, const value_t<T>& h, const Input<T>& at_start,
+                                           const Input<T>& at_middle, const Input<T>& at_end,
                                            const StateArray<T, N>& state, StateArray<T, N>& next) {
   using Value = value_t<T>;
   const Value half = Value(0.5) * h;
@@ -170,21 +191,55 @@ template <int N, class T, class Chain>
     for_states<N>(
         states, [&](auto i) __attribute__((always_inline)) { trial[i] = scaled_sum(step, k[i], state[i]); });
   };
-  system.rate(p, state.data(), at_start, k1.data());
+  rate(state, at_start, k1);
   shift(half, k1);
-  system.rate(p, trial.data(), at_middle, k2.data());
+  rate(trial, at_middle, k2);
   shift(half, k2);
-  system.rate(p, trial.data(), at_middle, k3.data());
+  rate(trial, at_middle, k3);
   shift(h, k3);
-  system.rate(p, trial.data(), at_end, k4.data());
+  rate(trial, at_end, k4);
   for_states<N>(
       states, [&](auto i) __attribute__((always_inline)) {
         next[i] = scaled_sum(sixth, scaled_sum(Value(2.0), k2[i] + k3[i], k1[i] + k4[i]), state[i]);
       });
 }
 
+// Advances the state over the part [from, from + span] of interval n, in `count` equal sub-steps a lane.
+// rate(state, input, rates, active): lanes that are not active are done, what they are given is not used.
+template <int N, class T, class Rate>
+[[gnu::always_inline]] inline void sub_steps(const Rate& rate, int states, const Motion& motion, std::size_t n,
+                                             double from, double span, const value_t<T>& count,
+                                             StateArray<T, N>& state) {
+  using Value = value_t<T>;
+  const int most = static_cast<int>(largest(count));
+  const Value inverse = Value(1.0) / count;
+  const Value h = Value(motion.intervals[n].length * span) * inverse;
+  StateArray<T, N> next;
+  Value theta(from);
+  for (int k = 0; k < most; ++k) {
+    const double step = k;
+    const Value middle = fma(Value(span * (step + 0.5)), inverse, Value(from));
+    const Value end = fma(Value(span * (step + 1.0)), inverse, Value(from));
+    const auto active = Value(step) < count;
+    const auto active_rate = [&](const StateArray<T, N>& s, const Input<T>& in, StateArray<T, N>& rates)
+        __attribute__((always_inline)) {
+      rate(s, in, rates, active);
+    };
+    advance<N, T>(active_rate, states, h, input_at<T>(motion, n, theta), input_at<T>(motion, n, middle),
+                  input_at<T>(motion, n, end), state, next);
+    for_states<N>(
+        states, [&](auto i) __attribute__((always_inline)) { state[i] = select(active, next[i], state[i]); });
+    theta = end;
+  }
+}
+
+// Lanes with fewer sub-steps than this are not asked whether they rest.
+inline constexpr double few_substeps = 3.0;
+
 // Advances the state over the part [from, to] of interval n, in sub-steps. The sub-steps are counted so that a lane
-// with NaN takes one: it must not stop its neighbours.
+// with NaN takes one: it must not stop its neighbours. Lanes that would need many first try those that do where the
+// equations have no kink inside and what rests at its bound stays there; a lane that proves to be none of these goes
+// back and takes them all.
 template <class T, class Chain>
 [[gnu::noinline, gnu::flatten]] void march_segment(const Chain& system, const Motion& motion, std::size_t n,
                                                    double from, double to, const T* __restrict parameters,
@@ -196,31 +251,70 @@ template <class T, class Chain>
   const T* p = copy.data();
   const double span = to - from;
   const double length = motion.intervals[n].length * span;
+  const double speed = motion.intervals[n].speed;
   const double coarse = coarseness(motion, motion.intervals[n].length);
-  const double limit =
-      motion.step_limit / (near_reversal(motion, n) ? std::max(motion.finer_at_reversals, coarse) : coarse);
-  const Value bound = system.stiffness(p, motion.intervals[n].speed) * Value(length / limit);
-  const Value count = select(bound > Value(1.0), min(ceil_value(bound), Value(motion.most_substeps)), Value(1.0));
-  const double most = largest(count);
-  const Value inverse = Value(1.0) / count;
-  const Value h = Value(length) * inverse;
+  const double finer = near_reversal(motion, n) ? std::max(motion.finer_at_reversals, coarse) : coarse;
+  const auto count_of = [&](const Value& stiffness, double finer_by) __attribute__((always_inline)) {
+    const Value bound = stiffness * Value(length * finer_by / motion.step_limit);
+    return select(bound > Value(1.0), min(ceil_value(bound), Value(motion.most_substeps)), Value(1.0));
+  };
+  const Value count = count_of(system.stiffness(p, speed), finer);
   StateArray<T, N> state;
-  StateArray<T, N> next;
   for_states<N>(
       states, [&](auto i) __attribute__((always_inline)) { state[i] = result[i]; });
-  Value theta(from);
-  for (double step = 0.0; step < most; step += 1.0) {
-    const Value middle = fma(Value(span * (step + 0.5)), inverse, Value(from));
-    const Value end = fma(Value(span * (step + 1.0)), inverse, Value(from));
-    advance<N, T>(system, states, p, h, input_at<T>(motion, n, theta), input_at<T>(motion, n, middle),
-                  input_at<T>(motion, n, end), state, next);
-    const auto active = Value(step) < count;
+  const auto store = [&]() __attribute__((always_inline)) {
     for_states<N>(
-        states, [&](auto i) __attribute__((always_inline)) { state[i] = select(active, next[i], state[i]); });
-    theta = end;
+        states, [&](auto i) __attribute__((always_inline)) { result[i] = state[i]; });
+  };
+  const auto many = count > Value(few_substeps);
+  const auto rate = [&](const StateArray<T, N>& s, const Input<T>& in, StateArray<T, N>& rates, const auto&)
+      __attribute__((always_inline)) {
+    system.rate(p, s.data(), in, rates.data());
+  };
+  // Lanes that take all their sub-steps get the same bits in any company.
+  auto tries = many;
+  const auto resting_rate = [&](const StateArray<T, N>& s, const Input<T>& in, StateArray<T, N>& rates, const auto&)
+      __attribute__((always_inline)) {
+    StateArray<T, N> moving;
+    system.rate(p, s.data(), in, moving.data());
+    rates = moving;
+    system.rest(p, s.data(), in, rates.data());
+    for_states<N>(
+        states, [&](auto i) __attribute__((always_inline)) { rates[i] = select(tries, rates[i], moving[i]); });
+  };
+  if (system.settles() && any(many)) {
+    const Input<T> in_before = input_at<T>(motion, n, Value(from));
+    const StateArray<T, N> before = state;
+    StateArray<T, N> rates_before;
+    resting_rate(before, in_before, rates_before, many);
+    const Value bound = system.stiffness_now(p, before.data(), rates_before.data(), in_before, speed,
+                                             change_of_velocity(motion.intervals[n]) * span);
+    const Value fewer =
+        select(many, min(count_of(bound, system.knows_kinks() ? std::sqrt(coarse) : finer), count), count);
+    tries = fewer < count;
+    if (any(tries)) {
+      const Value little(1e-9 / length);
+      auto failed = count < Value(0.0);
+      const auto watched = [&](const StateArray<T, N>& s, const Input<T>& in, StateArray<T, N>& rates,
+                               const auto& active) __attribute__((always_inline)) {
+        resting_rate(s, in, rates, active);
+        failed = failed | (active & (system.woken(rates_before.data(), rates.data(), little) |
+                                     system.kinked(p, before.data(), in_before, s.data(), in)));
+      };
+      sub_steps<N, T>(watched, states, motion, n, from, span, fewer, state);
+      failed = failed & tries;
+      if (any(failed)) {
+        StateArray<T, N> again = before;
+        sub_steps<N, T>(rate, states, motion, n, from, span, select(failed, count, Value(1.0)), again);
+        for_states<N>(
+            states, [&](auto i) __attribute__((always_inline)) { state[i] = select(failed, again[i], state[i]); });
+      }
+      store();
+      return;
+    }
   }
-  for_states<N>(
-      states, [&](auto i) __attribute__((always_inline)) { result[i] = state[i]; });
+  sub_steps<N, T>(rate, states, motion, n, from, span, count, state);
+  store();
 }
 
 // Intervals checked at once for needing a single step.
@@ -244,6 +338,10 @@ template <class T, class Chain>
   const auto store = [&]() __attribute__((always_inline)) {
     for_states<N>(
         states, [&](auto i) __attribute__((always_inline)) { result[i] = state[i]; });
+  };
+  const auto rate = [&](const StateArray<T, N>& s, const Input<T>& in, StateArray<T, N>& rates)
+      __attribute__((always_inline)) {
+    system.rate(p, s.data(), in, rates.data());
   };
   load();
   const std::size_t intervals = states == 0 ? 0 : motion.intervals.size();
@@ -271,9 +369,8 @@ template <class T, class Chain>
       const MotionInterval& interval = motion.intervals[n];
       if (single && !near_reversal(motion, n)) {
         StateArray<T, N> next;
-        advance<N, T>(system, states, p, Value(interval.length), start,
-                      input_stored<T>(motion, n, 0.5, interval.middle), input_stored<T>(motion, n, 1.0, interval.end),
-                      state, next);
+        advance<N, T>(rate, states, Value(interval.length), start, input_stored<T>(motion, n, 0.5, interval.middle),
+                      input_stored<T>(motion, n, 1.0, interval.end), state, next);
         for_states<N>(
             states, [&](auto i) __attribute__((always_inline)) { state[i] = next[i]; });
         continue;
@@ -292,7 +389,10 @@ template <class T, class Chain>
 }  // namespace detail
 
 // Chain: states(), rate(p, s, in, rates), force(p, s, in) -> T, stiffness(p, speed) -> value_t<T>, which grows with
-// speed.
+// speed; settles(), whether a state may come to rest at its bound; rest(p, s, in, rates), which sets the rates of those
+// to 0; stiffness_now(p, s, rates, in, speed, change), the bound without what the rates say is at rest while v stays
+// within `change` of in.v; woken(before, now, little), the lanes in which a rate that was at rest is larger than
+// `little`; knows_kinks(), whether kinked(p, s, in, s_now, in_now) tells the lanes that passed a kink in between.
 template <class T, class Chain>
 void march(const Chain& system, const Motion& motion, const T* __restrict p, std::size_t stride, std::size_t begin,
            std::size_t end, T* __restrict state, T* __restrict out) {

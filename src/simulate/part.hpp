@@ -7,6 +7,12 @@
 //   template <class T> rate(p, s, in)      -> array<T, states>   time derivatives of its states (if states > 0)
 //   template <class T> stiffness(p, speed) -> T     bound of |d rate / d state| in 1/s at |velocity| <= speed
 //   (likewise) template <class T> drive(p, s, in)     -> Input<T>   what the parts below see (optional)
+//   settles                                index of a state that |state| = 1 bounds and holds, as a hysteresis that has
+//                                          yielded, while towards(p, s, in) -> T keeps its sign: steps need not resolve
+//                                          it then (optional)
+//   template <class T> slack(p)            -> T     with settles: bound as stiffness of the other states meanwhile
+//   template <class T> stiffness_near(p, s, v, speed, change) -> T     with settles: a closer bound while the velocity,
+//                                          now v, stays below speed and within change of v (optional)
 // A rate that needs the force below has `loaded_rate(p, s, in, below)` in place of `rate`. A series element, behind
 // which everything nearer to the law is deflected, has one state q and in place of rate, stiffness and force
 //   template <class T> yield(p, q)         -> Yield<T>
@@ -91,6 +97,10 @@ struct PartOperations {
   void (*rate)(const T* p, const T* s, const Input<T>& in, T* rates) = nullptr;
   void (*force)(const T* p, const T* s, const Input<T>& in, T& force) = nullptr;
   Value (*stiffness)(const T* p, double speed) = nullptr;
+  // Where the part's state number `settles` (-1: none) rests at its bound, `rest` sets its rate to exactly 0.
+  int settles = -1;
+  void (*rest)(const T* p, const T* s, const Input<T>& in, T* rates) = nullptr;
+  Value (*slack)(const T* p) = nullptr;
   // As rate, with the force below.
   void (*loaded_rate)(const T* p, const T* s, const Input<T>& in, const T& below, T* rates) = nullptr;
   void (*yield)(const T* p, const T& q, Yield<T>& result) = nullptr;
