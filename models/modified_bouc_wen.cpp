@@ -79,11 +79,12 @@ struct ModifiedBoucWen {
   }
   template <class T>
   static T slack(const std::array<T, 9>& p) {
-    return T(1.5) * abs(p[3]) / (p[1] + p[2]);
+    return abs(p[3]) / (p[1] + p[2]);
   }
   template <class T>
   static T stiffness(const std::array<T, 9>& p, double speed) {
-    return stiffness_of_slip(p, T(speed));
+    // One and a half times the bound: the slip changes sign between the reversals of v that steps land on.
+    return T(1.5) * stiffness_of_slip(p, T(speed));
   }
   // Spring and hysteresis only slow the slip, so that it grows no faster than the dashpots pass the acceleration on.
   template <class T>
@@ -95,8 +96,7 @@ struct ModifiedBoucWen {
   static T stiffness_of_slip(const std::array<T, 9>& p, const T& u) {
     const T steepest = max(T(1.0), abs(T(1.0) - T(2.0) * p[6]));
     const T series = p[1] + p[2];
-    // One and a half times the bound: the slip changes sign between the reversals of v that steps land on.
-    return T(1.5) * ((abs(p[3]) + abs(p[0]) * (T(1.0) + steepest) / p[5]) / series + u * p[7] * steepest / p[5]);
+    return (abs(p[3]) + abs(p[0]) * (T(1.0) + steepest) / p[5]) / series + u * p[7] * steepest / p[5];
   }
   template <class T>
   static T force(const std::array<T, 9>& p, const std::array<T, 2>& s, const Input<T>& in, const T& /*below*/) {

@@ -1,8 +1,8 @@
 // Gas charge of the accumulator acting on the rod's cross-section A.
 //   F <- F + f_g (1 - g x)^(-kappa),   f_g = p0 A, g = A / V0
 // p0 and V0 are pressure and gas volume at x = 0. Stiffness at x = 0: kappa f_g g. Both f_g and g are negative where
-// positive displacement extends the damper. kappa is 1 for slow, 1.4 for fast strokes and is held at 1.2. 1 - g x is
-// kept above 0.05.
+// positive displacement extends the damper. kappa is 1 for slow, 1.4 for fast strokes, more under high pressure; small
+// strokes tell only its product with g. 1 - g x is kept above 0.05.
 // Source: polytropic gas law.
 #include "simulate/compile.hpp"
 
@@ -26,7 +26,7 @@ struct GasSpring {
        4.0,
        Scale::linear,
        {0, -1, 0}},
-      {"kappa", "kappa", "1", "polytropic exponent", 1.0, 1.67, 1.2, Scale::linear, {}, false, true},
+      {"kappa", "kappa", "1", "polytropic exponent", 1.0, 1.67, 1.2},
   };
 
   template <class T>

@@ -25,6 +25,8 @@ constexpr double most_loss = 1.01;
 constexpr double surprise = 4.0;
 // Squares over those of the white noise above which what is left is asked whether it follows the force.
 constexpr double above_white = 1.5;
+// Squares over those of the noise above which what is left is asked whether its size follows the motion.
+constexpr double above_floor = 1.5;
 // Least share of the largest force that counts as noise there.
 constexpr double least_noise = 1e-4;
 // What the base and the augmented model are then fitted on; every sample is predicted in the end.
@@ -163,6 +165,13 @@ void doubt_completeness(Diagnosis& diagnosis, const Workbench& fine) {
   }
   const Misfit& left = diagnosis.search.misfit;
   if (left.squares <= above_white * left.white) {
+    return;
+  }
+  if (left.squares > above_floor * left.floor && uneven(left.evenness)) {
+    diagnosis.verdict.word = "unattributed";
+    diagnosis.verdict.reason =
+        "what is left does not repeat with the motion, but its size follows it, which that of noise does not; no known "
+        "effect describes it";
     return;
   }
   const Wandering wander = wandering(fine, diagnosis.search.augmented);

@@ -6,6 +6,20 @@
 #include "diagnose/structure.hpp"
 
 namespace hysteron {
+namespace {
+
+// Mean square of what the noise of the recorded motion makes of the model's force, N^2.
+double passed_on(const Workbench& bench, const Fit& fit, const Recording& recording, const Residual& residual) {
+  // Both are compared with the same recorded force: the difference is that of the simulated ones.
+  Residual change = bench.residual(fit, shaken(recording));
+  change.from = std::max(change.from, residual.from);
+  for (std::size_t n = 0; n < change.force.size(); ++n) {
+    change.force[n] -= residual.force[n];
+  }
+  return change.mean_square();
+}
+
+}  // namespace
 
 Misfit misfit_of(const Workbench& bench, const Fit& fit) {
   Misfit result;
@@ -14,6 +28,7 @@ Misfit misfit_of(const Workbench& bench, const Fit& fit) {
   double predictable = 0.0;
   double structure = 0.0;
   double counted = 0.0;
+  EvennessSum evenness;
   const std::vector<Recording>& recordings = bench.split().fit;
   for (const Recording& recording : recordings) {
     const Residual residual = bench.residual(fit, recording);
@@ -25,16 +40,18 @@ Misfit misfit_of(const Workbench& bench, const Fit& fit) {
         cross += r[n] * r[n - 1] / (norm * norm);
       }
     }
+    evenness.add(recording, residual, norm);
     counted += static_cast<double>(r.size() - residual.from);
     const double mean = residual.mean_square() / (norm * norm);
     const double share = std::max(0.0, predictable_share(recording, r));
     predictable += share * mean;
     const NoiseFloor floor = noise_floor(recording);
-    const double noise = squared(floor.sigma / norm);
+    const double passed = passed_on(bench, fit, recording, residual) / (norm * norm);
+    const double noise = squared(floor.sigma / norm) + passed;
     // Periods tell the noise whatever its colour; without them only what repeats with the motion is surely not noise.
     structure += floor.method == "cycles" ? std::max(0.0, mean - noise) : share * mean;
     result.squares += mean;
-    result.white += std::min(mean, squared(floor.white / norm));
+    result.white += std::min(mean, squared(floor.white / norm) + passed);
     result.floor += std::min(mean, noise);
   }
   const auto count = static_cast<double>(recordings.size());
@@ -43,6 +60,7 @@ Misfit misfit_of(const Workbench& bench, const Fit& fit) {
   result.floor /= count;
   result.structure = structure / count;
   result.predictable = predictable / count / result.squares;
+  result.evenness = evenness.result();
   result.noise = result.squares - result.structure;
   result.correlation = std::clamp(cross / energy, 0.0, 0.999);
   result.effective = std::max(counted * (1.0 - result.correlation) / (1.0 + result.correlation), 20.0);
@@ -52,6 +70,10 @@ Misfit misfit_of(const Workbench& bench, const Fit& fit) {
 bool structured(const Misfit& misfit) {
   const double ratio = misfit.structure / std::max(misfit.noise, 1e-300);
   return ratio > 0.3 || (ratio > 0.08 && misfit.predictable > 0.1);
+}
+
+bool noise_like(const Misfit& misfit) {
+  return !structured(misfit) && misfit.predictable < 0.03 && even(misfit.evenness);
 }
 
 }  // namespace hysteron

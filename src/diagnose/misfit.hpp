@@ -1,18 +1,22 @@
 // What a fit leaves, parted into noise and structure.
 #pragma once
 
+#include "diagnose/evenness.hpp"
 #include "diagnose/workbench.hpp"
 
 namespace hysteron {
 
 // Sums of squares are of NRMSE: cost^2 over the fitted recordings.
 struct Misfit {
-  double squares = 0.0;      // cost^2
-  double structure = 0.0;    // the part that is not noise
-  double noise = 0.0;        // squares - structure
-  double white = 0.0;        // squares of the noise by fourth differences: a lower bound of the noise
-  double floor = 0.0;        // squares of the noise as noise_floor estimates it
+  double squares = 0.0;    // cost^2
+  double structure = 0.0;  // the part that is not noise
+  double noise = 0.0;      // squares - structure
+  // Squares of the noise by fourth differences, a lower bound of the noise, and as noise_floor estimates it; both with
+  // what the noise of the motion makes of the model's force.
+  double white = 0.0;
+  double floor = 0.0;
   double predictable = 0.0;  // share that repeats with the motion (structure.hpp)
+  Evenness evenness;
   double correlation = 0.0;  // lag-one correlation of the residual
   double effective = 0.0;    // samples worth of independent information
 };
@@ -22,6 +26,8 @@ Misfit misfit_of(const Workbench& bench, const Fit& fit);
 
 // Structure beyond what noise and its estimate explain.
 bool structured(const Misfit& misfit);
+// Nothing of it follows the motion, neither its values nor their size: noise, whatever its colour.
+bool noise_like(const Misfit& misfit);
 
 inline double squared(double value) { return value * value; }
 

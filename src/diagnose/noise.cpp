@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/random.hpp"
 #include "fit/layout.hpp"
+#include "io/velocity.hpp"
 
 namespace hysteron {
 namespace {
@@ -167,6 +169,33 @@ NoiseFloor noise_floor(const Recording& recording) {
   }
   result.sigma = result.white;
   result.method = "high-pass";
+  return result;
+}
+
+Recording shaken(const Recording& recording) {
+  Recording result = recording;
+  const Stream stream = Stream(1).child("noise of the motion");
+  const double of_displacement = channel_noise(recording.time, recording.displacement);
+  for (std::size_t n = 0; n < result.size(); ++n) {
+    result.displacement[n] += of_displacement * stream.normal(n, 0);
+  }
+  if (recording.velocity_measured) {
+    const double of_velocity = channel_noise(recording.time, recording.velocity);
+    for (std::size_t n = 0; n < result.size(); ++n) {
+      result.velocity[n] += of_velocity * stream.normal(n, 1);
+    }
+  } else {
+    // A copy with fewer samples keeps the velocity of all: only the change is its own.
+    const std::vector<double> before = derive_velocity(recording.time, recording.displacement);
+    const std::vector<double> after = derive_velocity(recording.time, result.displacement);
+    for (std::size_t n = 0; n < result.size(); ++n) {
+      result.velocity[n] += after[n] - before[n];
+    }
+  }
+  if (!recording.derived_acceleration.empty()) {
+    result.derived_acceleration =
+        derive_acceleration(recording.time, result.displacement, result.velocity, recording.velocity_measured);
+  }
   return result;
 }
 

@@ -19,6 +19,10 @@ struct NoiseFloor {
 
 NoiseFloor noise_floor(const Recording& recording);
 
+// The recording with as much noise again on its motion as displacement and velocity hold. How a model's force differs
+// between the two is what the noise of the motion makes of it: no model can do better, and no force channel shows it.
+Recording shaken(const Recording& recording);
+
 // Period in s of a motion that repeats itself (displacement of successive periods equal within 3 % of its standard
 // deviation), 0 when it does not or lasts less than 2.5 periods; and the time at which the running motion begins.
 struct Periodicity {

@@ -7,8 +7,14 @@ using nlohmann::json;
 namespace {
 
 json misfit_json(const Misfit& misfit) {
-  return {{"squares", misfit.squares}, {"structure", misfit.structure},     {"white", misfit.white},
-          {"floor", misfit.floor},     {"predictable", misfit.predictable}, {"effective_samples", misfit.effective}};
+  return {{"squares", misfit.squares},
+          {"structure", misfit.structure},
+          {"white", misfit.white},
+          {"floor", misfit.floor},
+          {"predictable", misfit.predictable},
+          {"unevenness", misfit.evenness.deviation},
+          {"unevenness_by_chance", misfit.evenness.by_chance},
+          {"effective_samples", misfit.effective}};
 }
 
 // What the verdict rests on; squares are of NRMSE.

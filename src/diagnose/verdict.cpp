@@ -24,6 +24,8 @@ constexpr double least_evidence = 10.0;
 // is structure, because the cause of that may be the cause of all.
 constexpr double least_gain_over_leftover = 2.5;
 constexpr double least_gain_over_structure = 3.0;
+// ... and at least this part of all that stays: quantisation and rig leave traces of that size.
+constexpr double least_gain_over_noise = 0.05;
 // Where this many times the noise stays, the cause of what stays may be the cause of all, unless the effect explains
 // this many times as much, or has the same size in all recordings within this share.
 constexpr double far_from_noise = 6.0;
@@ -94,11 +96,16 @@ Verdict verdict_of(const Search& search, const Circumstances& known) {
   // as unexplained.
   const double surely = verdict.remaining_structure ? search.misfit.structure : 0.0;
   const double doubtful = doubtful_share * (search.misfit.squares - search.misfit.white);
-  const double above_floor = search.misfit.squares - search.misfit.floor;
+  // What a noise estimate without repeated cycles does not see is its colour: where what is left is like noise in all,
+  // it is the noise, and a gain that the uncertainty of the noise does not explain is enough for a name.
+  const bool settled = noise_like(search.misfit);
+  const double beyond_estimate = search.misfit.squares - search.misfit.floor;
+  const double above_floor = settled ? 0.0 : beyond_estimate;
   const double leftover = std::max({surely, doubtful, above_floor});
   const bool far = search.misfit.squares > far_from_noise * search.misfit.floor;
-  const double wanted =
-      std::max({least_gain_over_structure * surely, doubtful, least_gain_over_leftover * above_floor});
+  const double wanted = std::max(
+      {least_gain_over_structure * surely, doubtful, least_gain_over_noise * search.misfit.squares,
+       std::min(least_gain_over_leftover * beyond_estimate, settled ? floor_doubt * search.misfit.squares : 1e300)});
   if (search.found.empty()) {
     const bool laws = !search.richer.empty() && squared(search.augmented.cost / search.base.cost) < 1.0 - shown_gain &&
                       search.augmented.heldout < search.base.heldout;

@@ -109,7 +109,7 @@ double samples_on_a_side(std::span<const double> t, std::span<const double> x, d
   const double range = *high - *low;
   constexpr auto fewest = static_cast<double>(fewest_on_a_side);
   if (range <= 0.0) return fewest;
-  const double noise = std::max(noise_of(t, x), quantum_of(x, range) / std::sqrt(12.0));
+  const double noise = channel_noise(t, x);
   const double period = short_period(t, x, std::max(0.05 * range, 6.0 * noise));
 
   // Peak velocity from chords of a twelfth of a period, long enough not to see the noise.
@@ -377,6 +377,13 @@ std::vector<std::size_t> samples_on(const Corner& corner, std::span<const double
 
 }  // namespace
 
+double channel_noise(std::span<const double> time, std::span<const double> samples) {
+  assert(time.size() == samples.size());
+  if (samples.size() < 8) return 0.0;
+  const auto [low, high] = std::ranges::minmax_element(samples);
+  return std::max(noise_of(time, samples), quantum_of(samples, *high - *low) / std::sqrt(12.0));
+}
+
 std::vector<double> derive_velocity(std::span<const double> time, std::span<const double> displacement) {
   assert(time.size() == displacement.size());
   const std::size_t n = time.size();
@@ -424,8 +431,7 @@ std::vector<double> derive_acceleration(std::span<const double> time, std::span<
 
   std::vector<double> best = slopes_over(static_cast<double>(sides.front()));
   const std::vector<double> reference = best;
-  const auto [low, high] = std::ranges::minmax_element(velocity);
-  const double noise = std::max(noise_of(time, velocity), quantum_of(velocity, *high - *low) / std::sqrt(12.0)) / step;
+  const double noise = channel_noise(time, velocity) / step;
   const std::vector<double> shortest = uniform_weights(sides.front());
   double least = noise * noise * std::inner_product(shortest.begin(), shortest.end(), shortest.begin(), 0.0);
   for (const std::size_t side : std::span(sides).subspan(1)) {

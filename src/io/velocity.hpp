@@ -30,4 +30,8 @@ namespace hysteron {
                                                       std::span<const double> displacement,
                                                       std::span<const double> velocity, bool measured);
 
+// Standard deviation of the noise of a smooth channel, in its unit: the larger of what each sample differs from the
+// quintic through its six neighbours and a quantum over sqrt(12). Time strictly increasing; 0 for fewer than 8 samples.
+[[nodiscard]] double channel_noise(std::span<const double> time, std::span<const double> samples);
+
 }  // namespace hysteron

@@ -174,15 +174,15 @@ inline double change_of_velocity(const MotionInterval& interval) {
          (n + 1 < motion.intervals.size() && motion.intervals[n + 1].reversal);
 }
 
-// One step of length h from `state` into `next`; rate(state, input, rates).
+// One step of length h from `state`, whose rates k1 are, into `next`; rate(state, input, rates).
 template <int N, class T, class Rate>
-[[gnu::always_inline]] inline void advance(const Rate& rate, int states, const value_t<T>& h, const Input<T>& at_start,
-                                           const Input<T>& at_middle, const Input<T>& at_end,
-                                           const StateArray<T, N>& state, StateArray<T, N>& next) {
+[[gnu::always_inline]] inline void advance(const Rate& rate, int states, const value_t<T>& h,
+                                           const StateArray<T, N>& k1, const Input<T>& at_middle,
+                                           const Input<T>& at_end, const StateArray<T, N>& state,
+                                           StateArray<T, N>& next) {
   using Value = value_t<T>;
   const Value half = Value(0.5) * h;
   const Value sixth = Value(1.0 / 6.0) * h;
-  StateArray<T, N> k1;
   StateArray<T, N> k2;
   StateArray<T, N> k3;
   StateArray<T, N> k4;
@@ -191,7 +191,6 @@ template <int N, class T, class Rate>
     for_states<N>(
         states, [&](auto i) __attribute__((always_inline)) { trial[i] = scaled_sum(step, k[i], state[i]); });
   };
-  rate(state, at_start, k1);
   shift(half, k1);
   rate(trial, at_middle, k2);
   shift(half, k2);
@@ -205,15 +204,20 @@ template <int N, class T, class Rate>
 }
 
 // Advances the state over the part [from, from + span] of interval n, in `count` equal sub-steps a lane.
-// rate(state, input, rates, active): lanes that are not active are done, what they are given is not used.
+// rate(state, input, rates, active): lanes that are not active are done, what they are given is not used. `known`, if
+// not null, holds the rates at the start.
 template <int N, class T, class Rate>
 [[gnu::always_inline]] inline void sub_steps(const Rate& rate, int states, const Motion& motion, std::size_t n,
                                              double from, double span, const value_t<T>& count,
-                                             StateArray<T, N>& state) {
+                                             const StateArray<T, N>* known, StateArray<T, N>& state) {
   using Value = value_t<T>;
   const int most = static_cast<int>(largest(count));
   const Value inverse = Value(1.0) / count;
   const Value h = Value(motion.intervals[n].length * span) * inverse;
+  StateArray<T, N> k1;
+  if (known != nullptr) {
+    k1 = *known;
+  }
   StateArray<T, N> next;
   Value theta(from);
   for (int k = 0; k < most; ++k) {
@@ -225,8 +229,10 @@ template <int N, class T, class Rate>
         __attribute__((always_inline)) {
       rate(s, in, rates, active);
     };
-    advance<N, T>(active_rate, states, h, input_at<T>(motion, n, theta), input_at<T>(motion, n, middle),
-                  input_at<T>(motion, n, end), state, next);
+    if (k > 0 || known == nullptr) {
+      active_rate(state, input_at<T>(motion, n, theta), k1);
+    }
+    advance<N, T>(active_rate, states, h, k1, input_at<T>(motion, n, middle), input_at<T>(motion, n, end), state, next);
     for_states<N>(
         states, [&](auto i) __attribute__((always_inline)) { state[i] = select(active, next[i], state[i]); });
     theta = end;
@@ -234,7 +240,7 @@ template <int N, class T, class Rate>
 }
 
 // Lanes with fewer sub-steps than this are not asked whether they rest.
-inline constexpr double few_substeps = 3.0;
+inline constexpr double few_substeps = 2.0;
 
 // Advances the state over the part [from, to] of interval n, in sub-steps. The sub-steps are counted so that a lane
 // with NaN takes one: it must not stop its neighbours. Lanes that would need many first try those that do where the
@@ -271,41 +277,42 @@ template <class T, class Chain>
       __attribute__((always_inline)) {
     system.rate(p, s.data(), in, rates.data());
   };
-  // Lanes that take all their sub-steps get the same bits in any company.
-  auto tries = many;
-  const auto resting_rate = [&](const StateArray<T, N>& s, const Input<T>& in, StateArray<T, N>& rates, const auto&)
-      __attribute__((always_inline)) {
-    StateArray<T, N> moving;
-    system.rate(p, s.data(), in, moving.data());
-    rates = moving;
-    system.rest(p, s.data(), in, rates.data());
-    for_states<N>(
-        states, [&](auto i) __attribute__((always_inline)) { rates[i] = select(tries, rates[i], moving[i]); });
-  };
   if (system.settles() && any(many)) {
     const Input<T> in_before = input_at<T>(motion, n, Value(from));
     const StateArray<T, N> before = state;
-    StateArray<T, N> rates_before;
-    resting_rate(before, in_before, rates_before, many);
+    StateArray<T, N> moving;
+    rate(before, in_before, moving, many);
+    StateArray<T, N> rates_before = moving;
+    system.rest(p, before.data(), in_before, rates_before.data());
     const Value bound = system.stiffness_now(p, before.data(), rates_before.data(), in_before, speed,
                                              change_of_velocity(motion.intervals[n]) * span);
     const Value fewer =
         select(many, min(count_of(bound, system.knows_kinks() ? std::sqrt(coarse) : finer), count), count);
-    tries = fewer < count;
+    const auto tries = fewer < count;
+    // Lanes that take all their sub-steps do not rest: they get the same bits in any company.
+    const auto only_where_tried = [&](StateArray<T, N> & rested, const StateArray<T, N>& not_rested)
+        __attribute__((always_inline)) {
+      for_states<N>(
+          states, [&](auto i) __attribute__((always_inline)) { rested[i] = select(tries, rested[i], not_rested[i]); });
+    };
     if (any(tries)) {
       const Value little(1e-9 / length);
       auto failed = count < Value(0.0);
+      only_where_tried(rates_before, moving);
       const auto watched = [&](const StateArray<T, N>& s, const Input<T>& in, StateArray<T, N>& rates,
                                const auto& active) __attribute__((always_inline)) {
-        resting_rate(s, in, rates, active);
+        rate(s, in, moving, active);
+        rates = moving;
+        system.rest(p, s.data(), in, rates.data());
+        only_where_tried(rates, moving);
         failed = failed | (active & (system.woken(rates_before.data(), rates.data(), little) |
                                      system.kinked(p, before.data(), in_before, s.data(), in)));
       };
-      sub_steps<N, T>(watched, states, motion, n, from, span, fewer, state);
+      sub_steps<N, T>(watched, states, motion, n, from, span, fewer, &rates_before, state);
       failed = failed & tries;
       if (any(failed)) {
         StateArray<T, N> again = before;
-        sub_steps<N, T>(rate, states, motion, n, from, span, select(failed, count, Value(1.0)), again);
+        sub_steps<N, T>(rate, states, motion, n, from, span, select(failed, count, Value(1.0)), nullptr, again);
         for_states<N>(
             states, [&](auto i) __attribute__((always_inline)) { state[i] = select(failed, again[i], state[i]); });
       }
@@ -313,7 +320,7 @@ template <class T, class Chain>
       return;
     }
   }
-  sub_steps<N, T>(rate, states, motion, n, from, span, count, state);
+  sub_steps<N, T>(rate, states, motion, n, from, span, count, nullptr, state);
   store();
 }
 
@@ -368,8 +375,10 @@ template <class T, class Chain>
       }
       const MotionInterval& interval = motion.intervals[n];
       if (single && !near_reversal(motion, n)) {
+        StateArray<T, N> k1;
         StateArray<T, N> next;
-        advance<N, T>(rate, states, Value(interval.length), start, input_stored<T>(motion, n, 0.5, interval.middle),
+        rate(state, start, k1);
+        advance<N, T>(rate, states, Value(interval.length), k1, input_stored<T>(motion, n, 0.5, interval.middle),
                       input_stored<T>(motion, n, 1.0, interval.end), state, next);
         for_states<N>(
             states, [&](auto i) __attribute__((always_inline)) { state[i] = next[i]; });

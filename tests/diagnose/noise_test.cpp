@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "diagnose/evenness.hpp"
 #include "diagnose/structure.hpp"
 #include "fit/synthetic.hpp"
 
@@ -11,8 +12,9 @@ namespace {
 constexpr std::uint64_t seed = 11;
 
 // A force with a knee, so that the estimate has something to be fooled by.
-Recording noisy(double white, double coloured, double correlation, std::uint64_t draw = seed) {
-  Recording recording = testing::motion("r.csv", {{0.01, 2.0}}, 6.0, 3000, 0.2);
+Recording noisy(double white, double coloured, double correlation, std::uint64_t draw = seed,
+                const std::vector<testing::Tone>& tones = {{0.01, 2.0}}) {
+  Recording recording = testing::motion("r.csv", tones, 6.0, 3000, 0.2);
   recording.velocity_measured = true;
   const Stream stream = Stream(draw);
   double state = 0.0;
@@ -82,6 +84,73 @@ TEST(Structure, WhatIsLockedToTheMotionIsPredicted) {
   }
   // Of 25/2 + 4 the first part repeats.
   EXPECT_NEAR(predictable_share(recording, residual), 12.5 / 16.5, 0.1);
+}
+
+// A motion that does not repeat itself.
+const std::vector<testing::Tone> various = {{0.01, 0.7}, {0.004, 1.93}, {0.003, 3.17}};
+
+Evenness evenness_of(const Recording& recording, const std::vector<double>& residual) {
+  EvennessSum sum;
+  sum.add(recording, Residual{residual, 0}, 1.0);
+  return sum.result();
+}
+
+TEST(Evenness, OneNoiseInTwentyFollowsTheMotionByChance) {
+  for (const double correlation : {0.0, 0.9}) {
+    int odd = 0;
+    for (std::uint64_t draw = 1; draw <= 40; ++draw) {
+      const Recording recording = noisy(0.0, 10.0, correlation, draw, various);
+      const Recording quiet = noisy(0.0, 0.0, 0.0, draw, various);
+      std::vector<double> residual(recording.size());
+      for (std::size_t n = 0; n < residual.size(); ++n) {
+        residual[n] = recording.force[n] - quiet.force[n];
+      }
+      odd += even(evenness_of(quiet, residual)) ? 0 : 1;
+    }
+    // Two are expected of forty; seven or more come once in two hundred times.
+    EXPECT_LT(odd, 7) << correlation;
+  }
+}
+
+TEST(Evenness, WhatGrowsWithTheSpeedFollowsTheMotion) {
+  const Recording recording = noisy(0.0, 0.0, 0.0, seed, various);
+  const Stream stream = Stream(3);
+  std::vector<double> residual(recording.size());
+  for (std::size_t n = 0; n < residual.size(); ++n) {
+    residual[n] = (0.05 + std::fabs(recording.velocity[n])) * stream.normal(n);
+  }
+  EXPECT_TRUE(uneven(evenness_of(recording, residual)));
+}
+
+TEST(Evenness, TooFewSamplesSayNothing) {
+  Recording recording = noisy(10.0, 0.0, 0.0);
+  for (std::vector<double>* channel : channels_of(recording)) {
+    if (!channel->empty()) channel->resize(100);
+  }
+  EXPECT_FALSE(even(evenness_of(recording, recording.force)));
+  EXPECT_FALSE(uneven(evenness_of(recording, recording.force)));
+}
+
+TEST(Shaken, AddsAsMuchNoiseAsTheMotionHolds) {
+  Recording recording = noisy(1.0, 0.0, 0.0);
+  const Stream stream = Stream(5);
+  const double of_displacement = 2e-6;
+  const double of_velocity = 3e-4;
+  for (std::size_t n = 0; n < recording.size(); ++n) {
+    recording.displacement[n] += of_displacement * stream.normal(n);
+    recording.velocity[n] += of_velocity * stream.normal(n, 1);
+  }
+  const Recording other = shaken(recording);
+  double x = 0.0;
+  double v = 0.0;
+  for (std::size_t n = 0; n < recording.size(); ++n) {
+    x += std::pow(other.displacement[n] - recording.displacement[n], 2);
+    v += std::pow(other.velocity[n] - recording.velocity[n], 2);
+  }
+  const auto count = static_cast<double>(recording.size());
+  EXPECT_NEAR(std::sqrt(x / count), of_displacement, 0.1 * of_displacement);
+  EXPECT_NEAR(std::sqrt(v / count), of_velocity, 0.1 * of_velocity);
+  EXPECT_EQ(other.force, recording.force);
 }
 
 }  // namespace

@@ -67,6 +67,29 @@ TEST(Verdict, ARivalThatLeavesMuchMoreThanNoiseIsExcluded) {
   EXPECT_EQ(verdict_of(search, plain).word, "ambiguous");
 }
 
+TEST(Verdict, WhatIsLikeNoiseInAllIsTheNoise) {
+  // Colour doubles the white noise: half as much gain as stays above the estimate is too little for a name ...
+  Search search = search_of("coil-lag", 2.0 * floor_squares, 0.5 * floor_squares);
+  search.found[0].without.cost = search.found[0].without.heldout = std::sqrt(2.5 * floor_squares);
+  EXPECT_EQ(verdict_of(search, plain).word, "unattributed");
+  // ... unless neither the values of what stays nor their size follow the motion.
+  search.misfit.evenness = {0.01, 0.02};
+  EXPECT_EQ(verdict_of(search, plain).word, "missing-physics");
+  search.misfit.evenness = {0.03, 0.02};
+  EXPECT_EQ(verdict_of(search, plain).word, "unattributed");
+  // What is within the uncertainty of the noise is no effect.
+  search = search_of("coil-lag", 2.0 * floor_squares, 0.3 * floor_squares);
+  search.misfit.evenness = {0.01, 0.02};
+  EXPECT_NE(verdict_of(search, plain).word, "missing-physics");
+  // Close to the estimate the smaller of the two is asked for, and in any case a twentieth of the noise.
+  for (const auto& [gain, named] : {std::pair{0.1, true}, std::pair{0.03, false}}) {
+    search = search_of("stiction", 1.01 * floor_squares, gain * floor_squares);
+    search.found[0].without.cost = search.found[0].without.heldout = std::sqrt((1.01 + gain) * floor_squares);
+    search.misfit.evenness = {0.01, 0.02};
+    EXPECT_EQ(verdict_of(search, plain).word == "missing-physics", named) << gain;
+  }
+}
+
 TEST(Verdict, FarFromTheNoiseAnEffectOfOneSizeInAllRecordingsIsNamed) {
   const Search search = search_of("inertia", 16.0 * floor_squares, 5.0 * 15.0 * floor_squares, true);
   EXPECT_EQ(verdict_of(search, knowing({{"m", "kg", 2.0, 0.3}})).word, "missing-physics");
