@@ -1,5 +1,7 @@
 // Time of a whole diagnosis of six recordings with 30,000 samples in all: a Bouc-Wen damper at two levels of the drive,
 // with an effect hidden in the force and with none. Threads as OMP_NUM_THREADS says.
+#include "diagnose/diagnose.hpp"
+
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -9,7 +11,6 @@
 #include <vector>
 
 #include "core/random.hpp"
-#include "diagnose/diagnose.hpp"
 
 namespace hysteron {
 namespace {
@@ -44,8 +45,8 @@ Campaign campaign_with(const std::vector<std::string>& effects, const std::vecto
       const Motion motion =
           make_motion(recording.time, recording.displacement, recording.velocity, recording.drive, 1e-6);
       recording.force = simulate(model, motion, parameters);
-      const double peak = std::fabs(*std::ranges::max_element(
-          recording.force, [](double a, double b) { return std::fabs(a) < std::fabs(b); }));
+      const double peak = std::fabs(
+          *std::ranges::max_element(recording.force, [](double a, double b) { return std::fabs(a) < std::fabs(b); }));
       for (std::size_t n = 0; n < samples; ++n) {
         recording.force[n] += noise * peak * stream.normal(n, static_cast<std::uint32_t>(campaign.recordings.size()));
       }

@@ -54,6 +54,9 @@ constexpr std::array<Limit, 6> limits = {{{"offset-force", "gas-spring", "g"},
                                           {"compliance", "clearance", "gap"},
                                           {"cubic-stiffness", "end-stop", "x_up"}}};
 
+// A gas that is compressed by next to no force is a play.
+constexpr std::array<Limit, 1> limits_at_bounds = {{{"clearance", "entrapped-gas", "f_a"}}};
+
 const Limit* find_limit(const std::string& effect, const std::string& wider) {
   const auto* at =
       std::ranges::find_if(limits, [&](const Limit& row) { return row.effect == effect && row.wider == wider; });
@@ -78,6 +81,12 @@ bool is_limit(const std::string& effect, const std::string& wider) { return find
 std::string limit_parameter(const std::string& effect, const std::string& wider) {
   const Limit* limit = find_limit(effect, wider);
   return limit == nullptr ? std::string{} : std::string(limit->parameter);
+}
+
+std::string bound_parameter(const std::string& effect, const std::string& other) {
+  const auto* at = std::ranges::find_if(limits_at_bounds,
+                                        [&](const Limit& row) { return row.effect == other && row.wider == effect; });
+  return at == limits_at_bounds.end() ? std::string{} : std::string(at->parameter);
 }
 
 }  // namespace hysteron

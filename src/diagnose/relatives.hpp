@@ -17,6 +17,9 @@ bool is_limit(const std::string& effect, const std::string& wider);
 // The parameter of `wider` that is zero at that limit; empty where none is, or where it is no limit.
 std::string limit_parameter(const std::string& effect, const std::string& wider);
 
+// The parameter of `effect` with which, at an end of its box, the effect is `other`; empty where there is none.
+std::string bound_parameter(const std::string& effect, const std::string& other);
+
 // The effect that a lag of the velocity channel is, which the channels show without any model, and whether `effect` is
 // mistaken for it in what it does to the force.
 constexpr std::string_view channel_lag = "velocity-lag";

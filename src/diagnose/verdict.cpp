@@ -73,6 +73,17 @@ bool stands_apart(const Fit& fit, const std::string& wider, const std::string& p
   return at != intervals.end() && at->half_width && std::fabs(at->value) > *at->half_width;
 }
 
+// Whether the effect ends as the other one: the parameter that tells them apart has no interval, as on its bound.
+bool ends_as(const Fit& fit, const std::string& effect, const std::string& other, const Circumstances& known) {
+  const std::string parameter = bound_parameter(effect, other);
+  if (parameter.empty()) {
+    return false;
+  }
+  const std::vector<ParameterInterval> intervals = known.intervals(fit, effect);
+  const auto at = std::ranges::find(intervals, parameter, &ParameterInterval::name);
+  return at != intervals.end() && !at->half_width;
+}
+
 // Whether the effect's size, its first parameter, is much the same whichever recordings it is taken from.
 bool steady(const Fit& fit, const std::string& effect, const Circumstances& known) {
   const std::vector<ParameterInterval> intervals = known.intervals(fit, effect);
@@ -144,7 +155,8 @@ Verdict verdict_of(const Search& search, const Circumstances& known) {
     std::vector<const Rival*> as_good;
     const Rival* instead = nullptr;  // to be named in place of the effect
     for (const Rival& rival : found.rivals) {
-      const bool close = rival.share > 1.0 - margin || rival.evidence < least_evidence;
+      const bool close = rival.share > 1.0 - margin || rival.evidence < least_evidence ||
+                         ends_as(search.augmented, found.id, rival.id, known);
       // What holds the effect as a limit always explains as much; only more than its further parameters are worth
       // counts.
       if (is_limit(found.id, rival.id) &&
