@@ -86,11 +86,13 @@ struct ModifiedBoucWen {
     // One and a half times the bound: the slip changes sign between the reversals of v that steps land on.
     return T(1.5) * stiffness_of_slip(p, T(speed));
   }
-  // Spring and hysteresis only slow the slip, so that it grows no faster than the dashpots pass the acceleration on.
+  // Spring and hysteresis only slow the slip, so that it grows no faster than the dashpots pass the acceleration on;
+  // not so a spring that pushes on.
   template <class T>
   static T stiffness_near(const std::array<T, 9>& p, const std::array<T, 2>& s, const T& v, double speed,
                           double change) {
-    return stiffness_of_slip(p, min(T(speed), abs(slip(p, s, v)) + p[2] / (p[1] + p[2]) * T(change)));
+    const T near = min(T(speed), abs(slip(p, s, v)) + p[2] / (p[1] + p[2]) * T(change));
+    return select(p[3] < T(0.0), stiffness(p, speed), stiffness_of_slip(p, near));
   }
   template <class T>
   static T stiffness_of_slip(const std::array<T, 9>& p, const T& u) {

@@ -24,6 +24,7 @@ std::vector<std::size_t> classes_of(const std::vector<double>& values, std::size
   std::vector<double> sorted = values;
   std::ranges::sort(sorted);
   std::vector<double> edges;
+  edges.reserve(count);
   for (std::size_t k = 1; k < count; ++k) {
     edges.push_back(sorted[k * sorted.size() / count]);
   }

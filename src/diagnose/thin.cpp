@@ -96,6 +96,7 @@ std::vector<Recording> spread(const std::vector<Recording>& recordings, std::siz
   }
   std::ranges::sort(chosen);
   std::vector<Recording> result;
+  result.reserve(chosen.size());
   for (const std::size_t k : chosen) {
     result.push_back(recordings[k]);
   }

@@ -27,6 +27,7 @@ std::vector<std::size_t> Identification::compared_on(std::size_t count) const {
 
 std::vector<Recording> pick(const std::vector<Recording>& recordings, const std::vector<std::size_t>& indices) {
   std::vector<Recording> result;
+  result.reserve(indices.size());
   for (const std::size_t index : indices) {
     result.push_back(recordings[index]);
   }

@@ -2,7 +2,8 @@
 // bound of the equations asks for, per lane. h lambda <= step_limit (motion.hpp) keeps every lane inside the
 // stability region (2.78) for every parameter set and sampling, and the step count is finite because the bound is.
 // Sub-steps of lanes that need fewer are masked, so a lane does not depend on its company. Steps land on velocity
-// reversals, where hysteresis equations have a kink.
+// reversals, where hysteresis equations have a kink. Hysteresis that has yielded rests at its bound, and steps need not
+// resolve it until it turns; kinks at places that are not known beforehand are looked for, and passed in small steps.
 #pragma once
 
 #include <algorithm>
@@ -203,125 +204,147 @@ template <int N, class T, class Rate>
       });
 }
 
-// Advances the state over the part [from, from + span] of interval n, in `count` equal sub-steps a lane.
-// rate(state, input, rates, active): lanes that are not active are done, what they are given is not used. `known`, if
-// not null, holds the rates at the start.
+// The part [from, from + span] of interval n.
+struct Segment {
+  const Motion& motion;
+  std::size_t n;
+  double from;
+  double span;
+
+  [[nodiscard]] const MotionInterval& interval() const { return motion.intervals[n]; }
+  [[nodiscard]] double length() const { return interval().length * span; }  // s
+  // Sub-steps at a bound of the stiffness in 1/s, `finer` times as many as equations without kinks need. One for NaN:
+  // such a lane must not stop its neighbours.
+  template <class V>
+  [[nodiscard, gnu::always_inline]] V count(const V& stiffness, double finer) const {
+    const V bound = stiffness * V(length() * finer / motion.step_limit);
+    return select(bound > V(1.0), min(ceil_value(bound), V(motion.most_substeps)), V(1.0));
+  }
+};
+
+// Advances the state over a segment in `count` equal sub-steps a lane. rate(state, input, rates, active): lanes that
+// are not active are done, what they are given is not used. `known`, if not null, holds the rates at the start.
 template <int N, class T, class Rate>
-[[gnu::always_inline]] inline void sub_steps(const Rate& rate, int states, const Motion& motion, std::size_t n,
-                                             double from, double span, const value_t<T>& count,
-                                             const StateArray<T, N>* known, StateArray<T, N>& state) {
+[[gnu::always_inline]] inline void sub_steps(const Rate& rate, int states, const Segment& segment,
+                                             const value_t<T>& count, const StateArray<T, N>* known,
+                                             StateArray<T, N>& state) {
   using Value = value_t<T>;
+  const auto input = [&](const Value& theta) __attribute__((always_inline)) {
+    return input_at<T>(segment.motion, segment.n, theta);
+  };
   const int most = static_cast<int>(largest(count));
   const Value inverse = Value(1.0) / count;
-  const Value h = Value(motion.intervals[n].length * span) * inverse;
+  const Value h = Value(segment.length()) * inverse;
   StateArray<T, N> k1;
   if (known != nullptr) {
     k1 = *known;
   }
   StateArray<T, N> next;
-  Value theta(from);
+  Value theta(segment.from);
   for (int k = 0; k < most; ++k) {
     const double step = k;
-    const Value middle = fma(Value(span * (step + 0.5)), inverse, Value(from));
-    const Value end = fma(Value(span * (step + 1.0)), inverse, Value(from));
+    const Value middle = fma(Value(segment.span * (step + 0.5)), inverse, Value(segment.from));
+    const Value end = fma(Value(segment.span * (step + 1.0)), inverse, Value(segment.from));
     const auto active = Value(step) < count;
     const auto active_rate = [&](const StateArray<T, N>& s, const Input<T>& in, StateArray<T, N>& rates)
         __attribute__((always_inline)) {
       rate(s, in, rates, active);
     };
     if (k > 0 || known == nullptr) {
-      active_rate(state, input_at<T>(motion, n, theta), k1);
+      active_rate(state, input(theta), k1);
     }
-    advance<N, T>(active_rate, states, h, k1, input_at<T>(motion, n, middle), input_at<T>(motion, n, end), state, next);
+    advance<N, T>(active_rate, states, h, k1, input(middle), input(end), state, next);
     for_states<N>(
         states, [&](auto i) __attribute__((always_inline)) { state[i] = select(active, next[i], state[i]); });
     theta = end;
   }
 }
 
-// Lanes with fewer sub-steps than this are not asked whether they rest.
+// Lanes of up to so many sub-steps are not worth a trial.
 inline constexpr double few_substeps = 2.0;
 
-// Advances the state over the part [from, to] of interval n, in sub-steps. The sub-steps are counted so that a lane
-// with NaN takes one: it must not stop its neighbours. Lanes that would need many first try those that do where the
-// equations have no kink inside and what rests at its bound stays there; a lane that proves to be none of these goes
-// back and takes them all.
+// sub_steps with as many steps as do where the equations have no kink inside and what rests at its bound stays there; a
+// lane that proves to be none of these goes back and takes the steps that it was to be spared. False, and nothing done,
+// where no lane would be spared any. Lanes that are not spared any get the same bits in any company.
+template <int N, class T, class Chain>
+[[gnu::always_inline]] inline bool fewer_sub_steps(const Chain& system, const T* p, int states, const Segment& segment,
+                                                   double finer, const value_t<T>& count, StateArray<T, N>& state) {
+  using Value = value_t<T>;
+  const auto many = count > Value(few_substeps);
+  if (!system.settles() || !any(many)) {
+    return false;
+  }
+  const auto rate = [&](const StateArray<T, N>& s, const Input<T>& in, StateArray<T, N>& rates, const auto& /*active*/)
+      __attribute__((always_inline)) {
+    system.rate(p, s.data(), in, rates.data());
+  };
+  const StateArray<T, N> before = state;
+  const Input<T> in_before = input_at<T>(segment.motion, segment.n, Value(segment.from));
+  StateArray<T, N> moving;
+  rate(before, in_before, moving, many);
+  StateArray<T, N> rates_before = moving;
+  system.rest(p, before.data(), in_before, rates_before.data());
+  const Value bound = system.stiffness_now(p, before.data(), rates_before.data(), in_before, segment.interval().speed,
+                                           change_of_velocity(segment.interval()) * segment.span);
+  const double smooth = std::sqrt(coarseness(segment.motion, segment.interval().length));
+  const Value fewer = select(many, min(segment.count(bound, system.knows_kinks() ? smooth : finer), count), count);
+  const auto tries = fewer < count;
+  if (!any(tries)) {
+    return false;
+  }
+  const auto only_where_tried = [&](StateArray<T, N> & rested, const StateArray<T, N>& not_rested)
+      __attribute__((always_inline)) {
+    for_states<N>(
+        states, [&](auto i) __attribute__((always_inline)) { rested[i] = select(tries, rested[i], not_rested[i]); });
+  };
+  only_where_tried(rates_before, moving);
+  const Value little(1e-9 / segment.length());
+  auto failed = count < Value(0.0);
+  const auto watched = [&](const StateArray<T, N>& s, const Input<T>& in, StateArray<T, N>& rates, const auto& active)
+      __attribute__((always_inline)) {
+    rate(s, in, moving, active);
+    rates = moving;
+    system.rest(p, s.data(), in, rates.data());
+    only_where_tried(rates, moving);
+    failed = failed | (active & (system.woken(rates_before.data(), rates.data(), little) |
+                                 system.kinked(p, before.data(), in_before, s.data(), in)));
+  };
+  sub_steps<N, T>(watched, states, segment, fewer, &rates_before, state);
+  failed = failed & tries;
+  if (any(failed)) {
+    StateArray<T, N> again = before;
+    sub_steps<N, T>(rate, states, segment, select(failed, count, Value(1.0)), nullptr, again);
+    for_states<N>(
+        states, [&](auto i) __attribute__((always_inline)) { state[i] = select(failed, again[i], state[i]); });
+  }
+  return true;
+}
+
+// Advances the state over the part [from, to] of interval n.
 template <class T, class Chain>
 [[gnu::noinline, gnu::flatten]] void march_segment(const Chain& system, const Motion& motion, std::size_t n,
                                                    double from, double to, const T* __restrict parameters,
                                                    T* __restrict result) {
-  using Value = value_t<T>;
   constexpr int N = fixed_states<Chain>();
   const int states = system.states();
   const Parameters<T, Chain> copy(parameters);
   const T* p = copy.data();
-  const double span = to - from;
-  const double length = motion.intervals[n].length * span;
-  const double speed = motion.intervals[n].speed;
-  const double coarse = coarseness(motion, motion.intervals[n].length);
+  const Segment segment{motion, n, from, to - from};
+  const double coarse = coarseness(motion, segment.interval().length);
   const double finer = near_reversal(motion, n) ? std::max(motion.finer_at_reversals, coarse) : coarse;
-  const auto count_of = [&](const Value& stiffness, double finer_by) __attribute__((always_inline)) {
-    const Value bound = stiffness * Value(length * finer_by / motion.step_limit);
-    return select(bound > Value(1.0), min(ceil_value(bound), Value(motion.most_substeps)), Value(1.0));
-  };
-  const Value count = count_of(system.stiffness(p, speed), finer);
+  const value_t<T> count = segment.count(system.stiffness(p, segment.interval().speed), finer);
   StateArray<T, N> state;
   for_states<N>(
       states, [&](auto i) __attribute__((always_inline)) { state[i] = result[i]; });
-  const auto store = [&]() __attribute__((always_inline)) {
-    for_states<N>(
-        states, [&](auto i) __attribute__((always_inline)) { result[i] = state[i]; });
-  };
-  const auto many = count > Value(few_substeps);
-  const auto rate = [&](const StateArray<T, N>& s, const Input<T>& in, StateArray<T, N>& rates, const auto&)
-      __attribute__((always_inline)) {
-    system.rate(p, s.data(), in, rates.data());
-  };
-  if (system.settles() && any(many)) {
-    const Input<T> in_before = input_at<T>(motion, n, Value(from));
-    const StateArray<T, N> before = state;
-    StateArray<T, N> moving;
-    rate(before, in_before, moving, many);
-    StateArray<T, N> rates_before = moving;
-    system.rest(p, before.data(), in_before, rates_before.data());
-    const Value bound = system.stiffness_now(p, before.data(), rates_before.data(), in_before, speed,
-                                             change_of_velocity(motion.intervals[n]) * span);
-    const Value fewer =
-        select(many, min(count_of(bound, system.knows_kinks() ? std::sqrt(coarse) : finer), count), count);
-    const auto tries = fewer < count;
-    // Lanes that take all their sub-steps do not rest: they get the same bits in any company.
-    const auto only_where_tried = [&](StateArray<T, N> & rested, const StateArray<T, N>& not_rested)
-        __attribute__((always_inline)) {
-      for_states<N>(
-          states, [&](auto i) __attribute__((always_inline)) { rested[i] = select(tries, rested[i], not_rested[i]); });
+  if (!fewer_sub_steps<N, T>(system, p, states, segment, finer, count, state)) {
+    const auto rate = [&](const StateArray<T, N>& s, const Input<T>& in, StateArray<T, N>& rates,
+                          const auto& /*active*/) __attribute__((always_inline)) {
+      system.rate(p, s.data(), in, rates.data());
     };
-    if (any(tries)) {
-      const Value little(1e-9 / length);
-      auto failed = count < Value(0.0);
-      only_where_tried(rates_before, moving);
-      const auto watched = [&](const StateArray<T, N>& s, const Input<T>& in, StateArray<T, N>& rates,
-                               const auto& active) __attribute__((always_inline)) {
-        rate(s, in, moving, active);
-        rates = moving;
-        system.rest(p, s.data(), in, rates.data());
-        only_where_tried(rates, moving);
-        failed = failed | (active & (system.woken(rates_before.data(), rates.data(), little) |
-                                     system.kinked(p, before.data(), in_before, s.data(), in)));
-      };
-      sub_steps<N, T>(watched, states, motion, n, from, span, fewer, &rates_before, state);
-      failed = failed & tries;
-      if (any(failed)) {
-        StateArray<T, N> again = before;
-        sub_steps<N, T>(rate, states, motion, n, from, span, select(failed, count, Value(1.0)), nullptr, again);
-        for_states<N>(
-            states, [&](auto i) __attribute__((always_inline)) { state[i] = select(failed, again[i], state[i]); });
-      }
-      store();
-      return;
-    }
+    sub_steps<N, T>(rate, states, segment, count, nullptr, state);
   }
-  sub_steps<N, T>(rate, states, motion, n, from, span, count, nullptr, state);
-  store();
+  for_states<N>(
+      states, [&](auto i) __attribute__((always_inline)) { result[i] = state[i]; });
 }
 
 // Intervals checked at once for needing a single step.
