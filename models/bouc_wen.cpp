@@ -51,14 +51,6 @@ struct BoucWen {
   }
   static constexpr int settles = 0;
   template <class T>
-  static T towards(const std::array<T, 7>& /*p*/, const std::array<T, 1>& /*s*/, const Input<T>& in) {
-    return in.v;
-  }
-  template <class T>
-  static T slack(const std::array<T, 7>& /*p*/) {
-    return T(0.0);
-  }
-  template <class T>
   static T stiffness(const std::array<T, 7>& p, double speed) {
     const T steepest = max(T(1.0), abs(T(1.0) - T(2.0) * p[5]));
     return T(speed) * p[6] * steepest / p[4];

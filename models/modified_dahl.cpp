@@ -28,14 +28,6 @@ struct ModifiedDahl {
   }
   static constexpr int settles = 0;
   template <class T>
-  static T towards(const std::array<T, 5>& /*p*/, const std::array<T, 1>& /*s*/, const Input<T>& in) {
-    return in.v;
-  }
-  template <class T>
-  static T slack(const std::array<T, 5>& /*p*/) {
-    return T(0.0);
-  }
-  template <class T>
   static T stiffness(const std::array<T, 5>& p, double speed) {
     return T(speed) / p[4];
   }

@@ -38,14 +38,6 @@ struct SealFriction {
   }
   static constexpr int settles = 0;
   template <class T>
-  static T towards(const std::array<T, 4>& /*p*/, const std::array<T, 1>& /*s*/, const Input<T>& in) {
-    return in.v;
-  }
-  template <class T>
-  static T slack(const std::array<T, 4>& /*p*/) {
-    return T(0.0);
-  }
-  template <class T>
   static T stiffness(const std::array<T, 4>& p, double speed) {
     return bristle_stiffness(p[3], speed);
   }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "diagnose/features.hpp"
+#include "diagnose/noise.hpp"
 
 namespace hysteron {
 namespace {
@@ -12,12 +13,6 @@ namespace {
 constexpr std::size_t fewest_samples = 200;
 // Outliers are cut at this many robust standard deviations.
 constexpr double cut = 4.0;
-
-double median_of(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
-}
 
 // The class of every value, of `count` classes with as many values each.
 std::vector<std::size_t> classes_of(const std::vector<double>& values, std::size_t count) {

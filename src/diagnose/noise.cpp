@@ -36,12 +36,6 @@ Interpolated interpolate(const std::vector<double>& t, const std::vector<double>
   return result;
 }
 
-double median_of(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
-}
-
 // Standard deviation around zero with outliers beyond six robust deviations cut off.
 double clipped_deviation(const std::vector<double>& values) {
   std::vector<double> sizes(values.size());
@@ -76,6 +70,12 @@ double misfold(const Recording& recording, double period, double begins, double 
 }
 
 }  // namespace
+
+double median_of(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::ranges::nth_element(values, middle);
+  return *middle;
+}
 
 Periodicity periodicity(const Recording& recording) {
   Periodicity result;

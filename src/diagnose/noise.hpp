@@ -8,6 +8,9 @@
 
 namespace hysteron {
 
+// The upper one of the two in the middle; at least one value.
+double median_of(std::vector<double> values);
+
 struct NoiseFloor {
   double sigma = 0.0;  // N
   // "cycles": what differs between successive periods of a periodic motion; it holds coloured noise too.

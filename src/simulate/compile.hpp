@@ -50,13 +50,12 @@ struct Fused {
   [[gnu::always_inline]] static void rest([[maybe_unused]] const T* p, [[maybe_unused]] const T* s,
                                           [[maybe_unused]] const Input<T>& in, [[maybe_unused]] T* rates) {
     if constexpr (Settles<M>) {
-      const T towards = M::towards(as_array<T, parameter_count<M>>(p), as_array<T, M::states>(s), in);
-      rates[M::settles] = select(at_bound(value_of(s[M::settles]), value_of(towards)), T(0.0), rates[M::settles]);
+      rates[M::settles] = select(at_bound(value_of(s[M::settles]), towards(p, s, in)), T(0.0), rates[M::settles]);
     }
   }
   template <class T>
   [[gnu::always_inline]] static value_t<T> slack([[maybe_unused]] const T* p) {
-    if constexpr (Settles<M>) {
+    if constexpr (requires { &M::template slack<double>; }) {
       return M::slack(values(p));
     } else {
       return value_t<T>(0.0);
@@ -83,10 +82,7 @@ struct Fused {
   [[gnu::always_inline]] static auto kinked(const T* p, const T* before, const Input<T>& in_before, const T* now,
                                             const Input<T>& in_now) {
     if constexpr (Settles<M>) {
-      const auto towards = [&](const T* s, const Input<T>& in) __attribute__((always_inline)) {
-        return value_of(M::towards(as_array<T, parameter_count<M>>(p), as_array<T, M::states>(s), in));
-      };
-      return (towards(before, in_before) * towards(now, in_now) < value_t<T>(0.0)) |
+      return (towards(p, before, in_before) * towards(p, now, in_now) < value_t<T>(0.0)) |
              (value_of(before[M::settles]) * value_of(now[M::settles]) < value_t<T>(0.0));
     } else {
       return value_of(in_now.v) < value_of(in_now.v);
@@ -111,6 +107,16 @@ struct Fused {
   }
 
  private:
+  // What drives the state that settles.
+  template <class T>
+  [[gnu::always_inline]] static value_t<T> towards([[maybe_unused]] const T* p, [[maybe_unused]] const T* s,
+                                                   const Input<T>& in) {
+    if constexpr (requires { &M::template towards<double>; }) {
+      return value_of(M::towards(as_array<T, parameter_count<M>>(p), as_array<T, M::states>(s), in));
+    } else {
+      return value_of(in.v);
+    }
+  }
   // Bounds need no derivatives.
   template <class T>
   [[gnu::always_inline]] static std::array<value_t<T>, parameter_count<M>> values(const T* p) {

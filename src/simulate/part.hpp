@@ -8,9 +8,12 @@
 //   template <class T> stiffness(p, speed) -> T     bound of |d rate / d state| in 1/s at |velocity| <= speed
 //   (likewise) template <class T> drive(p, s, in)     -> Input<T>   what the parts below see (optional)
 //   settles                                index of a state that |state| = 1 bounds and holds, as a hysteresis that has
-//                                          yielded, while towards(p, s, in) -> T keeps its sign: steps need not resolve
-//                                          it then (optional)
-//   template <class T> slack(p)            -> T     with settles: bound as stiffness of the other states meanwhile
+//                                          yielded, while what drives it keeps its sign: steps need not resolve it then
+//                                          (optional)
+//   template <class T> towards(p, s, in)   -> T     with settles: what drives it, the velocity where it is left out
+//   template <class T> slack(p)            -> T     with settles: bound as stiffness of the other states meanwhile,
+//   none
+//                                          where it is left out
 //   template <class T> stiffness_near(p, s, v, speed, change) -> T     with settles: a closer bound while the velocity,
 //                                          now v, stays below speed and within change of v (optional)
 // A rate that needs the force below has `loaded_rate(p, s, in, below)` in place of `rate`. A series element, behind
