@@ -1,12 +1,14 @@
 // Cavitation: the chamber under suction cannot pull harder than its pressure allows. The force is limited on one side,
 // a void opens, and the way back fills it before the force builds up again.
-//   r = -kappa F,  s >= 0 the length of the void,  e = min(s / s_r, 1)
-//   r > 1:  F <- F / r,        s' = |v| (1 - w / r) min(20 (r - 1), 1)   limited at |F| = 1 / |kappa|
-//   r < 0:  F <- F (1 - e),    s' = -|v| e min(-20 r, 1)  the void is filled
-// kappa > 0 limits the negative force, kappa < 0 the positive one; kappa = 0 is no cavitation. A viscous damper follows
-// the rod at v / r, so that w = 1; one of dry friction stands still at less than its yield force, so that w = 0. The
-// law below sees the recorded motion. s_r = 0.1 mm rounds the end of the dwell, and 5 % of the limit its beginning and
-// the void's. Source: no accepted form is known.
+//   r = -kappa F,  s >= 0 the length of the void,  e = tanh(s / s_r)
+//   r > 1:  F <- F / r,        s' = |v| (r - 1) / (w + r - 1)   limited at |F| = 1 / |kappa|
+//   v kappa > 0:  F <- F (1 - e),  s' = -|v| e              on the way back the void is filled without force
+//   and s' = -q s besides: fluid that flows into the void
+// kappa > 0 limits the negative force, kappa < 0 the positive one; kappa = 0 is no cavitation. While the force is
+// limited a damper of yield force f_y and viscous damping follows the rod at the speed that leaves w = 1 - f_y |kappa|
+// of the limit to the viscous part: v w / (w + r - 1); w = 1 is a viscous damper, w = 0 one of dry friction, which
+// stands still. The law below sees the recorded motion; over s_r the force builds up again. Source: no accepted form is
+// known.
 #include "simulate/compile.hpp"
 
 namespace hysteron {
@@ -16,13 +18,13 @@ struct Cavitation {
   static constexpr std::string_view id = "cavitation";
   static constexpr std::string_view title = "Cavitation (force limit on one side with dwell)";
   static constexpr std::string_view reference = "no accepted form; force limit and refill of the void";
-  static constexpr std::string_view equations[] = {"r = -kappa F, e = min(s / s_r, 1)",
-                                                   "r > 1: F <- F / r, s' = |v| (1 - w / r) min(20 (r - 1), 1)",
-                                                   "r < 0: F <- F (1 - e), s' = -|v| e min(-20 r, 1)"};
+  static constexpr std::string_view equations[] = {"r = -kappa F, e = tanh(s / s_r)",
+                                                   "r > 1: F <- F / r, s' = |v| (r - 1) / (w + r - 1) - q s",
+                                                   "v kappa > 0: F <- F (1 - e), s' = -|v| e - q s"};
   static constexpr int states = 1;
   static constexpr bool has_loaded_rate = true;
-  // Limits of 0.9, 0.75, 0.55 and 0.35 of the peak force, to either side.
-  static constexpr double starts[] = {0.055, -0.055, 0.067, -0.067, 0.09, -0.09, 0.14, -0.14};
+  // Limits of 0.96, 0.85, 0.7 and 0.45 of the peak force, to either side.
+  static constexpr double starts[] = {0.052, -0.052, 0.059, -0.059, 0.071, -0.071, 0.11, -0.11};
   static constexpr Parameter parameters[] = {
       {"kappa",
        "kappa",
@@ -33,42 +35,30 @@ struct Cavitation {
        0.0,
        Scale::linear,
        {-1, 0, 0}},
-      {"w", "w", "1",
-       "how the damper follows while the force is limited: 1 as a viscous one, 0 not at all, as one of dry friction",
-       0.0, 1.0, 0.5, Scale::linear},
-      {"s_r",
-       "s_r",
-       "m",
-       "length over which the dwell ends",
-       1.0e-5,
-       1.0e-3,
-       1.0e-4,
-       Scale::logarithmic,
-       {0, 1, 0},
-       false,
-       true},
+      {"w", "w", "1", "viscous part of the limiting force, the rest being the yield force", 1.0e-2, 1.0, 1.0e-1,
+       Scale::logarithmic},
+      {"q", "q", "1/s", "rate at which fluid flows into the void", 0.0, 1.0e2, 0.0, Scale::linear, {0, -1, 1}},
+      {"s_r", "s_r", "m", "length over which the dwell ends", 2.0e-5, 2.0e-3, 2.0e-4, Scale::logarithmic, {0, 1, 0}},
   };
 
   template <class T>
-  static std::array<T, 1> loaded_rate(const std::array<T, 3>& p, const std::array<T, 1>& s, const Input<T>& in,
+  static std::array<T, 1> loaded_rate(const std::array<T, 4>& p, const std::array<T, 1>& s, const Input<T>& in,
                                       const T& below) {
     const T r = -p[0] * below;
-    const T open = max(min(s[0] / p[2], T(1.0)), T(0.0));
-    const T closing = open * min(T(-20.0) * r, T(1.0));
-    const T over = max(r, T(1.0));
-    const T opening = (T(1.0) - p[1] / over) * min(T(20.0) * (over - T(1.0)), T(1.0));
-    const T growth = select(r < T(0.0), -closing, opening);
-    return {abs(in.v) * growth};
+    const T open = tanh(s[0] / p[3]);
+    const T over = max(r - T(1.0), T(0.0));
+    const T growth = select(T(0.0) < p[0] * in.v, -open, over / (p[1] + over));
+    return {abs(in.v) * growth - p[2] * s[0]};
   }
   template <class T>
-  static T stiffness(const std::array<T, 3>& p, double speed) {
-    return T(speed) / p[2];
+  static T stiffness(const std::array<T, 4>& p, double speed) {
+    return T(speed) / p[3] + p[2];
   }
   template <class T>
-  static T force(const std::array<T, 3>& p, const std::array<T, 1>& s, const Input<T>& /*in*/, const T& below) {
+  static T force(const std::array<T, 4>& p, const std::array<T, 1>& s, const Input<T>& in, const T& below) {
     const T r = -p[0] * below;
-    const T open = max(min(s[0] / p[2], T(1.0)), T(0.0));
-    return select(r < T(0.0), below * (T(1.0) - open), below / max(r, T(1.0)));
+    const T open = tanh(s[0] / p[3]);
+    return select(T(0.0) < p[0] * in.v, below * (T(1.0) - open), below / max(r, T(1.0)));
   }
 };
 

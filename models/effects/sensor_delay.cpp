@@ -2,8 +2,8 @@
 // The law below sees the delayed motion, so all of its force comes later.
 //   x <- x - lag v + lag^2 a / 2,   v <- v - lag a + lag^2 j / 2
 // Taylor's polynomials of a pure delay: for a sine of frequency w its phase is right but for (w lag)^3 / 6. a is the
-// slope of the recorded velocity and j that of a, smoothed as its noise asks for (io/velocity.hpp). The drive is not
-// delayed: parameters that depend on the current follow the recorded one. Source: standard.
+// slope of the recorded velocity and j that of a, smoothed as its noise asks for (io/velocity.hpp). Parameters that
+// depend on the drive follow that of `lag` earlier, linear between samples. Source: standard.
 #include "simulate/compile.hpp"
 
 namespace hysteron {
@@ -13,9 +13,11 @@ struct SensorDelay {
   static constexpr std::string_view id = "sensor-delay";
   static constexpr std::string_view title = "Delay between the motion and force channels";
   static constexpr std::string_view reference = "standard; Taylor's polynomial of a delay";
-  static constexpr std::string_view equations[] = {"x <- x - lag v + lag^2 a / 2, v <- v - lag a + lag^2 j / 2"};
+  static constexpr std::string_view equations[] = {"x <- x - lag v + lag^2 a / 2, v <- v - lag a + lag^2 j / 2",
+                                                   "i <- i(t - lag)"};
   static constexpr int states = 0;
   static constexpr bool has_drive = true;
+  static constexpr bool has_recall = true;
   static constexpr Parameter parameters[] = {
       {"lag", "lag", "s", "delay of the force channel", -2.0e-2, 2.0e-2, 0.0, Scale::linear, {0, 1, -1}},
   };
@@ -25,6 +27,10 @@ struct SensorDelay {
     const T& lag = p[0];
     in.x = in.x - lag * (in.v - T(0.5) * lag * in.a);
     in.v = in.v - lag * (in.a - T(0.5) * lag * in.jerk);
+  }
+  template <class T>
+  static T recall(const std::array<T, 1>& p, const Command& command) {
+    return command.earlier(p[0]);
   }
   template <class T>
   static T force(const std::array<T, 1>& /*p*/, const std::array<T, 0>& /*s*/, const Input<T>& /*in*/, const T& below) {

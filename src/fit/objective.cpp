@@ -65,37 +65,48 @@ void parameters_of_pack(const Layout& layout, const std::vector<T>& nodes, const
   }
 }
 
-// The effects that change the drive before the laws of the parameters are evaluated (PartOperations::excite), in time
-// order over the samples of a recording.
+// The effects that change the drive before the laws of the parameters are evaluated (PartOperations::recall and
+// ::excite), in time order over the samples of a recording.
 template <class T>
 class Excitation {
  public:
   explicit Excitation(const CompositeModel& model) {
     std::size_t parameter = model.law->parameters.size();
     for (const Part* effect : model.effects) {
+      // Outermost first, but what recalls the recording before all.
+      if (effect->on<T>().recall != nullptr) {
+        recalls_.insert(recalls_.begin(), {effect->on<T>().recall, parameter});
+      }
       if (effect->on<T>().excite != nullptr) {
-        parts_.push_back({effect->on<T>().excite, parameter, {}});
+        parts_.insert(parts_.begin(), {effect->on<T>().excite, parameter, {}});
       }
       parameter += effect->parameters.size();
     }
-    std::ranges::reverse(parts_);  // outermost first
   }
-  [[nodiscard]] bool none() const { return parts_.empty(); }
+  [[nodiscard]] bool none() const { return recalls_.empty() && parts_.empty(); }
   // Drive that acts at a sample whose parameters at the recorded drive are p.
-  T act(double drive, double elapsed, const T* p) {
-    T result(drive);
+  T act(const Command& command, const T* p) {
+    T result(command.drive[command.at]);
+    for (const Recall& part : recalls_) {
+      part.recall(p + part.parameter, command, result);
+    }
     for (Step& part : parts_) {
-      part.excite(p + part.parameter, part.memory.data(), elapsed, result);
+      part.excite(p + part.parameter, part.memory.data(), command.elapsed(), result);
     }
     return result;
   }
 
  private:
+  struct Recall {
+    decltype(PartOperations<T>::recall) recall;
+    std::size_t parameter;
+  };
   struct Step {
     decltype(PartOperations<T>::excite) excite;
     std::size_t parameter;
     std::array<T, excitation_memory> memory;
   };
+  std::vector<Recall> recalls_;
   std::vector<Step> parts_;
 };
 
@@ -110,23 +121,23 @@ void march_window(const CompositeModel& model, const Target& target, const Param
   std::vector<T> p(target.drive_varies ? width * (block_samples + 1) : width);
   std::vector<T> out(block_samples);
   Excitation<T> excitation(model);
-  const auto parameters_of = [&](double drive, double elapsed, T* values) {
-    parameters_at_drive(drive, values);
+  const auto parameters_of = [&](const Command& command, T* values) {
+    parameters_at_drive(command.drive[command.at], values);
     if (!excitation.none()) {
-      parameters_at_drive(excitation.act(drive, elapsed, values), values);
+      parameters_at_drive(excitation.act(command, values), values);
     }
   };
   const auto block = [&](const Motion& motion, std::size_t begin, std::size_t end) {
     if (target.drive_varies) {
       for (std::size_t n = begin; n < end; ++n) {
-        const double elapsed = n == 0 ? -1.0 : motion.time[n] - motion.time[n - 1];
-        parameters_of(motion.drive[n], elapsed, p.data() + (n - begin) * width);
+        parameters_of({motion.time, motion.drive, n}, p.data() + (n - begin) * width);
       }
     }
     model.march<T>(motion, p.data(), stride, begin, end, state.data(), out.data());
   };
   if (!target.drive_varies) {
-    parameters_of(target.drive, -1.0, p.data());
+    const double instant = 0.0;
+    parameters_of({{&instant, 1}, {&target.drive, 1}, 0}, p.data());
   }
   if (first == 0) {
     std::ranges::fill(state, T(0.0));
@@ -138,8 +149,7 @@ void march_window(const CompositeModel& model, const Target& target, const Param
   } else if (target.drive_varies && !excitation.none()) {
     // What the effects on the drive remember, from the start of the recording.
     for (std::size_t n = 0; n < first; ++n) {
-      parameters_of(target.motion.drive[n], n == 0 ? -1.0 : target.motion.time[n] - target.motion.time[n - 1],
-                    p.data());
+      parameters_of({target.motion.time, target.motion.drive, n}, p.data());
     }
   }
   for (std::size_t begin = first; begin < last; begin += block_samples) {

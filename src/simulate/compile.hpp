@@ -140,6 +140,8 @@ template <class M>
 concept IsSeries = M::is_series;
 template <class M>
 concept HasExcite = M::has_excite;
+template <class M>
+concept HasRecall = M::has_recall;
 
 template <class M, class T>
 constexpr PartOperations<T> series_operations() {
@@ -159,6 +161,11 @@ constexpr PartOperations<T> operations() {
     result.excite = [](const T* p, T* memory, double elapsed, T& drive) {
       drive = M::excite(as_array<T, parameter_count<M>>(p),
                         *reinterpret_cast<std::array<T, excitation_memory>*>(memory), elapsed, drive);
+    };
+  }
+  if constexpr (HasRecall<M>) {
+    result.recall = [](const T* p, const Command& command, T& drive) {
+      drive = M::recall(as_array<T, parameter_count<M>>(p), command);
     };
   }
   if constexpr (HasDrive<M>) {

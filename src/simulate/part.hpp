@@ -21,6 +21,8 @@
 //   template <class T> yield(p, q)         -> Yield<T>
 // A part that changes the drive before the laws of the parameters are evaluated has
 //   template <class T> excite(p, memory, elapsed, drive) -> T    (array<T, 2> memory, see below)
+// and one that sees the drive of another instant
+//   template <class T> recall(p, command) -> T
 // where p is std::array<T, parameter count> in the order of the card.
 #pragma once
 
@@ -30,6 +32,7 @@
 #include <string_view>
 
 #include "scalar/math.hpp"
+#include "simulate/command.hpp"
 
 namespace hysteron {
 
@@ -107,6 +110,8 @@ struct PartOperations {
   // As rate, with the force below.
   void (*loaded_rate)(const T* p, const T* s, const Input<T>& in, const T& below, T* rates) = nullptr;
   void (*yield)(const T* p, const T& q, Yield<T>& result) = nullptr;
+  // The drive that acts at a sample in place of the recorded one there, before any excite operation.
+  void (*recall)(const T* p, const Command& command, T& drive) = nullptr;
   // Replaces the drive of a sample, `elapsed` s after the one before (negative: the first) by the one that acts.
   // `memory` holds excitation_memory values that belong to this part and recording.
   void (*excite)(const T* p, T* memory, double elapsed, T& drive) = nullptr;

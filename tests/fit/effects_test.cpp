@@ -170,9 +170,22 @@ TEST(Drive, CoilLagIsFirstOrderSlowerWhereTheCurrentFalls) {
   for (std::size_t n = 0; n < drive.size(); ++n) EXPECT_NEAR(none[n], drive[n], 1e-6);
 }
 
+// The force channel lags: the force belongs to the drive of before, between samples too.
+TEST(Drive, SensorDelayRecallsTheDrive) {
+  std::vector<double> drive(60);
+  for (std::size_t n = 0; n < drive.size(); ++n) drive[n] = n < 20 ? 0.5 : 0.5 + 0.1 * static_cast<double>(n - 20);
+  for (const double lag : {0.015, 0.02, -0.015}) {
+    const auto force = acting("sensor-delay", {{"lag", lag}}, drive);
+    for (std::size_t n = 0; n < drive.size(); ++n) {
+      const double at = std::min(static_cast<double>(n) - lag / 0.01, static_cast<double>(drive.size() - 1));
+      EXPECT_NEAR(force[n], 0.5 + 0.1 * std::max(at - 20.0, 0.0), 1e-9) << lag << " " << n;
+    }
+  }
+}
+
 // Derivatives through the drive: the gradient of the objective against differences.
 TEST(Drive, GradientOfTheEffectsOnTheDrive) {
-  for (const std::string effect : {"magnetic-saturation", "magnetic-remanence", "coil-lag"}) {
+  for (const std::string effect : {"magnetic-saturation", "magnetic-remanence", "coil-lag", "sensor-delay"}) {
     Recording recording = motion("m.csv", {{0.02, 1.1}}, 1.5, 120, 0.2);
     for (std::size_t n = 0; n < recording.size(); ++n) {
       recording.drive.push_back(0.8 + 0.6 * std::sin(9.0 * recording.time[n]));
