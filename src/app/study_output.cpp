@@ -1,9 +1,9 @@
 #include "app/study_output.hpp"
 
 #include <fmt/format.h>
-#include <omp.h>
 
 #include "core/error.hpp"
+#include "fit/parallel.hpp"
 #include "io/output.hpp"
 #include "report/study.hpp"
 #include "report/terminal.hpp"
@@ -52,7 +52,7 @@ void add_identifiability(const Plan& plan, Store& store, int threads, bool quiet
   }
   ProgressLine line(quiet);
   line.show("identifiability of the best fits", 0.0, "");
-  const json found = identifiability(plan, records, threads > 0 ? threads : omp_get_max_threads(), interrupted);
+  const json found = identifiability(plan, records, team_size(threads), interrupted);
   line.finish();
   if (!found.at("problems").is_null()) store.set_identifiability(found.dump());
 }

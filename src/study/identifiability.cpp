@@ -3,7 +3,6 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <exception>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -12,6 +11,7 @@
 #include "fit/correlation.hpp"
 #include "fit/driver.hpp"
 #include "fit/identify.hpp"
+#include "fit/parallel.hpp"
 
 namespace hysteron {
 namespace {
@@ -257,21 +257,11 @@ json identifiability(const Plan& plan, const std::vector<RunRecord>& records, in
   const json planned = plan_json(plan);
   const std::vector<const RunRecord*> best = best_runs(planned, records);
   std::vector<json> rows(best.size());
-  std::exception_ptr failure;
-  const auto count = static_cast<std::ptrdiff_t>(best.size());
-#pragma omp parallel for schedule(dynamic, 1) num_threads(std::max(threads, 1))
-  for (std::ptrdiff_t k = 0; k < count; ++k) {
-    const auto p = static_cast<std::size_t>(k);
-    if (best[p] == nullptr || (stop && stop())) continue;
-    try {
-      rows[p] = Winner(plan, plan.problems[p], best[p]->best).run(stop);
-      if (!rows[p].is_null()) rows[p]["key"] = best[p]->key;
-    } catch (...) {
-#pragma omp critical(hysteron_identifiability)
-      failure = std::current_exception();
-    }
-  }
-  if (failure) std::rethrow_exception(failure);
+  parallel_for(best.size(), std::max(threads, 1), [&](std::size_t p) {
+    if (best[p] == nullptr || (stop && stop())) return;
+    rows[p] = Winner(plan, plan.problems[p], best[p]->best).run(stop);
+    if (!rows[p].is_null()) rows[p]["key"] = best[p]->key;
+  });
   if (stop && stop()) return {{"schema", "hysteron.identifiability/1"}, {"problems", nullptr}};
   return {{"schema", "hysteron.identifiability/1"}, {"problems", rows}};
 }
