@@ -354,7 +354,8 @@ std::vector<HiddenEffect> make() {
        0.6,
        [](P& p, const D& d, double s, Draws shape) {
          p.gap = s * d.smallest_amplitude;
-         p.contact_stiffness = d.force / (d.amplitude * shape.log_uniform(3e-3, 1e-2));
+         // The contact gives by a part of the gap: a play that is small against it is a compliance.
+         p.contact_stiffness = d.force / (p.gap * shape.log_uniform(0.05, 0.4));
          p.contact_damping = p.contact_stiffness * 2e-4;
        },
        [](const P& p) -> Truths {

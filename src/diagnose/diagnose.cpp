@@ -174,13 +174,15 @@ void doubt_completeness(Diagnosis& diagnosis, const Workbench& fine) {
         "effect describes it";
     return;
   }
-  const Wandering wander = wandering(fine, diagnosis.search.augmented);
+  const Wandering wander = wandering(leftovers_of(fine, diagnosis.search.augmented));
   if (wanders(wander)) {
     diagnosis.verdict.word = "unattributed";
     diagnosis.verdict.reason = fmt::format(
-        "{:.0f} % of what is left is a factor of the force that changes from moment to moment, as of a supply that "
-        "cycles or a grip that changes; no known effect describes it",
-        100.0 * wander.share);
+        "{:.0f} % of what is left is a factor of the force that {}; no known effect describes it", 100.0 * wander.share,
+        wander.period > 0.0
+            ? fmt::format("swings with a period of {:.2g} s whatever the motion, as of a supply that cycles",
+                          wander.period)
+            : std::string("changes from moment to moment, as of a supply or a grip that changes"));
   }
 }
 

@@ -27,9 +27,12 @@ constexpr double least_gain_over_structure = 3.0;
 // ... and at least this part of all that stays: quantisation and rig leave traces of that size.
 constexpr double least_gain_over_noise = 0.05;
 // Where this many times the noise stays, the cause of what stays may be the cause of all, unless the effect explains
-// this many times as much, or has the same size in all recordings within this share.
+// this many times as much, or, for the strongest, has the same size in all recordings within this share.
 constexpr double far_from_noise = 6.0;
 constexpr double dominant = 10.0;
+// Likewise where the motion predicts this share of what stays: that is physics still missing.
+constexpr double predicted_share = 0.15;
+constexpr double dominant_over_predicted = 20.0;
 constexpr double steady_share = 0.2;
 // A gain below this share of the squared error must show in the judging recordings too, by this part of it.
 constexpr double plain_gain = 0.3;
@@ -113,7 +116,9 @@ Verdict verdict_of(const Search& search, const Circumstances& known) {
   const double beyond_estimate = search.misfit.squares - search.misfit.floor;
   const double above_floor = settled ? 0.0 : beyond_estimate;
   const double leftover = std::max({surely, doubtful, above_floor});
-  const bool far = search.misfit.squares > far_from_noise * search.misfit.floor;
+  const double dominating =
+      std::max(search.misfit.squares > far_from_noise * search.misfit.floor ? dominant * above_floor : 0.0,
+               search.misfit.predictable > predicted_share ? dominant_over_predicted * beyond_estimate : 0.0);
   const double wanted = std::max(
       {least_gain_over_structure * surely, doubtful, least_gain_over_noise * search.misfit.squares,
        std::min(least_gain_over_leftover * beyond_estimate, settled ? floor_doubt * search.misfit.squares : 1e300)});
@@ -141,7 +146,7 @@ Verdict verdict_of(const Search& search, const Circumstances& known) {
         !confirmed(found, search.augmented)) {
       continue;
     }
-    if (far && found.gain < dominant * above_floor && !steady(search.augmented, found.id, known)) {
+    if (found.gain < dominating && (!verdict.effects.empty() || !steady(search.augmented, found.id, known))) {
       continue;
     }
     Named named;

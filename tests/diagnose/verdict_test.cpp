@@ -97,6 +97,23 @@ TEST(Verdict, FarFromTheNoiseAnEffectOfOneSizeInAllRecordingsIsNamed) {
   EXPECT_EQ(verdict_of(search, knowing({{"m", "kg", 2.0, std::nullopt}})).word, "unattributed");
 }
 
+TEST(Verdict, BesideWhatTheMotionPredictsOnlyADominantOrSteadyEffectIsNamed) {
+  const Circumstances steady = knowing({{"p", "1", 0.5, 0.05}});
+  Search search = search_of("pinching", 2.5 * floor_squares, 10.0 * 1.5 * floor_squares, true);
+  EXPECT_EQ(verdict_of(search, plain).word, "unattributed");
+  EXPECT_EQ(verdict_of(search, steady).word, "missing-physics");
+  search = search_of("pinching", 2.5 * floor_squares, 25.0 * 1.5 * floor_squares, true);
+  EXPECT_EQ(verdict_of(search, plain).word, "missing-physics");
+  // A second name asks for dominance, however steady it is.
+  Found second = search.found[0];
+  second.id = "compliance";
+  second.gain = 10.0 * 1.5 * floor_squares;
+  search.found.push_back(second);
+  EXPECT_EQ(verdict_of(search, steady).effects.size(), 1U);
+  search.misfit.predictable = 0.0;
+  EXPECT_EQ(verdict_of(search, steady).effects.size(), 2U);
+}
+
 TEST(Verdict, AFormThatHoldsTheEffectAsItsLimitMustBeWorthItsParameters) {
   const Circumstances curved = knowing({{"f_g", "N", 100.0, 1.0}, {"g", "1/m", 10.0, 3.0}});
   const Circumstances straight = knowing({{"f_g", "N", 100.0, 1.0}, {"g", "1/m", 10.0, 12.0}});
