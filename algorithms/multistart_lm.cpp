@@ -5,10 +5,10 @@
 // the more descents end in the best optimum, the less likely a better one is unseen.
 //
 // Where the problem allows screening, descents are made on the coarse objective first, until the squared cost falls by
-// less than 1e-2 of itself in two steps. One that ends within 10 % of the best screened cost, and not within 0.5 % of
-// one already taken further, is finished on the full objective from where it ended; agreement is then counted among
-// screened costs, within 0.5 %, once every descent taken further has ended. Screening uses at most half of the budget.
-// Without screening agreement is counted among final costs, within 1e-4.
+// less than 1e-2 of itself in two steps, or so little is foretold of the next. One that ends within 10 % of the best
+// screened cost, and not within 0.5 % of one already taken further, is finished on the full objective from where it
+// ended; agreement is then counted among screened costs, within 0.5 %, once every descent taken further has ended.
+// Screening uses at most half of the budget. Without screening agreement is counted among final costs, within 1e-4.
 #include <algorithm>
 #include <cmath>
 
@@ -143,7 +143,8 @@ class MultistartLm final : public Solver {
                                                 ? problem_.start[k]
                                                 : problem_.stream.uniform(index, static_cast<std::uint32_t>(k));
     }
-    return screening_ ? Descent(std::move(point), problem_.linear, 1e-2) : Descent(std::move(point), problem_.linear);
+    return screening_ ? Descent(std::move(point), problem_.linear, 1e-2, true)
+                      : Descent(std::move(point), problem_.linear);
   }
 
   Problem problem_;

@@ -20,9 +20,10 @@ namespace hysteron {
 
 class Descent {
  public:
-  // Ends when the squared cost has fallen by less than `tolerance` of itself in two steps running.
-  Descent(Eigen::VectorXd start, const std::vector<bool>& linear, double tolerance = 1e-7)
-      : next_(std::move(start)), tolerance_(tolerance) {
+  // Ends when the squared cost has fallen by less than `tolerance` of itself in two steps running. One that anticipates
+  // ends as soon as a step that the quadratic model foretold leaves it so little to gain, and counts that as gained.
+  Descent(Eigen::VectorXd start, const std::vector<bool>& linear, double tolerance = 1e-7, bool anticipates = false)
+      : next_(std::move(start)), tolerance_(tolerance), anticipates_(anticipates) {
     for (std::size_t k = 0; k < linear.size(); ++k) {
       if (linear[k]) {
         linear_.push_back(static_cast<Eigen::Index>(k));
@@ -34,7 +35,8 @@ class Descent {
   [[nodiscard]] bool finished() const { return !reason_.empty(); }
   [[nodiscard]] const std::string& reason() const { return reason_; }
   [[nodiscard]] double cost() const { return cost_; }
-  // The best point told, with the affine coordinates at their optimum; empty before the first finite cost.
+  // The best point told, with the affine coordinates at their optimum, or the one anticipated; empty before the first
+  // finite cost.
   [[nodiscard]] const Eigen::VectorXd& best() const { return at_; }
 
   // `diverged` points count as rejected; a diverged start ends the descent.
@@ -86,12 +88,24 @@ class Descent {
         }
       }
       step();
+      if (anticipates_ && was_step && !finished() && rho > foretold && radius_ > undamped &&
+          predicted_ < tolerance_ * best_squares_) {
+        at_ = next_;
+        best_squares_ -= predicted_;
+        cost_ = std::sqrt(best_squares_);
+        reason_ = "predicted decrease of the squared cost < " + support::number_text(tolerance_);
+      }
     } else {
       reject();
     }
   }
 
  private:
+  // Share of the predicted decrease that a step must bring, and radius above which damping is slight, for the quadratic
+  // model to be trusted.
+  static constexpr double foretold = 0.5;
+  static constexpr double undamped = 10.0;
+
   void reject() {
     if (settle_) {
       settle_ = false;
@@ -213,6 +227,7 @@ class Descent {
   Eigen::MatrixXd matrix_;
   std::string reason_;
   double tolerance_;
+  bool anticipates_;
   double best_squares_ = 0.0;
   double cost_ = 1e300;
   double radius_ = 10.0;

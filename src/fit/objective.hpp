@@ -4,6 +4,7 @@
 // recordings, sums in time order per candidate, so that results do not depend on threads or company.
 #pragma once
 
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -73,16 +74,18 @@ class Objective {
   [[nodiscard]] std::vector<Linearised> linearised(const std::vector<double>& point) const;
 
  private:
-  // Of every candidate of a pack at every sample of a target, unweighted.
-  struct PackDerivatives {
-    std::vector<Lanes> jacobian;  // samples x dimension
-    std::vector<Lanes> residual;
-    Lanes squares;
-    Lanes alive;  // samples that stayed finite
+  // Over a target, for every candidate of a pack.
+  struct PackSums {
+    Lanes squares;  // of the residual
+    Lanes alive;    // samples that stayed finite
   };
+  // Takes samples [begin, begin + count): jacobian count x dimension, residual count, unweighted.
+  using TakeDerivatives =
+      std::function<void(std::size_t begin, std::size_t count, const Lanes* jacobian, const Lanes* residual)>;
 
-  [[nodiscard]] PackDerivatives differentiated(const std::vector<double>& points, std::span<const std::size_t> rows,
-                                               const Target& target) const;
+  // Hands every sample to `take`, in order.
+  [[nodiscard]] PackSums differentiated(const std::vector<double>& points, std::span<const std::size_t> rows,
+                                        const Target& target, const TakeDerivatives& take) const;
   template <class T>
   void run_pack(const std::vector<double>& points, std::span<const std::size_t> rows, const Target& target,
                 double* sums) const;
