@@ -34,9 +34,9 @@ std::vector<std::string> relatives(const std::string& id) {
   return result;
 }
 
-bool mistaken_for_channel_lag(const std::string& effect) {
-  const std::vector<std::string> alike = relatives(std::string(channel_lag));
-  return std::ranges::find(alike, effect) != alike.end();
+bool is_kin(const std::string& effect, const std::string& other) {
+  const std::vector<std::string> alike = relatives(effect);
+  return std::ranges::find(alike, other) != alike.end();
 }
 
 namespace {

@@ -11,6 +11,7 @@ namespace hysteron {
 
 // Effects to set against `id` besides those the data bring up; empty for an unknown id.
 std::vector<std::string> relatives(const std::string& id);
+bool is_kin(const std::string& effect, const std::string& other);
 
 // Whether `wider` with further parameters at a limit is `effect` itself, in every motion.
 bool is_limit(const std::string& effect, const std::string& wider);
@@ -20,10 +21,8 @@ std::string limit_parameter(const std::string& effect, const std::string& wider)
 // The parameter of `effect` with which, at an end of its box, the effect is `other`; empty where there is none.
 std::string bound_parameter(const std::string& effect, const std::string& other);
 
-// The effect that a lag of the velocity channel is, which the channels show without any model, and whether `effect` is
-// mistaken for it in what it does to the force.
-constexpr std::string_view channel_lag = "velocity-lag";
-bool mistaken_for_channel_lag(const std::string& effect);
+// The effect that a lag of the velocity channel is, which the channels show without any model.
+constexpr const char* channel_lag = "velocity-lag";
 
 // What parameters of related effects, "effect.parameter", mean of each other: the value of `to` is `factor` times that
 // of `from`, so that a fit with one effect tells where to start one with the other.

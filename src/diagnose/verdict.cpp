@@ -26,6 +26,12 @@ constexpr double least_gain_over_leftover = 2.5;
 constexpr double least_gain_over_structure = 3.0;
 // ... and at least this part of all that stays: quantisation and rig leave traces of that size.
 constexpr double least_gain_over_noise = 0.05;
+// Where nothing of what stays follows the motion, this part of it is enough, of evidence that no noise gives.
+constexpr double least_settled_gain = 0.1;
+constexpr double least_settled_evidence = 150.0;
+// A further effect is named only where at most this many times the noise stays, and not beside its own kin: what the
+// form of the first one misses looks like another.
+constexpr double near_noise = 1.5;
 // Where this many times the noise stays, the cause of what stays may be the cause of all, unless the effect explains
 // this many times as much, or, for the strongest, has the same size in all recordings within this share.
 constexpr double far_from_noise = 6.0;
@@ -58,7 +64,7 @@ bool confirmed(const Found& found, const Fit& augmented) {
 
 // Whether the lag of the velocity channel that a fit found is the one that the channels show.
 bool as_channels_show(const Fit& fit, const Circumstances& known) {
-  const std::vector<ParameterInterval> intervals = known.intervals(fit, std::string(channel_lag));
+  const std::vector<ParameterInterval> intervals = known.intervals(fit, channel_lag);
   if (!known.channel || intervals.empty()) {
     return false;
   }
@@ -119,9 +125,10 @@ Verdict verdict_of(const Search& search, const Circumstances& known) {
   const double dominating =
       std::max(search.misfit.squares > far_from_noise * search.misfit.floor ? dominant * above_floor : 0.0,
                search.misfit.predictable > predicted_share ? dominant_over_predicted * beyond_estimate : 0.0);
-  const double wanted = std::max(
-      {least_gain_over_structure * surely, doubtful, least_gain_over_noise * search.misfit.squares,
-       std::min(least_gain_over_leftover * beyond_estimate, settled ? floor_doubt * search.misfit.squares : 1e300)});
+  const double wanted =
+      std::max({least_gain_over_structure * surely, doubtful, least_gain_over_noise * search.misfit.squares,
+                std::min(least_gain_over_leftover * beyond_estimate,
+                         settled ? least_settled_gain * search.misfit.squares : 1e300)});
   if (search.found.empty()) {
     const bool laws = !search.richer.empty() && squared(search.augmented.cost / search.base.cost) < 1.0 - shown_gain &&
                       search.augmented.heldout < search.base.heldout;
@@ -144,6 +151,13 @@ Verdict verdict_of(const Search& search, const Circumstances& known) {
   for (const Found& found : search.found) {
     if (found.gain < std::max(wanted, least_share_of_strongest * search.found.front().gain) ||
         !confirmed(found, search.augmented)) {
+      continue;
+    }
+    if (found.evidence < least_settled_evidence && found.gain < least_gain_over_leftover * beyond_estimate) {
+      continue;
+    }
+    if (!verdict.effects.empty() &&
+        (search.misfit.squares > near_noise * search.misfit.floor || is_kin(found.id, verdict.effects.front().id))) {
       continue;
     }
     if (found.gain < dominating && (!verdict.effects.empty() || !steady(search.augmented, found.id, known))) {
@@ -175,11 +189,11 @@ Verdict verdict_of(const Search& search, const Circumstances& known) {
         continue;
       }
       // The channels tell a lag of one of them from a delay of the force.
-      if (close && rival.id == channel_lag && mistaken_for_channel_lag(found.id)) {
+      if (close && rival.id == channel_lag && is_kin(channel_lag, found.id)) {
         instead = as_channels_show(rival.fit, known) ? &rival : instead;
         continue;
       }
-      if (close && found.id == channel_lag && mistaken_for_channel_lag(rival.id) &&
+      if (close && found.id == channel_lag && is_kin(channel_lag, rival.id) &&
           as_channels_show(search.augmented, known)) {
         continue;
       }

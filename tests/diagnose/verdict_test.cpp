@@ -78,8 +78,13 @@ TEST(Verdict, WhatIsLikeNoiseInAllIsTheNoise) {
   search.misfit.evenness = {0.03, 0.02};
   EXPECT_EQ(verdict_of(search, plain).word, "unattributed");
   // What is within the uncertainty of the noise is no effect.
-  search = search_of("coil-lag", 2.0 * floor_squares, 0.3 * floor_squares);
+  search = search_of("coil-lag", 2.0 * floor_squares, 0.15 * floor_squares);
   search.misfit.evenness = {0.01, 0.02};
+  EXPECT_NE(verdict_of(search, plain).word, "missing-physics");
+  // Little of it asks for evidence.
+  search = search_of("coil-lag", 2.0 * floor_squares, 0.5 * floor_squares);
+  search.misfit.evenness = {0.01, 0.02};
+  search.found[0].evidence = 100.0;
   EXPECT_NE(verdict_of(search, plain).word, "missing-physics");
   // Close to the estimate the smaller of the two is asked for, and in any case a twentieth of the noise.
   for (const auto& [gain, named] : {std::pair{0.1, true}, std::pair{0.03, false}}) {
@@ -111,7 +116,12 @@ TEST(Verdict, BesideWhatTheMotionPredictsOnlyADominantOrSteadyEffectIsNamed) {
   search.found.push_back(second);
   EXPECT_EQ(verdict_of(search, steady).effects.size(), 1U);
   search.misfit.predictable = 0.0;
+  search.misfit.structure = 0.0;
+  EXPECT_EQ(verdict_of(search, steady).effects.size(), 1U) << "more than near the noise stays";
+  search.misfit.squares = 1.4 * floor_squares;
   EXPECT_EQ(verdict_of(search, steady).effects.size(), 2U);
+  search.found[1].id = "cubic-stiffness";
+  EXPECT_EQ(verdict_of(search, steady).effects.size(), 1U) << "kin of pinching";
 }
 
 TEST(Verdict, AFormThatHoldsTheEffectAsItsLimitMustBeWorthItsParameters) {
