@@ -41,7 +41,7 @@ std::size_t unlike_after(const Values& force) {
 }
 
 Values rotated(Values values, std::size_t by) {
-  std::ranges::rotate(values, values.begin() + static_cast<std::ptrdiff_t>(by));
+  std::rotate(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(by), values.end());
   return values;
 }
 
@@ -106,9 +106,11 @@ Values frequencies_for(const std::vector<Leftover>& leftovers) {
     longest = std::max(longest, one.time.back() - one.time.front());
   }
   const double step = std::max(1.0 / (steps_per_resolution * longest), highest_frequency / most_frequencies);
-  Values angular;
-  for (double frequency = fewest_cycles / longest; frequency < highest_frequency; frequency += step) {
-    angular.push_back(2.0 * std::numbers::pi * frequency);
+  const double lowest = fewest_cycles / longest;
+  const auto count = static_cast<std::size_t>(std::max(0.0, std::ceil((highest_frequency - lowest) / step)));
+  Values angular(count);
+  for (std::size_t k = 0; k < count; ++k) {
+    angular[k] = 2.0 * std::numbers::pi * (lowest + static_cast<double>(k) * step);
   }
   return angular;
 }

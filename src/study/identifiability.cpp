@@ -75,7 +75,7 @@ Point descend(const Objective& objective, const std::vector<double>& start, std:
 
 std::string name_of(const Layout& layout, std::size_t c) {
   const Coordinate& coordinate = layout.coordinates()[c];
-  const std::string name = layout.names()[coordinate.parameter];
+  std::string name = layout.names()[coordinate.parameter];
   for (const ParameterLaw& law : layout.laws()) {
     if (law.parameter == coordinate.parameter && law.drive_nodes.size() * law.frequency_nodes.size() > 1) {
       return name + "[" + std::to_string(coordinate.node + 1) + "]";
