@@ -11,6 +11,9 @@
 namespace hysteron {
 namespace {
 
+// The held-out recordings show an effect that takes this much off their error.
+constexpr double shown_by_judges = 0.98;
+
 std::string title_of(const std::string& effect) {
   const Part* part = find_effect(effect);
   std::string title(part == nullptr ? effect : part->title);
@@ -85,6 +88,8 @@ std::string sentence_of(const Diagnosis& diagnosis, const Named& named,
     std::string text = fmt::format("{} = {:.3g}{}", p.name, p.value, p.unit == "1" ? "" : " " + p.unit);
     if (p.half_width) {
       text += fmt::format(" (95 %: {:.3g} to {:.3g})", p.value - *p.half_width, p.value + *p.half_width);
+    } else {
+      text += p.bound.empty() ? " (not told by these recordings)" : " (the " + p.bound + " end of what was searched)";
     }
     values.push_back(text);
   }
@@ -97,8 +102,16 @@ std::string sentence_of(const Diagnosis& diagnosis, const Named& named,
   if (!values.empty()) {
     text += ", " + joined(values, " and ");
   }
-  text += fmt::format(", which takes the held-out NRMSE from {:.3g} to {:.3g} (noise floor {:.2g})",
-                      named.without->heldout, named.fit->heldout, diagnosis.noise_floor);
+  if (named.fit->heldout < shown_by_judges * named.without->heldout) {
+    text += fmt::format(", which takes the held-out NRMSE from {:.3g} to {:.3g} (noise floor {:.2g})",
+                        named.without->heldout, named.fit->heldout, diagnosis.noise_floor);
+  } else {
+    text += fmt::format(
+        ", which takes the fitted NRMSE from {:.3g} to {:.3g} (noise floor {:.2g}); the held-out recordings do not "
+        "show "
+        "it (NRMSE {:.3g} without, {:.3g} with it)",
+        named.without->cost, named.fit->cost, diagnosis.noise_floor, named.without->heldout, named.fit->heldout);
+  }
   if (!named.indistinguishable_from.empty()) {
     std::vector<std::string> others;
     for (const std::string& id : named.indistinguishable_from) {

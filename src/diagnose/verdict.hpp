@@ -34,6 +34,7 @@ struct ParameterInterval {
   std::string unit;
   double value = 0.0;
   std::optional<double> half_width;  // of the 95 % interval; absent on a bound and where the data do not tell it
+  std::string bound = {};            // "lower" or "upper" where the value sits on its box
 };
 
 // What is known beside the errors of the fits.
