@@ -39,8 +39,8 @@ std::vector<ParameterInterval> intervals_of(const Workbench& bench, const Fit& f
   std::vector<ParameterInterval> result;
   for (const Estimate& row : identification.estimates) {
     if (row.name.starts_with(effect + ".")) {
-      result.push_back(
-          {row.name.substr(effect.size() + 1), row.unit, row.term.value, row.half_width, row.at_bound.value_or("")});
+      result.push_back({row.name.substr(effect.size() + 1), row.unit, row.term.value, row.half_width,
+                        row.at_bound.value_or(""), row.lower});
     }
   }
   return result;

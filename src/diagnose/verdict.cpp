@@ -82,7 +82,8 @@ bool stands_apart(const Fit& fit, const std::string& wider, const std::string& p
   return at != intervals.end() && at->half_width && std::fabs(at->value) > *at->half_width;
 }
 
-// Whether the effect ends as the other one: the parameter that tells them apart has no interval, as on its bound.
+// Whether the effect ends as the other one: the parameter that tells them apart has no interval, or one that reaches
+// the end of its box where they are the same.
 bool ends_as(const Fit& fit, const std::string& effect, const std::string& other, const Circumstances& known) {
   const std::string parameter = bound_parameter(effect, other);
   if (parameter.empty()) {
@@ -90,7 +91,7 @@ bool ends_as(const Fit& fit, const std::string& effect, const std::string& other
   }
   const std::vector<ParameterInterval> intervals = known.intervals(fit, effect);
   const auto at = std::ranges::find(intervals, parameter, &ParameterInterval::name);
-  return at != intervals.end() && !at->half_width;
+  return at != intervals.end() && (!at->half_width || at->value - *at->half_width <= at->lower);
 }
 
 // Whether the effect's size, its first parameter, is much the same whichever recordings it is taken from.

@@ -35,6 +35,7 @@ struct ParameterInterval {
   double value = 0.0;
   std::optional<double> half_width;  // of the 95 % interval; absent on a bound and where the data do not tell it
   std::string bound = {};            // "lower" or "upper" where the value sits on its box
+  double lower = -1e300;             // of its box
 };
 
 // What is known beside the errors of the fits.

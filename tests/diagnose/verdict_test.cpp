@@ -145,9 +145,10 @@ TEST(Verdict, AnEffectThatEndsAsAnotherIsNotToldFromIt) {
   Search search = search_of("entrapped-gas", 1.2 * floor_squares, 20.0 * floor_squares);
   search.found[0].rivals = {rival("clearance", 0.9, 600.0)};
   const auto knowing_force = [](std::optional<double> half_width) {
-    return knowing({{"d_a", "m", 1.0, 0.01}, {"f_a", "N", 30.0, half_width}});
+    return knowing({{"d_a", "m", 1.0, 0.01}, {"f_a", "N", 50.0, half_width, "", 30.0}});
   };
   EXPECT_EQ(verdict_of(search, knowing_force(5.0)).word, "missing-physics");
+  EXPECT_EQ(verdict_of(search, knowing_force(25.0)).word, "ambiguous");
   const Verdict verdict = verdict_of(search, knowing_force({}));
   ASSERT_EQ(verdict.word, "ambiguous");
   EXPECT_EQ(verdict.effects[0].indistinguishable_from, std::vector<std::string>{"clearance"});
