@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
-#include "fit/parallel.hpp"
 #include "io/output.hpp"
 #include "report/study.hpp"
 #include "report/terminal.hpp"
@@ -52,7 +51,7 @@ void add_identifiability(const Plan& plan, Store& store, int threads, bool quiet
   }
   ProgressLine line(quiet);
   line.show("identifiability of the best fits", 0.0, "");
-  const json found = identifiability(plan, records, team_size(threads), interrupted);
+  const json found = identifiability(plan, records, threads, interrupted);
   line.finish();
   if (!found.at("problems").is_null()) store.set_identifiability(found.dump());
 }

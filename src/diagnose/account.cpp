@@ -107,9 +107,8 @@ std::string sentence_of(const Diagnosis& diagnosis, const Named& named,
                         named.without->heldout, named.fit->heldout, diagnosis.noise_floor);
   } else {
     text += fmt::format(
-        ", which takes the fitted NRMSE from {:.3g} to {:.3g} (noise floor {:.2g}); the held-out recordings do not "
-        "show "
-        "it (NRMSE {:.3g} without, {:.3g} with it)",
+        ", which takes the fitted NRMSE from {:.3g} to {:.3g} (noise floor {:.2g}); held-out recordings do not show it "
+        "(NRMSE {:.3g} without, {:.3g} with it)",
         named.without->cost, named.fit->cost, diagnosis.noise_floor, named.without->heldout, named.fit->heldout);
   }
   if (!named.indistinguishable_from.empty()) {

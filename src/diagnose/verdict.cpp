@@ -36,10 +36,10 @@ constexpr double near_noise = 1.5;
 // this many times as much, or, for the strongest, has the same size in all recordings within this share.
 constexpr double far_from_noise = 6.0;
 constexpr double dominant = 10.0;
+constexpr double steady_share = 0.2;
 // Likewise where the motion predicts this share of what stays: that is physics still missing.
 constexpr double predicted_share = 0.15;
 constexpr double dominant_over_predicted = 20.0;
-constexpr double steady_share = 0.2;
 // A gain below this share of the squared error must show in the judging recordings too, by this part of it.
 constexpr double plain_gain = 0.3;
 constexpr double confirmed_part = 0.25;

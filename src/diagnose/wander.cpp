@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <numeric>
 
@@ -163,10 +164,7 @@ Wandering wandering(const std::vector<Leftover>& all) {
   const auto best = std::ranges::max_element(cycle);
   const Wandering by_cycles{*best / squares, *std::ranges::max_element(cycle_by_chance) / squares,
                             2.0 * std::numbers::pi / angular[static_cast<std::size_t>(best - cycle.begin())]};
-  if (wanders(by_cycles) || wanders(by_stretches)) {
-    return wanders(by_cycles) ? by_cycles : by_stretches;
-  }
-  return by_cycles.share > by_stretches.share ? by_cycles : by_stretches;
+  return wanders(by_stretches) && !wanders(by_cycles) ? by_stretches : by_cycles;
 }
 
 bool wanders(const Wandering& wandering) {

@@ -22,12 +22,13 @@ struct Wandering {
   double period = 0.0;     // s, of a factor that cycles; 0 where it changes in no such way
 };
 
-// Of the factor that takes most off: one that swings as a sine of the same period in all recordings, or one that
-// changes from stretch to stretch.
+// Of a factor that swings as a sine of the same period in all recordings, or, where only that is more than chance, of
+// one that changes from stretch to stretch.
 Wandering wandering(const std::vector<Leftover>& leftovers);
 // Whether chance does not explain the share.
 bool wanders(const Wandering& wandering);
 
+// Of the fitted recordings.
 std::vector<Leftover> leftovers_of(const Workbench& bench, const Fit& fit);
 
 }  // namespace hysteron

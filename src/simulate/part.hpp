@@ -11,9 +11,8 @@
 //                                          yielded, while what drives it keeps its sign: steps need not resolve it then
 //                                          (optional)
 //   template <class T> towards(p, s, in)   -> T     with settles: what drives it, the velocity where it is left out
-//   template <class T> slack(p)            -> T     with settles: bound as stiffness of the other states meanwhile,
-//   none
-//                                          where it is left out
+//   template <class T> slack(p)            -> T     with settles: bound as stiffness of the other states meanwhile;
+//                                          zero where it is left out
 //   template <class T> stiffness_near(p, s, v, speed, change) -> T     with settles: a closer bound while the velocity,
 //                                          now v, stays below speed and within change of v (optional)
 // A rate that needs the force below has `loaded_rate(p, s, in, below)` in place of `rate`. A series element, behind

@@ -257,7 +257,7 @@ json identifiability(const Plan& plan, const std::vector<RunRecord>& records, in
   const json planned = plan_json(plan);
   const std::vector<const RunRecord*> best = best_runs(planned, records);
   std::vector<json> rows(best.size());
-  parallel_for(best.size(), std::max(threads, 1), [&](std::size_t p) {
+  parallel_for(best.size(), threads, [&](std::size_t p) {
     if (best[p] == nullptr || (stop && stop())) return;
     rows[p] = Winner(plan, plan.problems[p], best[p]->best).run(stop);
     if (!rows[p].is_null()) rows[p]["key"] = best[p]->key;
