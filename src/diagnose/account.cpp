@@ -199,6 +199,15 @@ void note_verdict(Diagnosis& diagnosis) {
     diagnosis.notes.push_back("the augmented model uses " + joined(diagnosis.search.augmented.what.effects, " and ") +
                               " as a shape that predicts better; it is not offered as the cause");
   }
+  if (is_named(diagnosis.verdict, diagnosis.search.tried)) {
+    for (const Trial& trial : diagnosis.search.trials) {
+      diagnosis.notes.push_back(
+          survived(trial)
+              ? fmt::format("{} is needed {} too, where it keeps {:.0f} % of its gain", diagnosis.search.tried,
+                            trial.under, 100.0 * std::min(trial.share, 1.0))
+              : fmt::format("{} is not needed {}: take its name with care", diagnosis.search.tried, trial.under));
+    }
+  }
   for (const std::string& name : diagnosis.search.richer) {
     diagnosis.notes.push_back("the recordings also ask for a richer dependence of " + name + " on the drive");
   }

@@ -8,6 +8,7 @@
 
 #include "diagnose/account.hpp"
 #include "diagnose/noise.hpp"
+#include "diagnose/outliers.hpp"
 #include "diagnose/thin.hpp"
 #include "diagnose/wander.hpp"
 #include "fit/identify.hpp"
@@ -261,20 +262,49 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const Split& split
   return result;
 }
 
+// Takes what stands out alone from the forces; the note that says so, empty where nothing does.
+std::string without_outliers(Campaign& campaign) {
+  std::size_t replaced = 0;
+  std::size_t samples = 0;
+  std::size_t recordings = 0;
+  for (Recording& recording : campaign.recordings) {
+    const std::size_t here = replace_outliers(recording);
+    replaced += here;
+    samples += recording.size();
+    recordings += here > 0 ? 1 : 0;
+  }
+  return replaced == 0 ? std::string{}
+                       : fmt::format(
+                             "{} of {} force samples, in {} of {} recordings, stand out alone: they were replaced by "
+                             "what their neighbours say, in all figures here",
+                             replaced, samples, recordings, campaign.recordings.size());
+}
+
+void add_note(Diagnosis& diagnosis, const std::string& note) {
+  if (!note.empty()) {
+    diagnosis.notes.push_back(note);
+  }
+}
+
 }  // namespace
 
-std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const DiagnoseOptions& options,
+std::unique_ptr<Diagnosis> diagnose(const Campaign& recorded, const DiagnoseOptions& options,
                                     const SearchProgress& progress) {
+  Campaign campaign = recorded;
+  const std::string cleaned = without_outliers(campaign);
   const Split split = split_of(campaign);
   std::unique_ptr<Diagnosis> result = diagnose(campaign, split, options, progress);
   if (!split.by_program || result->surprises.empty()) {
+    add_note(*result, cleaned);
     return result;
   }
   // The split was the program's own: what only a held-out recording shows has to be learnt from it.
   Split other = split_of(campaign, result->surprises);
   other.how +=
       " (first others, of which " + joined(result->surprises, " and ") + " showed what the fitted ones did not)";
-  return diagnose(campaign, other, options, progress);
+  result = diagnose(campaign, other, options, progress);
+  add_note(*result, cleaned);
+  return result;
 }
 
 }  // namespace hysteron

@@ -147,6 +147,9 @@ NoiseFloor noise_floor(const Recording& recording) {
   if (result.white <= 0.0) {
     result.white = clipped_deviation(fourth);
   }
+  // Periods that repeat are rounded alike, and a force that rests on a step shows no differences.
+  const double rounding = channel_quantum(recording.force) / std::sqrt(12.0);
+  result.white = std::max(result.white, rounding);
   const Periodicity cycle = periodicity(recording);
   if (cycle.period > 0.0) {
     std::vector<double> differences;
@@ -161,7 +164,8 @@ NoiseFloor noise_floor(const Recording& recording) {
       noise += 1.0 + next.noise;
     }
     if (differences.size() >= 16) {
-      result.sigma = clipped_deviation(differences) / std::sqrt(noise / static_cast<double>(differences.size()));
+      result.sigma = std::max(
+          clipped_deviation(differences) / std::sqrt(noise / static_cast<double>(differences.size())), rounding);
       result.method = "cycles";
       result.cycles = (cycle.ends - cycle.begins) / cycle.period;
       return result;

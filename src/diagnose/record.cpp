@@ -33,13 +33,20 @@ json evidence_json(const Search& search) {
                      {"rivals", rivals}});
   }
   json laws = json::array();
-  for (const auto& [law, squares] : search.other_laws) {
-    laws.push_back({{"model", law}, {"squares", squares}});
+  for (const Fit& law : search.other_laws) {
+    laws.push_back({{"model", law.what.model}, {"squares", squared(law.cost)}});
+  }
+  json trials = json::array();
+  for (const Trial& trial : search.trials) {
+    trials.push_back(
+        {{"id", search.tried}, {"under", trial.under}, {"share_of_gain", trial.share}, {"evidence", trial.evidence}});
   }
   return {{"base", misfit_json(search.base_misfit)},
           {"augmented", misfit_json(search.misfit)},
           {"found", found},
-          {"other_laws", laws}};
+          {"further", search.further ? json(*search.further) : json(nullptr)},
+          {"other_laws", laws},
+          {"trials", trials}};
 }
 
 }  // namespace

@@ -25,6 +25,9 @@ constexpr double wider_evidence = 3.0;
 // No further effects are looked for once this part of what was explained is left above the noise, or is all that the
 // last one added: the next could not be named.
 constexpr double negligible = 0.05;
+// Where the effects take less than this many times what they leave off the squared error, the verdict asks whether
+// anything else would help.
+constexpr double near_what_stays = 2.0;
 
 bool is_series(const std::string& id) {
   const Part* part = find_effect(id);
@@ -222,6 +225,7 @@ Search search(const Workbench& bench, const Workbench& fine, const Hypothesis& b
   Fit current = result.quick_base;
   double effective = misfit_of(bench, current).effective;
   std::vector<std::vector<Tried>> stages;
+  std::vector<Hypothesis> behind;  // what each stage was tried behind
   double strongest = 0.0;
   for (int depth = 0; depth < options.most_effects; ++depth) {
     progress(0.1 + 0.6 * depth / options.most_effects, "trying " + std::to_string(candidates.size()) +
@@ -237,6 +241,7 @@ Search search(const Workbench& bench, const Workbench& fine, const Hypothesis& b
       std::ranges::stable_sort(tried, [](const Tried& a, const Tried& b) { return a.evidence > b.evidence; });
     }
     stages.push_back(tried);
+    behind.push_back(current.what);
     const auto chosen = std::ranges::find_if(tried, [&](const Tried& one) { return worth(one, current, count); });
     if (chosen == tried.end()) {
       break;
@@ -355,6 +360,30 @@ Search search(const Workbench& bench, const Workbench& fine, const Hypothesis& b
     }
   }
 
+  if (!result.found.empty() && squared(result.quick_base.cost) < (1.0 + near_what_stays) * squared(current.cost)) {
+    const auto at =
+        std::ranges::find_if(behind, [&](const Hypothesis& what) { return same_parts(what, current.what); });
+    const std::vector<Tried> next = at == behind.end() ? stage(bench, current, candidates, effective)
+                                                       : stages[static_cast<std::size_t>(at - behind.begin())];
+    result.further = next.empty() ? 0.0 : std::max(0.0, next.front().evidence);
+  }
+
+  if (!result.found.empty()) {
+    progress(0.75, "fitting other damper laws");
+    for (const char* law : {"bouc-wen", "hyperbolic-tangent", "algebraic-hysteresis", "modified-dahl", "lugre"}) {
+      if (base.model == law || find_model(law) == nullptr) {
+        continue;
+      }
+      result.other_laws.push_back(bench.from_anywhere({law, {}, {}}, options.base_budget / 2));
+    }
+    const auto strong = std::ranges::max_element(result.found, {}, &Found::gain);
+    if (!is_law(strong->id)) {
+      result.tried = strong->id;
+      result.trials =
+          trials_of(bench, strong->id, current, strong->without, result.quick_base, result.other_laws, effective);
+    }
+  }
+
   progress(0.8, "fitting the augmented model to more samples");
   result.effective = effective;
   result.quick_augmented = current;
@@ -385,16 +414,6 @@ Search search(const Workbench& bench, const Workbench& fine, const Hypothesis& b
   });
   std::ranges::stable_sort(result.found, [](const Found& a, const Found& b) { return a.gain > b.gain; });
 
-  if (!result.found.empty()) {
-    progress(0.9, "fitting other damper laws");
-    for (const char* law : {"bouc-wen", "hyperbolic-tangent", "algebraic-hysteresis", "modified-dahl", "lugre"}) {
-      if (base.model == law || find_model(law) == nullptr) {
-        continue;
-      }
-      const Fit other = bench.from_anywhere({law, {}, {}}, options.base_budget / 2);
-      result.other_laws.emplace_back(law, squared(other.cost));
-    }
-  }
   return result;
 }
 

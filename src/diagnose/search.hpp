@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "diagnose/misfit.hpp"
+#include "diagnose/withstand.hpp"
 
 namespace hysteron {
 
@@ -47,9 +48,13 @@ struct Search {
   // As the comparison saw them, on the quick workbench.
   Fit quick_base;
   Fit quick_augmented;
-  double effective = 0.0;                                  // samples worth of independent information there
-  std::vector<Tried> first_stage;                          // every single hypothesis against the base, best first
-  std::vector<std::pair<std::string, double>> other_laws;  // other base laws without effects: id, squares
+  double effective = 0.0;  // samples worth of independent information there
+  // Evidence of the best further hypothesis behind the augmented model; none where that was not looked at.
+  std::optional<double> further;
+  std::vector<Tried> first_stage;  // every single hypothesis against the base, best first
+  std::vector<Fit> other_laws;     // other base laws without effects
+  std::string tried;               // the strongest effect, which was put to these trials
+  std::vector<Trial> trials;
 };
 
 // share of all the work done, what is being done

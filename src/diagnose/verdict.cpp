@@ -29,6 +29,15 @@ constexpr double least_gain_over_noise = 0.05;
 // Where nothing of what stays follows the motion, this part of it is enough, of evidence that no noise gives.
 constexpr double least_settled_gain = 0.1;
 constexpr double least_settled_evidence = 150.0;
+// Near the noise the evidence decides: an effect of this much is named however little it is beside the noise, where
+// what stays is like noise and nothing further is worth this much, or this part of it. Rivals are as good then within
+// this share of its gain, or this part of its evidence.
+constexpr double telling_evidence = 80.0;
+constexpr std::size_t most_told = 2;  // more effects than that are the shape of something else
+constexpr double most_further_evidence = 25.0;
+constexpr double most_further_part = 0.1;
+constexpr double told_margin = 0.12;
+constexpr double told_evidence_part = 0.1;
 // A further effect is named only where at most this many times the noise stays, and not beside its own kin: what the
 // form of the first one misses looks like another.
 constexpr double near_noise = 1.5;
@@ -52,8 +61,12 @@ constexpr double doubtful_share = 0.2;
 constexpr double least_share_of_strongest = 0.08;
 // A fitted lag of the velocity channel and the one between the channels agree within this share.
 constexpr double channel_agreement = 0.25;
-// Another damper law does as well when its squared error is within this factor of the augmented model's.
+// An effect survives another assumption where it keeps this part of its gain.
+constexpr double surviving_share = 0.25;
+// Another damper law does as well when its squared error is within this factor of the augmented model's, and it takes
+// this part of what the effects take off the base law's.
 constexpr double law_factor = 1.1;
+constexpr double law_part = 0.5;
 
 // Whether the judging recordings bear the gain out. A plain gain may be of something they do not excite.
 bool confirmed(const Found& found, const Fit& augmented) {
@@ -108,7 +121,12 @@ bool follows_drive(const Layout& layout, const std::string& parameter) {
   });
 }
 
+// What the confidence is multiplied by where the effect is not needed under another assumption.
+constexpr double unsteady_confidence = 0.7;
+
 }  // namespace
+
+bool survived(const Trial& trial) { return trial.evidence > least_evidence && trial.share > surviving_share; }
 
 Verdict verdict_of(const Search& search, const Circumstances& known) {
   Verdict verdict;
@@ -141,20 +159,25 @@ Verdict verdict_of(const Search& search, const Circumstances& known) {
     }
     return verdict;
   }
-  for (const auto& [law, squares] : search.other_laws) {
-    if (squares < law_factor * search.misfit.squares) {
+  const double with_effects = squared(search.quick_augmented.cost);
+  const double by_law = with_effects + (1.0 - law_part) * (squared(search.quick_base.cost) - with_effects);
+  for (const Fit& law : search.other_laws) {
+    if (squared(law.cost) < std::min(law_factor * with_effects, by_law)) {
       verdict.word = "unattributed";
-      verdict.reason = "the damper law " + law + " without any added effect does as well as " + search.base.what.model +
-                       " with them: the base law is in question";
+      verdict.reason = "the damper law " + law.what.model + " without any added effect does as well as " +
+                       search.base.what.model + " with them: the base law is in question";
       return verdict;
     }
   }
   for (const Found& found : search.found) {
-    if (found.gain < std::max(wanted, least_share_of_strongest * search.found.front().gain) ||
-        !confirmed(found, search.augmented)) {
+    const bool told = settled && search.found.size() <= most_told && found.evidence > telling_evidence &&
+                      search.further &&
+                      *search.further < std::max(most_further_evidence, most_further_part * found.evidence);
+    if (found.gain < least_share_of_strongest * search.found.front().gain || !confirmed(found, search.augmented)) {
       continue;
     }
-    if (found.evidence < least_settled_evidence && found.gain < least_gain_over_leftover * beyond_estimate) {
+    if (!told && (found.gain < wanted || (found.evidence < least_settled_evidence &&
+                                          found.gain < least_gain_over_leftover * beyond_estimate))) {
       continue;
     }
     if (!verdict.effects.empty() &&
@@ -170,13 +193,16 @@ Verdict verdict_of(const Search& search, const Circumstances& known) {
     named.without = &found.without;
     named.share_of_misfit = found.share_of_misfit;
     const double clear_of_noise = clear_factor * std::max(above_floor, floor_doubt * search.misfit.floor) / found.gain;
-    const double margin = std::max(std::min(least_margin, clear_of_noise), margin_of_leftover * leftover / found.gain);
+    const double usual_margin =
+        std::max(std::min(least_margin, clear_of_noise), margin_of_leftover * leftover / found.gain);
+    const double margin = told ? std::min(usual_margin, told_margin) : usual_margin;
+    const double ahead = told ? std::max(least_evidence, told_evidence_part * found.evidence) : least_evidence;
     double best_share = 0.0;
     std::vector<const Rival*> as_good;
     const Rival* instead = nullptr;  // to be named in place of the effect
     for (const Rival& rival : found.rivals) {
-      const bool close = rival.share > 1.0 - margin || rival.evidence < least_evidence ||
-                         ends_as(search.augmented, found.id, rival.id, known);
+      const bool close =
+          rival.share > 1.0 - margin || rival.evidence < ahead || ends_as(search.augmented, found.id, rival.id, known);
       // What holds the effect as a limit always explains as much; only more than its further parameters are worth
       // counts.
       if (is_limit(found.id, rival.id) &&
@@ -223,6 +249,9 @@ Verdict verdict_of(const Search& search, const Circumstances& known) {
     named.confidence =
         alone ? std::min(0.99, 1.0 - 0.3 / std::max(clear, 1.0)) * (better ? 1.0 : 0.8)
               : 1.0 / static_cast<double>(1 + named.indistinguishable_from.size() + named.laws_as_good.size());
+    if (named.id == search.tried && !std::ranges::all_of(search.trials, survived)) {
+      named.confidence *= unsteady_confidence;
+    }
     verdict.effects.push_back(named);
     if (!alone && verdict.effects.size() == 1) {
       // The strongest cannot be told from its rivals: the answer is the set.
@@ -242,7 +271,8 @@ Verdict verdict_of(const Search& search, const Circumstances& known) {
   if (verdict.effects.empty()) {
     // Gains that the held-out recordings bear out are of something, even where the residual looks like noise.
     const bool shown = std::ranges::any_of(search.found, [&](const Found& found) {
-      return found.evidence > least_evidence && found.gain > shown_gain * search.base_misfit.squares &&
+      return (found.evidence > telling_evidence ||
+              (found.evidence > least_evidence && found.gain > shown_gain * search.base_misfit.squares)) &&
              confirmed(found, search.augmented);
     });
     const bool quiet = !structured(search.base_misfit) && !shown;

@@ -46,6 +46,9 @@ struct Circumstances {
   std::optional<ChannelLag> channel;
 };
 
+// Whether the effect is needed there too.
+bool survived(const Trial& trial);
+
 // Pointers refer into `search`.
 Verdict verdict_of(const Search& search, const Circumstances& known);
 

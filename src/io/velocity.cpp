@@ -133,10 +133,14 @@ double samples_on_a_side(std::span<const double> t, std::span<const double> x, d
 }
 
 // weights . x = slope at u = 0 of the least-squares cubic through (u, x), by orthogonal polynomials (Forsythe 1957).
-// Points too clustered for a cubic get the highest degree they carry.
-void slope_weights(std::span<const double> u, std::vector<double>& weights, std::vector<double>& p,
-                   std::vector<double>& previous) {
+// Points too clustered for a cubic get the highest degree they carry. Given x and its noise, the degree is the highest,
+// at least one, whose part of x is more than twice the noise; returns the mean square of what the cubic leaves of x.
+double slope_weights(std::span<const double> u, std::vector<double>& weights, std::vector<double>& p,
+                     std::vector<double>& previous, std::span<const double> x = {}, double noise = 0.0) {
   const std::size_t n = u.size();
+  std::vector<double> told;
+  double left = 0.0;
+  for (const double value : x) left += (value - x[0]) * (value - x[0]);
   weights.assign(n, 0.0);
   p.assign(n, 1.0);
   previous.assign(n, 0.0);
@@ -154,8 +158,14 @@ void slope_weights(std::span<const double> u, std::vector<double>& weights, std:
       moment += u[j] * p[j] * p[j];
     }
     if (degree == 0) first_norm = norm;
-    if (norm < 1e-14 * first_norm) return;
+    if (norm < 1e-14 * first_norm) break;
     for (std::size_t j = 0; j < n; ++j) weights[j] += p[j] * slope / norm;
+    if (!x.empty()) {
+      double part = 0.0;
+      for (std::size_t j = 0; j < n; ++j) part += p[j] * (x[j] - x[0]) / std::sqrt(norm);
+      left -= part * part;
+      if (degree <= 1 || std::abs(part) > 2.0 * noise) told = weights;
+    }
     const double a = moment / norm;
     const double b = degree == 0 ? 0.0 : norm / norm_before;
     for (std::size_t j = 0; j < n; ++j) {
@@ -171,6 +181,8 @@ void slope_weights(std::span<const double> u, std::vector<double>& weights, std:
     slope = next_slope;
     norm_before = norm;
   }
+  if (!x.empty()) weights = told;
+  return std::max(left, 0.0) / std::max(static_cast<double>(n) - 4.0, 1.0);
 }
 
 bool is_uniform(std::span<const double> t, double dt) {
@@ -264,9 +276,35 @@ std::vector<Corner> corners_of(std::span<const double> t, std::span<const double
   return result;
 }
 
+// Slope at sample i, near an end, where the window is `length` steps long at most. There the cubic has no samples on
+// one side: it passes on many times as much noise, and what it misses of a start or a stop. The window is halved until
+// the cubic leaves no more than the noise, and the degree is what the noise allows to tell.
+double slope_at_an_end(std::span<const double> t, std::span<const double> x, std::size_t i, std::size_t length,
+                       double noise) {
+  std::vector<double> u;
+  std::vector<double> weights;
+  std::vector<double> p;
+  std::vector<double> previous;
+  for (;;) {
+    const std::size_t begin = std::min(i - std::min(i, length / 2), t.size() - 1 - length);
+    const std::size_t count = length + 1;
+    const double scale = t[begin + length] - t[begin];
+    u.resize(count);
+    for (std::size_t j = 0; j < count; ++j) u[j] = (t[begin + j] - t[i]) / scale;
+    const double left = slope_weights(u, weights, p, previous, x.subspan(begin, count), noise);
+    const double doubt = 3.0 * std::sqrt(2.0 / static_cast<double>(count));
+    if (left <= (1.0 + doubt) * noise * noise || length < 4 * fewest_on_a_side) {
+      double slope = 0.0;
+      for (std::size_t j = 0; j < count; ++j) slope += weights[j] / scale * (x[begin + j] - x[i]);
+      return slope;
+    }
+    length /= 2;
+  }
+}
+
 // Slopes of a stretch without corners; `side` samples on each side of the window, of `median_step` each.
 void derive_stretch(std::span<const double> time, std::span<const double> displacement, double side, double median_step,
-                    std::span<double> velocity) {
+                    double noise, std::span<double> velocity) {
   const std::size_t n = time.size();
   if (n < 2) return;
   const auto h = static_cast<std::size_t>(side);
@@ -313,6 +351,10 @@ void derive_stretch(std::span<const double> time, std::span<const double> displa
         }
       }
     }
+    if ((begin == 0 && i < h) || (end + 1 == n && i + h >= n)) {
+      velocity[i] = slope_at_an_end(time, displacement, i, end - begin, noise);
+      continue;
+    }
     if (!(middle && weights_of_the_middle)) {
       const double scale = uniform ? mean_step * side : half_width;
       u.resize(end - begin + 1);
@@ -352,12 +394,12 @@ double median_step_of(std::span<const double> time) {
 
 // Slopes of y over windows of `side` samples on each side that do not reach across corners.
 std::vector<double> slopes_between(const std::vector<Corner>& corners, std::span<const double> time,
-                                   std::span<const double> y, double side, double median_step) {
+                                   std::span<const double> y, double side, double median_step, double noise) {
   std::vector<double> slopes(time.size(), 0.0);
   std::size_t first = 0;
   const auto derive_to = [&](std::size_t last) {
     const std::size_t count = last + 1 - first;
-    derive_stretch(time.subspan(first, count), y.subspan(first, count), side, median_step,
+    derive_stretch(time.subspan(first, count), y.subspan(first, count), side, median_step, noise,
                    std::span(slopes).subspan(first, count));
     first = last + 1;
   };
@@ -380,8 +422,13 @@ std::vector<std::size_t> samples_on(const Corner& corner, std::span<const double
 double channel_noise(std::span<const double> time, std::span<const double> samples) {
   assert(time.size() == samples.size());
   if (samples.size() < 8) return 0.0;
+  return std::max(noise_of(time, samples), channel_quantum(samples) / std::sqrt(12.0));
+}
+
+double channel_quantum(std::span<const double> samples) {
+  if (samples.size() < 2) return 0.0;
   const auto [low, high] = std::ranges::minmax_element(samples);
-  return std::max(noise_of(time, samples), quantum_of(samples, *high - *low) / std::sqrt(12.0));
+  return quantum_of(samples, *high - *low);
 }
 
 std::vector<double> derive_velocity(std::span<const double> time, std::span<const double> displacement) {
@@ -392,7 +439,8 @@ std::vector<double> derive_velocity(std::span<const double> time, std::span<cons
   const double median_step = median_step_of(time);
   const double side = n > 7 ? samples_on_a_side(time, displacement, median_step) : 2.0;
   const std::vector<Corner> corners = corners_of(time, displacement, static_cast<std::size_t>(side), median_step);
-  std::vector<double> velocity = slopes_between(corners, time, displacement, side, median_step);
+  std::vector<double> velocity =
+      slopes_between(corners, time, displacement, side, median_step, channel_noise(time, displacement));
   // A sample on the corner has the speed of neither side: with the mean, the motion between samples does not overshoot.
   for (const Corner& corner : corners) {
     for (const std::size_t i : samples_on(corner, time)) velocity[i] = corner.speed;
@@ -418,8 +466,11 @@ std::vector<double> derive_acceleration(std::span<const double> time, std::span<
     }
   }
   // On a corner itself the change of velocity happens within as few samples as can show it.
+  // The noise of a derived velocity is that of the displacement over its window, and alike over as many samples.
+  const double end_noise = measured ? channel_noise(time, velocity)
+                                    : std::sqrt(2.0 * 9.375) * channel_noise(time, displacement) / (step * of_velocity);
   const auto slopes_over = [&](double side) {
-    std::vector<double> slopes = slopes_between(corners, time, beside, side, step);
+    std::vector<double> slopes = slopes_between(corners, time, beside, side, step, end_noise);
     for (const Corner& corner : corners) {
       for (std::size_t i = std::max<std::size_t>(corner.last, 2) - 1; i < std::min(corner.last + 3, n - 1); ++i) {
         slopes[i] = (velocity[i + 1] - velocity[i - 1]) / (time[i + 1] - time[i - 1]);

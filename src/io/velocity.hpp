@@ -33,5 +33,7 @@ namespace hysteron {
 // Standard deviation of the noise of a smooth channel, in its unit: the larger of what each sample differs from the
 // quintic through its six neighbours and a quantum over sqrt(12). Time strictly increasing; 0 for fewer than 8 samples.
 [[nodiscard]] double channel_noise(std::span<const double> time, std::span<const double> samples);
+// The step of a quantised channel, in its unit; 0 when its increments are not multiples of the smallest one.
+[[nodiscard]] double channel_quantum(std::span<const double> samples);
 
 }  // namespace hysteron

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <tuple>
 
 namespace hysteron {
 namespace {
@@ -92,6 +93,51 @@ TEST(Verdict, WhatIsLikeNoiseInAllIsTheNoise) {
     search.found[0].without.cost = search.found[0].without.heldout = std::sqrt((1.01 + gain) * floor_squares);
     search.misfit.evenness = {0.01, 0.02};
     EXPECT_EQ(verdict_of(search, plain).word == "missing-physics", named) << gain;
+  }
+}
+
+TEST(Verdict, NearTheNoiseTheEvidenceDecides) {
+  const auto small = [](double evidence, std::optional<double> further) {
+    Search search = search_of("quadratic-damping", 1.1 * floor_squares, 0.03 * floor_squares);
+    search.found[0].without.cost = search.found[0].without.heldout = std::sqrt(1.13 * floor_squares);
+    search.found[0].evidence = evidence;
+    search.misfit.evenness = {0.01, 0.02};
+    search.further = further;
+    return search;
+  };
+  EXPECT_EQ(verdict_of(small(200.0, 5.0), plain).word, "missing-physics");
+  EXPECT_EQ(verdict_of(small(50.0, 5.0), plain).word, "complete") << "as much as a noise that is not white may give";
+  EXPECT_EQ(verdict_of(small(200.0, 60.0), plain).word, "unattributed") << "something else is missing too";
+  EXPECT_EQ(verdict_of(small(200.0, std::nullopt), plain).word, "unattributed") << "what else helps was not looked at";
+  Search search = small(200.0, 5.0);
+  search.misfit.evenness = {0.03, 0.02};
+  EXPECT_EQ(verdict_of(search, plain).word, "unattributed") << "what stays follows the motion";
+  search = small(200.0, 5.0);
+  search.found.resize(3, search.found.front());
+  EXPECT_EQ(verdict_of(search, plain).word, "unattributed") << "three effects are the shape of something else";
+  // A rival is as good that comes near in share or in evidence.
+  for (const auto& [share, evidence, ambiguous] :
+       {std::tuple{0.7, 60.0, false}, std::tuple{0.7, 15.0, true}, std::tuple{0.92, 60.0, true}}) {
+    search = small(200.0, 5.0);
+    search.found[0].rivals = {rival("shear-thinning", share, evidence)};
+    EXPECT_EQ(verdict_of(search, plain).word == "ambiguous", ambiguous) << share << " " << evidence;
+  }
+}
+
+TEST(Verdict, AnotherLawIsAsGoodOnlyIfItTakesMuchOfTheGain) {
+  for (const auto& [gain, law, word] :
+       {std::tuple{40.0, 1.15, "unattributed"}, std::tuple{40.0, 1.3, "missing-physics"},
+        std::tuple{0.1, 1.13, "unattributed"}, std::tuple{0.1, 1.17, "missing-physics"}}) {
+    Search search = search_of("inertia", 1.1 * floor_squares, gain * floor_squares);
+    search.misfit.evenness = {0.01, 0.02};
+    search.further = 0.0;
+    search.quick_base.cost = search.base.cost;
+    search.quick_augmented.cost = search.augmented.cost;
+    Fit other;
+    other.what.model = "bouc-wen";
+    other.cost = std::sqrt(law * floor_squares);
+    search.other_laws = {other};
+    EXPECT_EQ(verdict_of(search, plain).word, word) << gain << " " << law;
   }
 }
 

@@ -7,6 +7,8 @@
 #include <numbers>
 #include <vector>
 
+#include "core/random.hpp"
+
 namespace hysteron {
 namespace {
 
@@ -86,6 +88,30 @@ TEST(Velocity, ExactForCubicsUpToTheEnds) {
   }
   const auto v = derive_velocity(t, x);
   for (std::size_t i = 0; i < t.size(); ++i) EXPECT_NEAR(v[i], 2.0 + t[i] - 0.9 * t[i] * t[i], 1e-9) << i;
+}
+
+TEST(Velocity, AStartFromRestIsNotSmeared) {
+  // At rest for a tenth of a second, then a slow motion that is faded in: its noise asks for a window far longer.
+  const auto t = uniform(250, 20.0);
+  const Stream stream(5);
+  const double noise = 2e-5;
+  for (const bool reversed : {false, true}) {
+    std::vector<double> x;
+    std::vector<double> exact;
+    for (std::size_t i = 0; i < t.size(); ++i) {
+      const double at = std::max(0.0, t[reversed ? t.size() - 1 - i : i] - 0.1);
+      const double fade = std::tanh(at * at / 0.04);
+      const double speed = 0.012 * fade * std::cos(0.6 * at) +
+                           (1.0 - fade * fade) * 2.0 * at / 0.04 * (0.004 + 0.02 * std::sin(0.6 * at));
+      x.push_back(fade * (0.004 + 0.02 * std::sin(0.6 * at)) + noise * stream.normal(i));
+      exact.push_back(reversed ? -speed : speed);
+    }
+    const auto v = derive_velocity(t, x);
+    for (std::size_t k = 0; k < 20; ++k) {
+      const std::size_t i = reversed ? t.size() - 1 - k : k;
+      EXPECT_NEAR(v[i], exact[i], 4e-3) << reversed << " " << k;
+    }
+  }
 }
 
 TEST(Velocity, RestIsZeroAndGapsAreBridged) {
