@@ -44,9 +44,14 @@ bool tell_interrupted(const RunProgress& progress, const std::string& out) {
   return true;
 }
 
-void tell_done(const RunProgress& progress, const Store& store, const std::string& out) {
+// Of a whole study, which may be one of several shards.
+void conclude(const Plan& plan, Store& store, const RunProgress& progress, const RunOptions& options,
+              const std::string& out, bool quiet) {
+  std::vector<RunRecord> records = store.records();
+  // A shard knows a part of the runs only: the best may be elsewhere.
+  if (options.shard_count == 1) add_identifiability(plan, store, records, options.threads, quiet);
   fmt::print("{} runs done, {} found in {}\n\n", progress.done, progress.found, out);
-  const StudyView view = view_of(store, out);
+  const StudyView view = view_of(store, std::move(records), out);
   fmt::print("{}\nThe whole report: hysteron report {}\n", study_terminal(view.analysis, view.times), out);
 }
 
@@ -74,8 +79,7 @@ void run_together(const std::string& study, const std::string& out, RunOptions o
   }
   if (first && outcome.status == 0) {
     Store store = Store::open(out, Store::Mode::write);
-    if (options.shard_count == 1) add_identifiability(*plan, store, options.threads, quiet);
-    tell_done(outcome.progress, store, out);
+    conclude(*plan, store, outcome.progress, options, out, quiet);
   } else if (first && !outcome.message.empty()) {
     fmt::print(stderr, "error: {}\n", outcome.message);
   } else if (first) {
@@ -144,9 +148,7 @@ void add_bench(CLI::App& program) {
     absorb_ranks(store, options->out);
     const RunProgress progress = run_with_progress(plan, store, run, options->quiet);
     if (tell_interrupted(progress, options->out)) return;
-    // A shard knows a part of the runs only: the best may be elsewhere.
-    if (run.shard_count == 1) add_identifiability(plan, store, run.threads, options->quiet);
-    tell_done(progress, store, options->out);
+    conclude(plan, store, progress, run, options->out, options->quiet);
   });
 }
 

@@ -58,7 +58,7 @@ void add_merge(CLI::App& program) {
     for (const auto& [hash, config] : problems) whole.add_problem(hash, config);
     for (const auto& [key, record] : records)
       whole.add(record.first, timings.contains(key) ? timings.at(key) : RunTiming{key, 0.0, {}, 1, 0});
-    const StudyView view = view_of(whole, options->out);
+    const StudyView view = view_of(whole, whole.records(), options->out);
     fmt::print("{} of {} runs in {}\n", view.analysis.at("done").get<std::size_t>(),
                view.analysis.at("planned").get<std::size_t>(), options->out);
   });

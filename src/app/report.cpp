@@ -28,9 +28,9 @@ void add_report(CLI::App& program) {
   command->footer("Example:\n  hysteron report out --times --ioh");
   command->callback([options] {
     const Store store = open_gathered(options->folder);
-    const StudyView view = view_of(store, options->folder);
+    const StudyView view = view_of(store, store.records(), options->folder);
     const std::filesystem::path out = options->out.empty() ? options->folder : options->out;
-    write_study_report(store, out, view, options->times, options->ioh);
+    write_study_report(out, view, options->times, options->ioh);
     if (options->json) {
       fmt::print("{}", json_text(view.analysis));
       return;

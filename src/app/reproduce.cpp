@@ -93,10 +93,11 @@ void run(const Options& options) {
                options.out.empty() ? "; with --out DIR they would be kept" : " are kept in " + options.out);
     return;
   }
-  const Reproduction result = entry->result(plan, store.records());
+  std::vector<RunRecord> records = store.records();
+  const Reproduction result = entry->result(plan, records);
   if (!options.out.empty()) {
-    const StudyView view = view_of(store, out);
-    write_study_report(store, out, view, false, false);
+    const StudyView view = view_of(store, std::move(records), out);
+    write_study_report(out, view, false, false);
     write_file_atomically(out / (options.table + ".md"), reproduction_markdown(*entry, result, used));
     write_file_atomically(out / (options.table + ".json"), json_text(reproduction_json(*entry, result, used)));
   }

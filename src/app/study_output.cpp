@@ -39,8 +39,8 @@ RunProgress run_with_progress(const Plan& plan, Store& store, const RunOptions& 
   return progress;
 }
 
-void add_identifiability(const Plan& plan, Store& store, int threads, bool quiet) {
-  const std::vector<RunRecord> records = store.records();
+void add_identifiability(const Plan& plan, Store& store, const std::vector<RunRecord>& records, int threads,
+                         bool quiet) {
   std::vector<std::string> keys;
   for (const RunRecord* best : best_runs(plan_json(plan), records)) keys.push_back(best == nullptr ? "" : best->key);
   if (const auto stored = store.identifiability()) {
@@ -56,13 +56,14 @@ void add_identifiability(const Plan& plan, Store& store, int threads, bool quiet
   if (!found.at("problems").is_null()) store.set_identifiability(found.dump());
 }
 
-StudyView view_of(const Store& store, const std::filesystem::path& folder) {
+StudyView view_of(const Store& store, std::vector<RunRecord> of_store, const std::filesystem::path& folder) {
   const auto text = store.plan();
   if (!text)
     throw InputError(folder.string(), 0, "the store holds no plan yet, expected a study begun with `hysteron bench`");
   StudyView view;
   view.plan = json::parse(*text);
-  const std::vector<RunRecord> records = store.records();
+  view.records = std::move(of_store);
+  const std::vector<RunRecord>& records = view.records;
   view.analysis = analyse(view.plan, records);
   if (const auto stored = store.identifiability()) {
     // Of the best runs of now, or not at all.
@@ -79,10 +80,9 @@ StudyView view_of(const Store& store, const std::filesystem::path& folder) {
   return view;
 }
 
-void write_study_report(const Store& store, const std::filesystem::path& folder, const StudyView& view, bool times,
-                        bool ioh) {
+void write_study_report(const std::filesystem::path& folder, const StudyView& view, bool times, bool ioh) {
   make_output_folder(folder);
-  const std::vector<RunRecord> records = store.records();
+  const std::vector<RunRecord>& records = view.records;
   const json shown = times ? view.times : json(nullptr);
   write_file_atomically(folder / "analysis.json", json_text(view.analysis));
   write_file_atomically(folder / "report.html", study_html(view.analysis, shown));

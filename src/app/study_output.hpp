@@ -28,20 +28,21 @@ class StudyProgress {
 RunProgress run_with_progress(const Plan& plan, Store& store, const RunOptions& options, bool quiet);
 
 // Works out what the data say of the parameters of the best fits, where the store does not have it for these runs.
-void add_identifiability(const Plan& plan, Store& store, int threads, bool quiet);
+void add_identifiability(const Plan& plan, Store& store, const std::vector<RunRecord>& records, int threads,
+                         bool quiet);
 
 // NOLINTNEXTLINE(bugprone-exception-escape): a move of nlohmann::json does not throw, its assertions hide that.
 struct StudyView {
+  std::vector<RunRecord> records;
   nlohmann::json plan;
   nlohmann::json analysis;
   nlohmann::json times;
 };
-// Throws InputError for a store without a plan.
-StudyView view_of(const Store& store, const std::filesystem::path& folder);
+// `records` are those of the store. Throws InputError for a store without a plan.
+StudyView view_of(const Store& store, std::vector<RunRecord> records, const std::filesystem::path& folder);
 
 // report.html, report.md, tables.tex, runs.csv, traces.csv, parameters.csv, columns.csv, analysis.json, and
 // environment.json with everything that varies between identical studies. `times` puts wall time into the report too.
-void write_study_report(const Store& store, const std::filesystem::path& folder, const StudyView& view, bool times,
-                        bool ioh);
+void write_study_report(const std::filesystem::path& folder, const StudyView& view, bool times, bool ioh);
 
 }  // namespace hysteron::app

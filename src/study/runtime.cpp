@@ -10,6 +10,8 @@
 namespace hysteron {
 
 ExpectedRunTime expected_run_time(const std::vector<Attempt>& attempts, const Stream& stream, std::size_t resamples) {
+  constexpr std::size_t many_runs = 100;
+  constexpr std::size_t fewest_part = 5;
   ExpectedRunTime result;
   result.runs = attempts.size();
   for (const Attempt& attempt : attempts) {
@@ -19,8 +21,10 @@ ExpectedRunTime expected_run_time(const std::vector<Attempt>& attempts, const St
   if (result.successes == 0) return result;
   result.value = result.spent / static_cast<double>(result.successes);
   std::vector<double> values;
-  values.reserve(resamples);
-  for (std::size_t b = 0; b < resamples; ++b) {
+  const std::size_t enough =
+      std::max(resamples * many_runs / std::max(attempts.size(), many_runs), resamples / fewest_part);
+  values.reserve(enough);
+  for (std::size_t b = 0; b < enough; ++b) {
     double spent = 0.0;
     double successes = 0.0;
     for (std::size_t k = 0; k < attempts.size(); ++k) {

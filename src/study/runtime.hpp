@@ -23,8 +23,10 @@ struct ExpectedRunTime {
   std::size_t runs = 0;
   double spent = 0.0;
   std::optional<double> value;
-  std::optional<Interval> interval;  // 95 %, percentiles of the bootstrap over runs; its upper end may be infinite
+  // 95 %, percentiles of the bootstrap over runs; its upper end may be infinite.
+  std::optional<Interval> interval;
 };
+// At most `resamples`, fewer of more than a hundred runs and never less than a fifth: their interval is narrow.
 [[nodiscard]] ExpectedRunTime expected_run_time(const std::vector<Attempt>& attempts, const Stream& stream,
                                                 std::size_t resamples = 1000);
 
