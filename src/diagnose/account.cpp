@@ -104,7 +104,7 @@ std::string sentence_of(const Diagnosis& diagnosis, const Named& named,
   }
   if (named.fit->heldout < shown_by_judges * named.without->heldout) {
     text += fmt::format(", which takes the held-out NRMSE from {:.3g} to {:.3g} (noise floor {:.2g})",
-                        named.without->heldout, named.fit->heldout, diagnosis.noise_floor);
+                        named.without->heldout, named.fit->heldout, diagnosis.noise_floor_heldout);
   } else {
     text += fmt::format(
         ", which takes the fitted NRMSE from {:.3g} to {:.3g} (noise floor {:.2g}); held-out recordings do not show it "

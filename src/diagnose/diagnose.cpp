@@ -189,16 +189,22 @@ void doubt_completeness(Diagnosis& diagnosis, const Workbench& fine) {
 }
 
 void estimate_noise_floor(Diagnosis& diagnosis, Normalisation normalisation) {
-  double floor = 0.0;
+  const auto relative = [&](const Recording& recording, const NoiseFloor& noise) {
+    return squared(noise.sigma / normaliser(recording, normalisation));
+  };
   std::set<std::string> methods;
-  const std::vector<Recording>& fitted = diagnosis.bench.split().fit;
-  for (const Recording& recording : fitted) {
+  double fitted = 0.0;
+  for (const Recording& recording : diagnosis.bench.split().fit) {
     const NoiseFloor noise = noise_floor(recording);
-    const double relative = noise.sigma / normaliser(recording, normalisation);
-    floor += relative * relative / static_cast<double>(fitted.size());
+    fitted += relative(recording, noise);
     methods.insert(noise.method);
   }
-  diagnosis.noise_floor = std::sqrt(floor);
+  double heldout = 0.0;
+  for (const Judged& judged : diagnosis.bench.split().judge) {
+    heldout += relative(judged.recording, noise_floor(judged.recording));
+  }
+  diagnosis.noise_floor = std::sqrt(fitted / static_cast<double>(diagnosis.bench.split().fit.size()));
+  diagnosis.noise_floor_heldout = std::sqrt(heldout / static_cast<double>(diagnosis.bench.split().judge.size()));
   diagnosis.noise_floor_method = methods.size() == 1 ? *methods.begin() : "cycles where periodic, high-pass elsewhere";
 }
 

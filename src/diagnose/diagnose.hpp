@@ -33,7 +33,8 @@ struct Diagnosis {
   Workbench bench;
   Search search;
   Verdict verdict;
-  double noise_floor = 0.0;  // NRMSE over the fitted recordings
+  double noise_floor = 0.0;          // of the force, NRMSE over the fitted recordings
+  double noise_floor_heldout = 0.0;  // likewise over the judging ones
   std::string noise_floor_method;
   std::vector<Location> locations;
   std::vector<std::vector<ParameterInterval>> parameters;  // of verdict.effects

@@ -102,6 +102,7 @@ json diagnosis_json(const Diagnosis& diagnosis) {
             {"nrmse_fit", search.base.cost},
             {"nrmse_heldout", search.base.heldout},
             {"noise_floor_nrmse", diagnosis.noise_floor},
+            {"noise_floor_heldout_nrmse", diagnosis.noise_floor_heldout},
             {"noise_floor_method", diagnosis.noise_floor_method}}},
           {"verdict", diagnosis.verdict.word},
           {"effects", effects},
