@@ -747,7 +747,7 @@ function diagnosisSection() {
   const parts = [];
   const nrmse = [["Base model", base.nrmse_fit, base.nrmse_heldout]];
   if (d.augmented) nrmse.push(["With the effects found", d.augmented.nrmse_fit, d.augmented.nrmse_heldout]);
-  if (isNumber(base.noise_floor_nrmse)) nrmse.push(["Noise floor of the recordings", base.noise_floor_nrmse, null]);
+  if (isNumber(base.noise_floor_nrmse)) nrmse.push(["Noise floor of the recordings", base.noise_floor_nrmse, base.noise_floor_heldout_nrmse ?? null]);
   parts.push(plainTable("NRMSE before and after", [{ title: "", head: true }, { title: "Fitted recordings", num: true }, { title: "Held-out recordings", num: true }],
     nrmse.map(([name, a, b]) => [name, fmt(a, 3), fmt(b, 3)])));
   if (d.augmented && d.augmented.remaining_structure) parts.push(el("p", {}, "The residual still holds structure: the effects named are not the whole story."));
@@ -767,6 +767,8 @@ function diagnosisSection() {
       [{ title: "Where", head: true }, { title: "Variable" }, { title: "From", num: true }, { title: "To", num: true }, { title: "Unit" }, { title: "Share of misfit", num: true }, { title: "Share of samples", num: true }, { title: "Recordings" }],
       d.locations.map((l) => [l.where || "", l.variable || "", fmt(l.from, 3), fmt(l.to, 3), l.unit || "–", percent(l.share_of_misfit), percent(l.share_of_samples), list(l.recordings).join(", ")])));
   }
+  parts.push(residualMaps(), evidenceTables(d.evidence), driftCharts(d.drift));
+  if (list(d.notes).length) parts.push(el("h3", {}, "Remarks"), el("ul", {}, d.notes.map((n) => el("li", {}, n))));
   if (list(d.rejected).length) {
     // Many effects share a reason: a row a reason, not an effect.
     const reasons = [...new Set(d.rejected.map((x) => x.reason || ""))];
@@ -781,6 +783,145 @@ function diagnosisSection() {
   }
   if (d.next_experiment) parts.push(el("h3", {}, "Next experiment"), el("p", {}, d.next_experiment));
   return section("diagnosis", "Diagnosis", ...parts);
+}
+
+// What is left, of the base model and with the effects found: over displacement and velocity, and since reversal.
+// Residuals are shares of the largest force of their recording, so that all recordings speak together.
+
+const twoLegend = () => el("ul", { class: "legend" },
+  [["baseline", "base model", "dashed"], ["simulated", "with the effects found", "solid"]].map(([cls, text, style]) =>
+    el("li", {}, el("i", { style: `border-color:var(--${cls});border-top-style:${style}` }), text)));
+const peakOf = (r) => Math.max(...extent([r.force_n]).map(Math.abs)) || 1;
+
+// Mean of value(r, i) over a grid of columns x rows; null where no sample is.
+function meanOnGrid(columns, rows, place, value) {
+  const sum = new Float64Array(columns * rows);
+  const count = new Float64Array(columns * rows);
+  for (const r of recordings) {
+    const n = list(r.force_n).length;
+    for (let i = 0; i < n; ++i) {
+      const at = place(r, i);
+      const v = value(r, i);
+      if (at === null || !isNumber(v)) continue;
+      sum[at] += v;
+      count[at] += 1;
+    }
+  }
+  return Array.from(sum, (s, k) => (count[k] > 0 ? s / count[k] : null));
+}
+
+function residualMap(title, cells, columns, rows, limit, xRange, yRange) {
+  const [width, height, top, right, bottom, left] = [380, 300, 6, 8, 36, 52];
+  const frame = chart({ width, height, title, margin: [top, right, bottom, left], series: [],
+    x: { label: channels.displacement.label, range: xRange }, y: { label: channels.velocity.label, range: yRange } });
+  const w = (width - left - right) / columns;
+  const h = (height - top - bottom) / rows;
+  const spots = cells.map((v, k) => {
+    if (v === null) return "";
+    const share = Math.min(Math.abs(v) / limit, 1);
+    return `<rect x="${(left + (k % columns) * w).toFixed(1)}" y="${(height - bottom - (Math.floor(k / columns) + 1) * h).toFixed(1)}" width="${(w + 0.3).toFixed(1)}" height="${(h + 0.3).toFixed(1)}" class="cell ${v > 0 ? "above" : "below"}" fill-opacity="${(0.06 + 0.94 * share).toFixed(2)}"/>`;
+  });
+  return el("figure", { class: "plot" }, el("figcaption", {}, title), svgNode(frame.replace("</svg>", `${spots.join("")}</svg>`)));
+}
+
+// Per sample: direction of motion and the distance since the last reversal of more than 2 % of the stroke.
+function sinceReversal(r) {
+  const x = list(r.displacement_mm);
+  const [lo, hi] = extent([x]);
+  const least = 0.02 * (hi - lo);
+  const direction = [];
+  const distance = [];
+  let sense = 0;
+  let turn = x[0];
+  let furthest = x[0];
+  for (let i = 0; i < x.length; ++i) {
+    if (sense === 0 && Math.abs(x[i] - turn) > least) { sense = Math.sign(x[i] - turn); furthest = x[i]; }
+    if (sense !== 0) {
+      if (sense * (x[i] - furthest) > 0) furthest = x[i];
+      else if (sense * (furthest - x[i]) > least) { turn = furthest; sense = -sense; furthest = x[i]; }
+    }
+    direction.push(sense);
+    distance.push(Math.abs(x[i] - turn));
+  }
+  return { direction, distance };
+}
+
+function residualMaps() {
+  if (!hasBaseline || !recordings.length) return null;
+  const [columns, rows] = [30, 24];
+  const xRange = extent(recordings.map((r) => r.displacement_mm));
+  const yRange = extent(recordings.map((r) => r.velocity_mm_s));
+  const bin = (v, [lo, hi], count) => Math.min(count - 1, Math.max(0, Math.floor(((v - lo) / (hi - lo || 1)) * count)));
+  const place = (r, i) => (isNumber(r.displacement_mm[i]) && isNumber(r.velocity_mm_s[i])
+    ? bin(r.velocity_mm_s[i], yRange, rows) * columns + bin(r.displacement_mm[i], xRange, columns) : null);
+  const lefts = [["Base model", new Map(recordings.map((r) => [r, baselineResidual(r)]))], ["With the effects found", new Map(recordings.map((r) => [r, residual(r)]))]];
+  const peak = new Map(recordings.map((r) => [r, peakOf(r)]));
+  const share = (left) => (r, i) => (left.get(r)[i] === null ? null : left.get(r)[i] / peak.get(r));
+  const grids = lefts.map(([, left]) => meanOnGrid(columns, rows, place, share(left)));
+  const sizes = grids[0].filter((v) => v !== null).map(Math.abs).sort((a, b) => a - b);
+  const limit = sizes[Math.floor(0.97 * (sizes.length - 1))] || 1e-12;
+  const since = new Map(recordings.map((r) => [r, sinceReversal(r)]));
+  const bins = 30;
+  const reach = Math.max(...recordings.map((r) => extent([since.get(r).distance])[1]));
+  const far = (r, i) => (since.get(r).direction[i] === 0 ? null : bin(since.get(r).distance[i], [0, reach], bins));
+  const along = lefts.map(([, left]) => meanOnGrid(bins, 1, far, (r, i) => {
+    const v = share(left)(r, i);
+    return v === null ? null : 100 * v * since.get(r).direction[i];
+  }));
+  const middles = Array.from({ length: bins }, (_, k) => ((k + 0.5) * reach) / bins);
+  return [
+    el("h3", {}, "What is left, over displacement and velocity"),
+    el("p", { class: "muted" }, `Mean of measured − simulated over all recordings, in shares of each recording's largest force: `,
+      el("span", { class: "swatch above" }), " measured above simulated, ", el("span", { class: "swatch below" }), ` below; full colour at ${fmt(100 * limit, 2)} %. Noise averages out, what repeats with the motion stays.`),
+    el("div", { class: "plots" }, lefts.map(([name], k) => residualMap(name, grids[k], columns, rows, limit, xRange, yRange))),
+    el("h3", {}, "What is left, since the last reversal"),
+    el("p", { class: "muted" }, "The same mean, taken positive where the force against the motion is too small in the simulation."),
+    twoLegend(),
+    el("figure", { class: "plot wide" }, svgNode(chart({
+      width: 780, height: 240, margin: [6, 10, 36, 52], title: "Mean residual against distance since reversal",
+      x: { label: "Distance since reversal [mm]", range: [0, reach] }, y: { label: "Mean residual [%]", range: padded(extent(along)) },
+      series: [{ x: middles, y: along[0], cls: "baseline" }, { x: middles, y: along[1], cls: "simulated" }] }))),
+  ];
+}
+
+function evidenceTables(evidence) {
+  const found = list(evidence && evidence.found);
+  if (!found.length) return null;
+  const titles = [{ title: "In its place", head: true }, { title: "Explains of its gain", num: true }, { title: "Evidence against it", num: true }];
+  const trials = list(evidence.trials);
+  return [
+    el("h3", {}, "Evidence, and what would do in its place"),
+    el("p", { class: "muted" }, "Evidence is the gain of the Bayesian information criterion with the effective number of independent samples; ten is strong. A share near 100 % means the recordings hardly tell the two apart."),
+    found.map((f) => plainTable(`${f.id}: without it the fitted NRMSE is ${fmt(f.nrmse_fit_without, 3)}; evidence for it ${fmt(f.evidence, 3)}`, titles,
+      list(f.rivals).slice(0, 8).map((r) => [r.id.startsWith("law:") ? `richer dependence of ${r.id.slice(4)} on the drive` : r.id, percent(Math.max(0, Math.min(1, r.share_of_gain))), fmt(r.evidence, 3)]))),
+    trials.length ? plainTable("Whether the strongest is needed under other assumptions too", [{ title: "Effect", head: true }, { title: "Under" }, { title: "Keeps of its gain", num: true }, { title: "Evidence", num: true }],
+      trials.map((t) => [t.id, t.under, percent(Math.max(0, Math.min(1, t.share_of_gain))), fmt(t.evidence, 3)])) : null,
+  ];
+}
+
+function driftCharts(drift) {
+  const at = list(drift && drift.recordings);
+  if (at.length < 3) return null;
+  const words = { amplitude: "half stroke [mm]", frequency: "frequency [Hz]", drive: "drive", order: "order of recording" };
+  const value = (row, variable) => (variable === "amplitude" ? 1e3 * row.amplitude : variable === "order" ? row.order + 1 : row[variable]);
+  const spread = (p) => { const [lo, hi] = extent([p.relative_change]); return hi - lo; };
+  const after = new Map(list(drift.augmented).map((p) => [p.name, p]));
+  const shown = list(drift.base).filter((p) => spread(p) > 0).sort((a, b) => spread(b) - spread(a)).slice(0, 6);
+  if (!shown.length) return null;
+  const charts = shown.map((p) => {
+    const variable = p.follows || "order";
+    const order = at.map((_, i) => i).sort((a, b) => value(at[a], variable) - value(at[b], variable) || a - b);
+    const x = order.map((i) => value(at[i], variable));
+    const change = (q) => order.map((i) => 100 * q.relative_change[i]);
+    const series = [{ x, y: change(p), cls: "baseline" }];
+    if (after.has(p.name)) series.push({ x, y: change(after.get(p.name)), cls: "simulated" });
+    return el("div", { class: "track" }, el("b", {}, p.name), el("span", { class: "sub" }, el("span", {}, p.follows ? `follows the ${p.follows}` : "over the order of recording")),
+      svgNode(chart({ width: 240, height: 150, small: true, margin: [4, 4, 16, 46], title: `Change of ${p.name} by recording`,
+        x: { label: words[variable], range: padded(extent([x])) }, y: { label: "change [%]", range: padded(extent(series.map((s) => s.y)), 0.15) }, series })));
+  });
+  return [el("h3", {}, "Parameters, recording by recording"),
+    el("p", { class: "muted" }, "By how much each fitted recording alone would change a parameter of the damper's law, the others held. Where that follows the motion or the drive, the law lacks something that depends on it."),
+    twoLegend(), el("div", { class: "minis" }, charts)];
 }
 
 // ------------------------------------------------------------------------------------------------------------ provenance
@@ -804,7 +945,7 @@ function provenanceSection() {
   return section("provenance", "Provenance", el("dl", { class: "facts" }, facts),
     list(report.data).length ? plainTable("Data read", [{ title: "File", head: true }, { title: "SHA-256" }],
       report.data.map((d) => [d.file, el("code", { class: "hash" }, d.sha256)])) : null,
-    list(report.notes).length ? [el("h3", {}, "Notes"), el("ul", {}, report.notes.map((n) => el("li", {}, n)))] : []);
+    list(report.notes).length && !report.diagnosis ? [el("h3", {}, "Notes"), el("ul", {}, report.notes.map((n) => el("li", {}, n)))] : []);
 }
 
 // ------------------------------------------------------------------------------------------------------------------ page

@@ -199,6 +199,21 @@ void note_verdict(Diagnosis& diagnosis) {
     diagnosis.notes.push_back("the augmented model uses " + joined(diagnosis.search.augmented.what.effects, " and ") +
                               " as a shape that predicts better; it is not offered as the cause");
   }
+  for (const DriftOfParameter& before : diagnosis.drift_of_base.parameters) {
+    if (before.follows.empty()) {
+      continue;
+    }
+    const std::vector<DriftOfParameter>& all = diagnosis.drift_of_augmented.parameters;
+    const auto after = std::ranges::find(all, before.name, &DriftOfParameter::name);
+    const auto [low, high] = std::ranges::minmax(before.change);
+    diagnosis.notes.push_back(
+        fmt::format("recording by recording the base model's {} {} with the {} ({:+.0f} to {:+.0f} %){}", before.name,
+                    before.rank_correlation > 0.0 ? "rises" : "falls",
+                    before.follows == "order" ? "order of recording" : before.follows, 100.0 * low, 100.0 * high,
+                    diagnosis.search.augmented.what.effects.empty() || after == all.end() ? ""
+                    : after->follows.empty() ? ", with the effects found no longer"
+                                             : ", with the effects found still"));
+  }
   if (is_named(diagnosis.verdict, diagnosis.search.tried)) {
     for (const Trial& trial : diagnosis.search.trials) {
       diagnosis.notes.push_back(

@@ -243,6 +243,8 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const Split& split
   if (structured(diagnosis.search.base_misfit) || !diagnosis.search.found.empty()) {
     diagnosis.locations = locate(diagnosis.bench, diagnosis.search.base);
   }
+  diagnosis.drift_of_base = drift_of(fine, diagnosis.search.base);
+  diagnosis.drift_of_augmented = drift_of(fine, diagnosis.search.augmented);
   for (const Named& named : diagnosis.verdict.effects) {
     diagnosis.parameters.push_back(intervals_of(fine, *named.fit, named.id));
     diagnosis.sentences.push_back(sentence_of(diagnosis, named, diagnosis.parameters.back()));
@@ -282,7 +284,8 @@ std::string without_outliers(Campaign& campaign) {
   return replaced == 0 ? std::string{}
                        : fmt::format(
                              "{} of {} force samples, in {} of {} recordings, stand out alone: they were replaced by "
-                             "what their neighbours say, in all figures here",
+                             "what their neighbours say before anything was compared (table and plots of the "
+                             "recordings still hold them)",
                              replaced, samples, recordings, campaign.recordings.size());
 }
 

@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 
+#include "diagnose/drift.hpp"
 #include "diagnose/locate.hpp"
 #include "diagnose/observe.hpp"
 #include "diagnose/verdict.hpp"
@@ -37,6 +38,8 @@ struct Diagnosis {
   double noise_floor_heldout = 0.0;  // likewise over the judging ones
   std::string noise_floor_method;
   std::vector<Location> locations;
+  Drift drift_of_base;
+  Drift drift_of_augmented;
   std::vector<std::vector<ParameterInterval>> parameters;  // of verdict.effects
   std::vector<std::string> sentences;                      // likewise
   std::vector<Rejected> rejected;

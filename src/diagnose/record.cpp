@@ -49,6 +49,31 @@ json evidence_json(const Search& search) {
           {"trials", trials}};
 }
 
+json drift_json(const Diagnosis& diagnosis) {
+  json conditions = json::array();
+  for (std::size_t k = 0; k < diagnosis.drift_of_base.recordings.size(); ++k) {
+    json row = {{"recording", diagnosis.drift_of_base.recordings[k]}};
+    for (std::size_t v = 0; v < drift_variables.size(); ++v) {
+      row[drift_variables[v]] = diagnosis.drift_of_base.conditions[k][v];
+    }
+    conditions.push_back(std::move(row));
+  }
+  const auto parameters = [](const Drift& drift) {
+    json rows = json::array();
+    for (const DriftOfParameter& parameter : drift.parameters) {
+      rows.push_back({{"name", parameter.name},
+                      {"relative_change", parameter.change},
+                      {"std_error", parameter.std_error},
+                      {"follows", parameter.follows.empty() ? json(nullptr) : json(parameter.follows)},
+                      {"rank_correlation", parameter.rank_correlation}});
+    }
+    return rows;
+  };
+  return {{"recordings", conditions},
+          {"base", parameters(diagnosis.drift_of_base)},
+          {"augmented", parameters(diagnosis.drift_of_augmented)}};
+}
+
 }  // namespace
 
 json diagnosis_json(const Diagnosis& diagnosis) {
@@ -117,6 +142,7 @@ json diagnosis_json(const Diagnosis& diagnosis) {
             {"nrmse_heldout", search.augmented.heldout},
             {"remaining_structure", diagnosis.verdict.remaining_structure}}},
           {"evidence", evidence_json(search)},
+          {"drift", drift_json(diagnosis)},
           {"next_experiment", diagnosis.next_experiment},
           {"notes", diagnosis.notes}};
 }

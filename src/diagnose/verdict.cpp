@@ -59,6 +59,8 @@ constexpr double doubtful_share = 0.2;
 // A further effect must explain this part of what the strongest does: the equations of that one are not exact, and what
 // they miss looks like an effect of its own.
 constexpr double least_share_of_strongest = 0.08;
+// A rival that leaves this many times the squared error on the judging recordings is none, however it fits.
+constexpr double refuting_factor = 2.0;
 // A fitted lag of the velocity channel and the one between the channels agree within this share.
 constexpr double channel_agreement = 0.25;
 // An effect survives another assumption where it keeps this part of its gain.
@@ -201,8 +203,9 @@ Verdict verdict_of(const Search& search, const Circumstances& known) {
     std::vector<const Rival*> as_good;
     const Rival* instead = nullptr;  // to be named in place of the effect
     for (const Rival& rival : found.rivals) {
-      const bool close =
-          rival.share > 1.0 - margin || rival.evidence < ahead || ends_as(search.augmented, found.id, rival.id, known);
+      const bool refuted = squared(rival.fit.heldout) > refuting_factor * squared(search.augmented.heldout);
+      const bool close = (!refuted && (rival.share > 1.0 - margin || rival.evidence < ahead)) ||
+                         ends_as(search.augmented, found.id, rival.id, known);
       // What holds the effect as a limit always explains as much; only more than its further parameters are worth
       // counts.
       if (is_limit(found.id, rival.id) &&

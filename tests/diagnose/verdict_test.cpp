@@ -68,6 +68,15 @@ TEST(Verdict, ARivalThatLeavesMuchMoreThanNoiseIsExcluded) {
   EXPECT_EQ(verdict_of(search, plain).word, "ambiguous");
 }
 
+TEST(Verdict, ARivalThatTheJudgingRecordingsRefuteIsNone) {
+  Search search = search_of("linear-stiffness", 1.1 * floor_squares, 10.0 * floor_squares);
+  search.found[0].rivals = {rival("pre-yield-hysteresis", 0.98, 500.0)};
+  for (const auto& [factor, word] : {std::pair{1.5, "ambiguous"}, std::pair{2.5, "missing-physics"}}) {
+    search.found[0].rivals[0].fit.heldout = std::sqrt(factor) * search.augmented.heldout;
+    EXPECT_EQ(verdict_of(search, plain).word, word) << factor;
+  }
+}
+
 TEST(Verdict, WhatIsLikeNoiseInAllIsTheNoise) {
   // Colour doubles the white noise: half as much gain as stays above the estimate is too little for a name ...
   Search search = search_of("coil-lag", 2.0 * floor_squares, 0.5 * floor_squares);
