@@ -43,21 +43,25 @@ Misfit misfit_of(const Workbench& bench, const Fit& fit) {
     evenness.add(recording, residual, norm);
     counted += static_cast<double>(r.size() - residual.from);
     const double mean = residual.mean_square() / (norm * norm);
+    const NoiseFloor floor = noise_floor(recording);
     const double share = std::max(0.0, predictable_share(recording, r));
     predictable += share * mean;
-    const NoiseFloor floor = noise_floor(recording);
     const double passed = passed_on(bench, fit, recording, residual) / (norm * norm);
     const double noise = squared(floor.sigma / norm) + passed;
     // Periods tell the noise whatever its colour; without them only what repeats with the motion is surely not noise.
-    structure += floor.method == "cycles" ? std::max(0.0, mean - noise) : share * mean;
+    // What rounding leaves repeats with the motion too.
+    const bool known = floor.method == "cycles" || floor.rounded;
+    structure += known ? std::max(0.0, mean - noise) : share * mean;
     result.squares += mean;
     result.white += std::min(mean, squared(floor.white / norm) + passed);
     result.floor += std::min(mean, noise);
+    result.motion += std::min(mean, passed);
   }
   const auto count = static_cast<double>(recordings.size());
   result.squares /= count;
   result.white /= count;
   result.floor /= count;
+  result.motion /= count;
   result.structure = structure / count;
   result.predictable = predictable / count / result.squares;
   result.evenness = evenness.result();

@@ -15,6 +15,7 @@ struct Misfit {
   // what the noise of the motion makes of the model's force.
   double white = 0.0;
   double floor = 0.0;
+  double motion = 0.0;       // the part of the floor that comes from the motion's noise
   double predictable = 0.0;  // share that repeats with the motion (structure.hpp)
   Evenness evenness;
   double correlation = 0.0;  // lag-one correlation of the residual

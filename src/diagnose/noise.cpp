@@ -149,6 +149,7 @@ NoiseFloor noise_floor(const Recording& recording) {
   }
   // Periods that repeat are rounded alike, and a force that rests on a step shows no differences.
   const double rounding = channel_quantum(recording.force) / std::sqrt(12.0);
+  result.rounded = rounding >= result.white;
   result.white = std::max(result.white, rounding);
   const Periodicity cycle = periodicity(recording);
   if (cycle.period > 0.0) {

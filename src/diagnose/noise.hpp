@@ -16,8 +16,9 @@ struct NoiseFloor {
   // "cycles": what differs between successive periods of a periodic motion; it holds coloured noise too.
   // "high-pass": robust fourth differences; only the part of the noise that is white is seen.
   std::string method;
-  double white = 0.0;   // N, by high-pass, whatever the method
-  double cycles = 0.0;  // periods in the motion, 0 when it is not periodic
+  double white = 0.0;    // N, by high-pass, whatever the method
+  double cycles = 0.0;   // periods in the motion, 0 when it is not periodic
+  bool rounded = false;  // rounding to the quantum of the force is all that is seen
 };
 
 NoiseFloor noise_floor(const Recording& recording);

@@ -11,6 +11,7 @@ json misfit_json(const Misfit& misfit) {
           {"structure", misfit.structure},
           {"white", misfit.white},
           {"floor", misfit.floor},
+          {"floor_of_motion", misfit.motion},
           {"predictable", misfit.predictable},
           {"unevenness", misfit.evenness.deviation},
           {"unevenness_by_chance", misfit.evenness.by_chance},

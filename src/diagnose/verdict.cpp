@@ -33,6 +33,9 @@ constexpr double least_settled_evidence = 150.0;
 // what stays is like noise and nothing further is worth this much, or this part of it. Rivals are as good then within
 // this share of its gain, or this part of its evidence.
 constexpr double telling_evidence = 80.0;
+constexpr double noisy_motion = 0.05;  // from this part of the floor on, twice as much is asked
+constexpr double sure_evidence =
+    3.0;                              // times that, and judging recordings that do not show the effect are no objection
 constexpr std::size_t most_told = 2;  // more effects than that are the shape of something else
 constexpr double most_further_evidence = 25.0;
 constexpr double most_further_part = 0.1;
@@ -70,10 +73,14 @@ constexpr double surviving_share = 0.25;
 constexpr double law_factor = 1.1;
 constexpr double law_part = 0.5;
 
-// Whether the judging recordings bear the gain out. A plain gain may be of something they do not excite.
-bool confirmed(const Found& found, const Fit& augmented) {
+// Whether the judging recordings bear the gain out. A plain gain, or one of `sure` evidence, may be of something that
+// they do not excite.
+bool confirmed(const Found& found, const Fit& augmented, double sure) {
   const double fit = 1.0 - squared(augmented.cost / found.without.cost);
   const double heldout = 1.0 - squared(augmented.heldout / found.without.heldout);
+  if (found.evidence > sure && heldout > -0.002) {
+    return true;
+  }
   return fit > plain_gain ? heldout > -0.01 : heldout > confirmed_part * fit;
 }
 
@@ -171,11 +178,12 @@ Verdict verdict_of(const Search& search, const Circumstances& known) {
       return verdict;
     }
   }
+  const double telling = telling_evidence * (search.misfit.motion > noisy_motion * search.misfit.floor ? 2.0 : 1.0);
   for (const Found& found : search.found) {
-    const bool told = settled && search.found.size() <= most_told && found.evidence > telling_evidence &&
-                      search.further &&
+    const bool told = settled && search.found.size() <= most_told && found.evidence > telling && search.further &&
                       *search.further < std::max(most_further_evidence, most_further_part * found.evidence);
-    if (found.gain < least_share_of_strongest * search.found.front().gain || !confirmed(found, search.augmented)) {
+    if (found.gain < least_share_of_strongest * search.found.front().gain ||
+        !confirmed(found, search.augmented, told ? sure_evidence * telling : 1e300)) {
       continue;
     }
     if (!told && (found.gain < wanted || (found.evidence < least_settled_evidence &&
@@ -276,7 +284,7 @@ Verdict verdict_of(const Search& search, const Circumstances& known) {
     const bool shown = std::ranges::any_of(search.found, [&](const Found& found) {
       return (found.evidence > telling_evidence ||
               (found.evidence > least_evidence && found.gain > shown_gain * search.base_misfit.squares)) &&
-             confirmed(found, search.augmented);
+             confirmed(found, search.augmented, sure_evidence * telling);
     });
     const bool quiet = !structured(search.base_misfit) && !shown;
     verdict.word = quiet ? "complete" : "unattributed";

@@ -213,6 +213,24 @@ std::size_t screening_stride(const Recording& recording, double frequency) {
       1, std::min(recording.size() / screening_samples, static_cast<std::size_t>(std::min(of_period, 1e6))));
 }
 
+// Whether the first force is far from the mean one: a motion that turns just there comes from somewhere, and brings its
+// hysteresis along.
+bool loaded_at_start(const Recording& recording) {
+  constexpr std::size_t first = 5;
+  constexpr double far = 0.1;  // of the largest force
+  if (recording.force.size() < 4 * first) {
+    return false;
+  }
+  const auto mean = [](auto from, auto to) { return std::accumulate(from, to, 0.0) / static_cast<double>(to - from); };
+  const double all = mean(recording.force.begin(), recording.force.end());
+  const double start = mean(recording.force.begin(), recording.force.begin() + first);
+  double largest = 0.0;
+  for (const double force : recording.force) {
+    largest = std::max(largest, std::fabs(force - all));
+  }
+  return std::fabs(start - all) > far * largest;
+}
+
 // Samples until a motion that is under way at the first one has travelled a quarter of its range, by when hysteresis
 // has forgotten where it started; 0 for a start from rest, and never more than a third of the recording.
 std::size_t run_in_samples(const Recording& recording) {
@@ -220,7 +238,7 @@ std::size_t run_in_samples(const Recording& recording) {
   for (const double velocity : recording.velocity) {
     peak = std::max(peak, std::fabs(velocity));
   }
-  if (std::fabs(recording.velocity[0]) < 0.02 * peak) {
+  if (std::fabs(recording.velocity[0]) < 0.02 * peak && !loaded_at_start(recording)) {
     return 0;
   }
   const auto [low, high] = std::ranges::minmax(recording.displacement);

@@ -121,6 +121,18 @@ TEST(Verdict, NearTheNoiseTheEvidenceDecides) {
   Search search = small(200.0, 5.0);
   search.misfit.evenness = {0.03, 0.02};
   EXPECT_EQ(verdict_of(search, plain).word, "unattributed") << "what stays follows the motion";
+  search = small(150.0, 5.0);
+  EXPECT_EQ(verdict_of(search, plain).word, "missing-physics");
+  search.misfit.motion = 0.1 * floor_squares;
+  EXPECT_NE(verdict_of(search, plain).word, "missing-physics") << "noise of the motion gives more";
+  // Judging recordings that do not excite the effect are no objection to much evidence, those that contradict are.
+  for (const auto& [evidence, heldout, word] :
+       {std::tuple{150.0, 1.0, "complete"}, std::tuple{400.0, 1.0, "missing-physics"},
+        std::tuple{400.0, 1.02, "complete"}}) {
+    search = small(evidence, 5.0);
+    search.augmented.heldout = std::sqrt(heldout) * search.found[0].without.heldout;
+    EXPECT_EQ(verdict_of(search, plain).word, word) << evidence << " " << heldout;
+  }
   search = small(200.0, 5.0);
   search.found.resize(3, search.found.front());
   EXPECT_EQ(verdict_of(search, plain).word, "unattributed") << "three effects are the shape of something else";
