@@ -8,6 +8,8 @@
 namespace hysteron {
 namespace {
 
+constexpr std::size_t lags = 201;
+
 // Mean square of what the noise of the recorded motion makes of the model's force, N^2.
 double passed_on(const Workbench& bench, const Fit& fit, const Recording& recording, const Residual& residual) {
   // Both are compared with the same recorded force: the difference is that of the simulated ones.
@@ -19,6 +21,30 @@ double passed_on(const Workbench& bench, const Fit& fit, const Recording& record
   return change.mean_square();
 }
 
+// Adds the products of a residual with itself some samples later, over scale^2.
+void add_products(std::vector<double>& products, const Residual& residual, double scale) {
+  const std::vector<double>& r = residual.force;
+  for (std::size_t lag = 0; lag < products.size(); ++lag) {
+    for (std::size_t n = residual.from + lag; n < r.size(); ++n) {
+      products[lag] += r[n] * r[n - lag] / (scale * scale);
+    }
+  }
+}
+
+// Samples for one of independent information: the correlations of all lags, in pairs while these are positive (Geyer,
+// Statistical Science 7 (1992) 473).
+double memory_of(const std::vector<double>& products) {
+  double memory = 1.0;
+  for (std::size_t lag = 1; lag + 1 < products.size(); lag += 2) {
+    const double pair = (products[lag] + products[lag + 1]) / products[0];
+    if (!(pair > 0.0)) {
+      break;
+    }
+    memory += 2.0 * pair;
+  }
+  return memory;
+}
+
 }  // namespace
 
 Misfit misfit_of(const Workbench& bench, const Fit& fit) {
@@ -28,6 +54,7 @@ Misfit misfit_of(const Workbench& bench, const Fit& fit) {
   double predictable = 0.0;
   double structure = 0.0;
   double counted = 0.0;
+  std::vector<double> products(lags, 0.0);
   EvennessSum evenness;
   const std::vector<Recording>& recordings = bench.split().fit;
   for (const Recording& recording : recordings) {
@@ -41,6 +68,7 @@ Misfit misfit_of(const Workbench& bench, const Fit& fit) {
       }
     }
     evenness.add(recording, residual, norm);
+    add_products(products, residual, norm);
     counted += static_cast<double>(r.size() - residual.from);
     const double mean = residual.mean_square() / (norm * norm);
     const NoiseFloor floor = noise_floor(recording);
@@ -68,6 +96,7 @@ Misfit misfit_of(const Workbench& bench, const Fit& fit) {
   result.noise = result.squares - result.structure;
   result.correlation = std::clamp(cross / energy, 0.0, 0.999);
   result.effective = std::max(counted * (1.0 - result.correlation) / (1.0 + result.correlation), 20.0);
+  result.independent = std::max(counted / memory_of(products), 20.0);
   return result;
 }
 

@@ -19,7 +19,8 @@ struct Misfit {
   double predictable = 0.0;  // share that repeats with the motion (structure.hpp)
   Evenness evenness;
   double correlation = 0.0;  // lag-one correlation of the residual
-  double effective = 0.0;    // samples worth of independent information
+  double effective = 0.0;    // samples worth of independent information, were the residual's memory one of lag one
+  double independent = 0.0;  // likewise from all lags: fewer where a slow noise hides under a white one
 };
 
 // Over the fitted recordings of the workbench.

@@ -15,7 +15,8 @@ json misfit_json(const Misfit& misfit) {
           {"predictable", misfit.predictable},
           {"unevenness", misfit.evenness.deviation},
           {"unevenness_by_chance", misfit.evenness.by_chance},
-          {"effective_samples", misfit.effective}};
+          {"effective_samples", misfit.effective},
+          {"independent_samples", misfit.independent}};
 }
 
 // What the verdict rests on; squares are of NRMSE.

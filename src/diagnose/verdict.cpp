@@ -32,12 +32,12 @@ constexpr double least_settled_evidence = 150.0;
 // Near the noise the evidence decides: an effect of this much is named however little it is beside the noise, where
 // what stays is like noise and nothing further is worth this much, or this part of it. Rivals are as good then within
 // this share of its gain, or this part of its evidence.
-constexpr double telling_evidence = 80.0;
+constexpr double telling_evidence = 40.0;
 constexpr double noisy_motion = 0.05;  // from this part of the floor on, twice as much is asked
 constexpr double sure_evidence =
     3.0;                              // times that, and judging recordings that do not show the effect are no objection
 constexpr std::size_t most_told = 2;  // more effects than that are the shape of something else
-constexpr double most_further_evidence = 25.0;
+constexpr double most_further_evidence = 15.0;
 constexpr double most_further_part = 0.1;
 constexpr double told_margin = 0.12;
 constexpr double told_evidence_part = 0.1;
@@ -178,10 +178,14 @@ Verdict verdict_of(const Search& search, const Circumstances& known) {
       return verdict;
     }
   }
-  const double telling = telling_evidence * (search.misfit.motion > noisy_motion * search.misfit.floor ? 2.0 : 1.0);
+  // Evidence counts samples as independent that a slow noise under a white one makes alike: `honest` is the rest.
+  const double honest =
+      search.misfit.effective > 0.0 ? std::min(1.0, search.misfit.independent / search.misfit.effective) : 1.0;
+  const double telling =
+      telling_evidence * (search.misfit.motion > noisy_motion * search.misfit.floor ? 2.0 : 1.0) / honest;
   for (const Found& found : search.found) {
     const bool told = settled && search.found.size() <= most_told && found.evidence > telling && search.further &&
-                      *search.further < std::max(most_further_evidence, most_further_part * found.evidence);
+                      *search.further < std::max(most_further_evidence / honest, most_further_part * found.evidence);
     if (found.gain < least_share_of_strongest * search.found.front().gain ||
         !confirmed(found, search.augmented, told ? sure_evidence * telling : 1e300)) {
       continue;
@@ -206,7 +210,7 @@ Verdict verdict_of(const Search& search, const Circumstances& known) {
     const double usual_margin =
         std::max(std::min(least_margin, clear_of_noise), margin_of_leftover * leftover / found.gain);
     const double margin = told ? std::min(usual_margin, told_margin) : usual_margin;
-    const double ahead = told ? std::max(least_evidence, told_evidence_part * found.evidence) : least_evidence;
+    const double ahead = told ? std::max(least_evidence / honest, told_evidence_part * found.evidence) : least_evidence;
     double best_share = 0.0;
     std::vector<const Rival*> as_good;
     const Rival* instead = nullptr;  // to be named in place of the effect
@@ -282,7 +286,7 @@ Verdict verdict_of(const Search& search, const Circumstances& known) {
   if (verdict.effects.empty()) {
     // Gains that the held-out recordings bear out are of something, even where the residual looks like noise.
     const bool shown = std::ranges::any_of(search.found, [&](const Found& found) {
-      return (found.evidence > telling_evidence ||
+      return (found.evidence > telling ||
               (found.evidence > least_evidence && found.gain > shown_gain * search.base_misfit.squares)) &&
              confirmed(found, search.augmented, sure_evidence * telling);
     });

@@ -115,19 +115,23 @@ TEST(Verdict, NearTheNoiseTheEvidenceDecides) {
     return search;
   };
   EXPECT_EQ(verdict_of(small(200.0, 5.0), plain).word, "missing-physics");
-  EXPECT_EQ(verdict_of(small(50.0, 5.0), plain).word, "complete") << "as much as a noise that is not white may give";
+  EXPECT_EQ(verdict_of(small(30.0, 5.0), plain).word, "complete") << "as much as a noise that is not white may give";
   EXPECT_EQ(verdict_of(small(200.0, 60.0), plain).word, "unattributed") << "something else is missing too";
   EXPECT_EQ(verdict_of(small(200.0, std::nullopt), plain).word, "unattributed") << "what else helps was not looked at";
   Search search = small(200.0, 5.0);
   search.misfit.evenness = {0.03, 0.02};
   EXPECT_EQ(verdict_of(search, plain).word, "unattributed") << "what stays follows the motion";
-  search = small(150.0, 5.0);
+  search = small(70.0, 5.0);
   EXPECT_EQ(verdict_of(search, plain).word, "missing-physics");
   search.misfit.motion = 0.1 * floor_squares;
   EXPECT_NE(verdict_of(search, plain).word, "missing-physics") << "noise of the motion gives more";
+  search = small(200.0, 5.0);
+  search.misfit.effective = 1000.0;
+  search.misfit.independent = 100.0;
+  EXPECT_NE(verdict_of(search, plain).word, "missing-physics") << "a slow noise gives more";
   // Judging recordings that do not excite the effect are no objection to much evidence, those that contradict are.
   for (const auto& [evidence, heldout, word] :
-       {std::tuple{150.0, 1.0, "complete"}, std::tuple{400.0, 1.0, "missing-physics"},
+       {std::tuple{100.0, 1.0, "complete"}, std::tuple{400.0, 1.0, "missing-physics"},
         std::tuple{400.0, 1.02, "complete"}}) {
     search = small(evidence, 5.0);
     search.augmented.heldout = std::sqrt(heldout) * search.found[0].without.heldout;
