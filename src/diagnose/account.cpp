@@ -182,6 +182,9 @@ std::string experiment_after(const Verdict& verdict) {
   if (verdict.word == "ambiguous") {
     return next_experiment(candidates);
   }
+  if (!verdict.better_law.empty()) {
+    return "none yet: diagnose these recordings with --model " + verdict.better_law + " first";
+  }
   if (verdict.word == "unattributed") {
     return next_experiment({});
   }

@@ -173,6 +173,7 @@ Verdict verdict_of(const Search& search, const Circumstances& known) {
   for (const Fit& law : search.other_laws) {
     if (squared(law.cost) < std::min(law_factor * with_effects, by_law)) {
       verdict.word = "unattributed";
+      verdict.better_law = law.what.model;
       verdict.reason = "the damper law " + law.what.model + " without any added effect does as well as " +
                        search.base.what.model + " with them: the base law is in question";
       return verdict;

@@ -26,7 +26,8 @@ struct Verdict {
   std::string word;  // complete, missing-physics, ambiguous, unattributed
   std::vector<Named> effects;
   bool remaining_structure = false;
-  std::string reason;  // why nothing, or not more, was named; may be empty
+  std::string reason;      // why nothing, or not more, was named; may be empty
+  std::string better_law;  // the damper law that does as well without effects, if that is why
 };
 
 struct ParameterInterval {

@@ -162,7 +162,9 @@ TEST(Verdict, AnotherLawIsAsGoodOnlyIfItTakesMuchOfTheGain) {
     other.what.model = "bouc-wen";
     other.cost = std::sqrt(law * floor_squares);
     search.other_laws = {other};
-    EXPECT_EQ(verdict_of(search, plain).word, word) << gain << " " << law;
+    const Verdict verdict = verdict_of(search, plain);
+    EXPECT_EQ(verdict.word, word) << gain << " " << law;
+    EXPECT_EQ(verdict.better_law.empty(), verdict.word != "unattributed");
   }
 }
 
