@@ -12,6 +12,7 @@
 #include "diagnose/thin.hpp"
 #include "diagnose/wander.hpp"
 #include "fit/identify.hpp"
+#include "io/velocity.hpp"
 
 namespace hysteron {
 namespace {
@@ -30,6 +31,8 @@ constexpr double above_white = 1.5;
 constexpr double above_floor = 1.5;
 // Least share of the largest force that counts as noise there.
 constexpr double least_noise = 1e-4;
+// A recorded velocity correlates with the slope of the displacement at least so.
+constexpr double least_likeness = 0.5;
 // What the base and the augmented model are then fitted on; every sample is predicted in the end.
 constexpr std::size_t fine_samples = 12000;
 
@@ -188,6 +191,35 @@ void doubt_completeness(Diagnosis& diagnosis, const Workbench& fine) {
   }
 }
 
+// No name where the recorded velocity is not that of the displacement: the effects would explain a fault of the data.
+void doubt_velocity(Diagnosis& diagnosis) {
+  for (const Recording& recording : diagnosis.bench.split().fit) {
+    if (!recording.velocity_measured) {
+      continue;
+    }
+    const std::vector<double> slope = derive_velocity(recording.time, recording.displacement);
+    double product = 0.0;
+    double squares = 0.0;
+    double recorded = 0.0;
+    for (std::size_t n = 0; n < slope.size(); ++n) {
+      product += slope[n] * recording.velocity[n];
+      squares += slope[n] * slope[n];
+      recorded += recording.velocity[n] * recording.velocity[n];
+    }
+    const double alike = product / std::max(std::sqrt(squares * recorded), 1e-300);
+    if (alike < least_likeness) {
+      diagnosis.verdict.word = "unattributed";
+      diagnosis.verdict.effects.clear();
+      diagnosis.verdict.reason = fmt::format(
+          "{}: the recorded velocity is not the slope of the displacement (correlation {:.2f}); without that column "
+          "the "
+          "velocity would be derived",
+          recording.file, alike);
+      return;
+    }
+  }
+}
+
 void estimate_noise_floor(Diagnosis& diagnosis, Normalisation normalisation) {
   const auto relative = [&](const Recording& recording, const NoiseFloor& noise) {
     return squared(noise.sigma / normaliser(recording, normalisation));
@@ -237,6 +269,7 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const Split& split
       diagnosis.search, {[&](const Fit& fit, const std::string& effect) { return intervals_of(fine, fit, effect); },
                          velocity_channel_lag(diagnosis.bench.split().fit)});
   doubt_completeness(diagnosis, fine);
+  doubt_velocity(diagnosis);
   estimate_noise_floor(diagnosis, options.objective.normalisation);
 
   progress(0.95, "locating the misfit");

@@ -64,6 +64,21 @@ TEST(Diagnosis, NamesAndMeasuresAConcealedMass) {
   EXPECT_FALSE(diagnosis->verdict.remaining_structure);
 }
 
+TEST(Diagnosis, NamesNothingWhereTheVelocityIsNotThatOfTheDisplacement) {
+  Campaign campaign = campaign_with({"inertia"}, {{"inertia.m", 8.0}}, 0.01);
+  for (Recording& recording : campaign.recordings) {
+    recording.velocity_measured = true;
+    for (double& velocity : recording.velocity) {
+      velocity = -velocity;
+    }
+  }
+  const auto diagnosis = diagnosis_of(campaign, few);
+  EXPECT_EQ(diagnosis->verdict.word, "unattributed");
+  EXPECT_TRUE(diagnosis->verdict.effects.empty());
+  EXPECT_NE(diagnosis->verdict.reason.find("not the slope of the displacement (correlation -1.00)"), std::string::npos)
+      << diagnosis->verdict.reason;
+}
+
 TEST(Diagnosis, NamesNothingWhereNothingIsMissing) {
   const auto diagnosis = diagnosis_of(campaign_with({}, {}, 0.02), few);
   EXPECT_EQ(diagnosis->verdict.word, "complete");
