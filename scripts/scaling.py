@@ -120,7 +120,7 @@ def main():
     # What is left of a single rank's wall time is mostly what other programs took; storing itself is below this.
     costs["record"] = 0.0002
     lines += ["", "The study itself, so often repeated that 1000 workers have 60 runs each (100 x), with 0.2 ms to store "
-              "a run, the whole of [overhead.md](overhead.md):", *header]
+              "a run, more than all of [overhead.md](overhead.md):", *header]
     lines += simulate(simulator, base, costs, many, copies=100)[0].splitlines()
     for length in (0.01, 0.001):
         lines += ["", f"The same with all lengths scaled to a mean of {1e3 * length:g} ms:", *header]
