@@ -87,7 +87,7 @@ def main():
         "row": min(one["gathering"] for one in pairs) / (len(pairs[0]["runs"]) / 2),
     }
     lines = ["# Scaling of studies under mpirun", "",
-             f"Made by `scripts/scaling.py`: `bench/studies/scaling.toml`, {len(measured[0]['runs'])} runs of "
+             f"Made by `scripts/scaling.py --repeats {given.repeats}`: `bench/studies/scaling.toml`, {len(measured[0]['runs'])} runs of "
              f"{1e3 * mean:.0f} ms in the mean, on {os.cpu_count()} cores.", "",
              "## Measured", "",
              "*In runs*: share of ranks x wall time that is spent in runs; the rest is start-up, planning, storing, waiting, "

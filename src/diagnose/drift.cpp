@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/midranks.hpp"
+
 namespace hysteron {
 namespace {
 
@@ -15,24 +17,10 @@ constexpr double least_t = 6.0;
 constexpr double least_errors = 4.0;
 constexpr double least_change = 0.03;
 
-std::vector<double> ranks(const std::vector<double>& values) {
-  std::vector<double> result(values.size());
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    double below = 0.0;
-    double equal = 0.0;
-    for (const double value : values) {
-      below += value < values[i] ? 1.0 : 0.0;
-      equal += value == values[i] ? 1.0 : 0.0;
-    }
-    result[i] = below + 0.5 * (equal - 1.0);
-  }
-  return result;
-}
-
 double rank_correlation(const std::vector<double>& a, const std::vector<double>& b) {
-  const std::vector<double> x = ranks(a);
-  const std::vector<double> y = ranks(b);
-  const double middle = 0.5 * (static_cast<double>(a.size()) - 1.0);
+  const std::vector<double> x = midranks(a);
+  const std::vector<double> y = midranks(b);
+  const double middle = 0.5 * (static_cast<double>(a.size()) + 1.0);
   double xx = 0.0;
   double yy = 0.0;
   double xy = 0.0;

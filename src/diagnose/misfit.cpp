@@ -1,6 +1,7 @@
 #include "diagnose/misfit.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "diagnose/noise.hpp"
 #include "diagnose/structure.hpp"
@@ -107,6 +108,10 @@ bool structured(const Misfit& misfit) {
 
 bool noise_like(const Misfit& misfit) {
   return !structured(misfit) && misfit.predictable < 0.03 && even(misfit.evenness);
+}
+
+double evidence(double before, double after, double more, double effective) {
+  return effective * std::log(before / after) - more * std::log(effective);
 }
 
 }  // namespace hysteron

@@ -31,6 +31,10 @@ bool structured(const Misfit& misfit);
 // Nothing of it follows the motion, neither its values nor their size: noise, whatever its colour.
 bool noise_like(const Misfit& misfit);
 
+// Gain of the Bayesian information criterion from squares `before` to `after` for `more` parameters, by `effective`
+// independent samples.
+double evidence(double before, double after, double more, double effective);
+
 inline double squared(double value) { return value * value; }
 
 }  // namespace hysteron

@@ -205,10 +205,6 @@ std::vector<std::string> closest(const std::vector<std::vector<Tried>>& stages, 
 
 bool is_law(const std::string& id) { return id.starts_with("law:"); }
 
-double evidence(double before, double after, double more, double effective) {
-  return effective * std::log(before / after) - more * std::log(effective);
-}
-
 Search search(const Workbench& bench, const Workbench& fine, const Hypothesis& base, const SearchOptions& options,
               const SearchProgress& progress) {
   Search result;

@@ -76,7 +76,4 @@ constexpr const char* saturation = "magnetic-saturation";
 // Whether an id of Tried, Rival or Found is of a richer parameter law: "law:PARAMETER".
 bool is_law(const std::string& id);
 
-// Gain of the Bayesian information criterion from squares `before` to `after` for `more` parameters.
-double evidence(double before, double after, double more, double effective);
-
 }  // namespace hysteron

@@ -33,10 +33,12 @@ constexpr double least_settled_evidence = 150.0;
 // what stays is like noise and nothing further is worth this much, or this part of it. Rivals are as good then within
 // this share of its gain, or this part of its evidence.
 constexpr double telling_evidence = 40.0;
-constexpr double noisy_motion = 0.05;  // from this part of the floor on, twice as much is asked
-constexpr double sure_evidence =
-    3.0;                              // times that, and judging recordings that do not show the effect are no objection
-constexpr std::size_t most_told = 2;  // more effects than that are the shape of something else
+// From this part of the floor on that comes from the motion's noise, twice as much is asked.
+constexpr double noisy_motion = 0.05;
+// With so many times the evidence, judging recordings that do not show the effect are no objection.
+constexpr double sure_evidence = 3.0;
+// More effects than that are the shape of something else.
+constexpr std::size_t most_told = 2;
 constexpr double most_further_evidence = 15.0;
 constexpr double most_further_part = 0.1;
 constexpr double told_margin = 0.12;
@@ -66,8 +68,10 @@ constexpr double least_share_of_strongest = 0.08;
 constexpr double refuting_factor = 2.0;
 // A fitted lag of the velocity channel and the one between the channels agree within this share.
 constexpr double channel_agreement = 0.25;
-// An effect survives another assumption where it keeps this part of its gain.
+// An effect survives another assumption where it keeps this part of its gain; else the confidence is multiplied by
+// this.
 constexpr double surviving_share = 0.25;
+constexpr double unsteady_confidence = 0.7;
 // Another damper law does as well when its squared error is within this factor of the augmented model's, and it takes
 // this part of what the effects take off the base law's.
 constexpr double law_factor = 1.1;
@@ -129,9 +133,6 @@ bool follows_drive(const Layout& layout, const std::string& parameter) {
     return layout.names()[law.parameter] == parameter && law.drive_nodes.size() > 1;
   });
 }
-
-// What the confidence is multiplied by where the effect is not needed under another assumption.
-constexpr double unsteady_confidence = 0.7;
 
 }  // namespace
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "diagnose/misfit.hpp"
-#include "diagnose/search.hpp"
 
 namespace hysteron {
 namespace {
