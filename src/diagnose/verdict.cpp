@@ -218,7 +218,9 @@ Verdict verdict_of(const Search& search, const Circumstances& known) {
     const Rival* instead = nullptr;  // to be named in place of the effect
     for (const Rival& rival : found.rivals) {
       const bool refuted = squared(rival.fit.heldout) > refuting_factor * squared(search.augmented.heldout);
-      const bool close = (!refuted && (rival.share > 1.0 - margin || rival.evidence < ahead)) ||
+      // Where structure stays, one that ends as the other at a bound may be a descent gone astray of the other.
+      const bool unsure = verdict.remaining_structure && !bound_parameter(found.id, rival.id).empty();
+      const bool close = unsure || (!refuted && (rival.share > 1.0 - margin || rival.evidence < ahead)) ||
                          ends_as(search.augmented, found.id, rival.id, known);
       // What holds the effect as a limit always explains as much; only more than its further parameters are worth
       // counts.

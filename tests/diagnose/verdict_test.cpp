@@ -214,6 +214,15 @@ TEST(Verdict, AFormThatHoldsTheEffectAsItsLimitMustBeWorthItsParameters) {
   EXPECT_EQ(verdict.effects[0].id, "offset-force");
 }
 
+TEST(Verdict, WhereStructureStaysAGasIsNotToldFromAClearance) {
+  const Circumstances told = knowing({{"d_a", "m", 3e-5, 2e-6}, {"f_a", "N", 128.0, 60.0}});
+  for (const auto& [structured, word] : {std::pair{true, "ambiguous"}, std::pair{false, "missing-physics"}}) {
+    Search search = search_of("entrapped-gas", 1.5 * floor_squares, 30.0 * floor_squares, structured);
+    search.found[0].rivals = {rival("clearance", 0.7, 3000.0)};
+    EXPECT_EQ(verdict_of(search, told).word, word) << structured;
+  }
+}
+
 TEST(Verdict, AnEffectThatEndsAsAnotherIsNotToldFromIt) {
   Search search = search_of("entrapped-gas", 1.2 * floor_squares, 20.0 * floor_squares);
   search.found[0].rivals = {rival("clearance", 0.9, 600.0)};
