@@ -7,6 +7,7 @@
 #include <cctype>
 #include <cmath>
 #include <map>
+#include <set>
 
 namespace hysteron {
 namespace {
@@ -226,8 +227,11 @@ void note_verdict(Diagnosis& diagnosis) {
               : fmt::format("{} is not needed {}: take its name with care", diagnosis.search.tried, trial.under));
     }
   }
-  for (const std::string& name : diagnosis.search.richer) {
-    diagnosis.notes.push_back("the recordings also ask for a richer dependence of " + name + " on the drive");
+  const std::set<std::string> richer(diagnosis.search.richer.begin(), diagnosis.search.richer.end());
+  if (!richer.empty()) {
+    diagnosis.notes.push_back("the recordings also ask for a richer dependence of " +
+                              joined({richer.begin(), richer.end()}, " and ") +
+                              " on the drive; the augmented model has it");
   }
 }
 

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "diagnose/account.hpp"
+#include "diagnose/extend.hpp"
 #include "diagnose/noise.hpp"
 #include "diagnose/outliers.hpp"
 #include "diagnose/thin.hpp"
@@ -33,6 +34,9 @@ constexpr double above_floor = 1.5;
 constexpr double least_noise = 1e-4;
 // A recorded velocity correlates with the slope of the displacement at least so.
 constexpr double least_likeness = 0.5;
+// What may join the augmented model for the sake of prediction, and derivative evaluations of it on more samples.
+constexpr int most_added = 4;
+constexpr int refitting_rounds = 10;
 // What the base and the augmented model are then fitted on; every sample is predicted in the end.
 constexpr std::size_t fine_samples = 12000;
 
@@ -191,6 +195,26 @@ void doubt_completeness(Diagnosis& diagnosis, const Workbench& fine) {
   }
 }
 
+// Where no name is given, what else improves the prediction of the judging recordings joins the augmented model.
+void extend(Diagnosis& diagnosis, const Workbench& quick, const Workbench& fine, const SearchOptions& searching) {
+  Search& found = diagnosis.search;
+  if (diagnosis.verdict.word != "unattributed" || !diagnosis.verdict.better_law.empty() || !structured(found.misfit) ||
+      !diagnosis.surprises.empty()) {
+    return;
+  }
+  const Fit more = extended(quick, found.quick_augmented, searching.candidates, found.effective, most_added);
+  if (more.what == found.quick_augmented.what) {
+    return;
+  }
+  Fit refitted = diagnosis.bench.scored(fine.polished(more, refitting_rounds));
+  if (refitted.cost < found.augmented.cost && refitted.heldout < found.augmented.heldout) {
+    found.augmented = std::move(refitted);
+    found.quick_augmented = more;
+    found.misfit = misfit_of(fine, found.augmented);
+    found.richer = found.augmented.what.richer;
+  }
+}
+
 // No name where the recorded velocity is not that of the displacement: the effects would explain a fault of the data.
 void doubt_velocity(Diagnosis& diagnosis) {
   for (const Recording& recording : diagnosis.bench.split().fit) {
@@ -269,6 +293,8 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const Split& split
       diagnosis.search, {[&](const Fit& fit, const std::string& effect) { return intervals_of(fine, fit, effect); },
                          velocity_channel_lag(diagnosis.bench.split().fit)});
   doubt_completeness(diagnosis, fine);
+  progress(0.85, "looking for what else improves the prediction");
+  extend(diagnosis, quick, fine, searching);
   doubt_velocity(diagnosis);
   estimate_noise_floor(diagnosis, options.objective.normalisation);
 

@@ -3,23 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <set>
 
 #include "diagnose/relatives.hpp"
 
 namespace hysteron {
 namespace {
 
-// Rounds of a first look, and of a fit that is compared with others.
-constexpr int screening_rounds = 5;
-constexpr int fitting_rounds = 10;
-constexpr std::size_t survivors = 5;
 // Rivals set against an effect in its place: the best of all stages.
 constexpr std::size_t rival_count = 6;
-// An effect is worth a place when the criterion gains this much (on top of what choosing among many costs), and the
-// squared error falls by this share.
-constexpr double least_evidence = 6.0;
-constexpr double least_gain = 0.01;
 // A form that holds a simpler one as its limit is taken for it only above this.
 constexpr double wider_evidence = 3.0;
 // No further effects are looked for once this part of what was explained is left above the noise, or is all that the
@@ -29,117 +20,10 @@ constexpr double negligible = 0.05;
 // anything else would help.
 constexpr double near_what_stays = 2.0;
 
-bool is_series(const std::string& id) {
-  const Part* part = find_effect(id);
-  return part != nullptr && part->in_series();
-}
-
-Hypothesis with(const Hypothesis& what, const std::string& id) {
-  Hypothesis result = what;
-  if (is_law(id)) {
-    result.richer.push_back(id.substr(4));
-  } else {
-    result.effects.push_back(id);
-  }
-  return result;
-}
-
-Hypothesis without(const Hypothesis& what, const std::string& id) {
-  Hypothesis result = what;
-  std::erase(result.effects, id);
-  if (is_law(id)) {
-    const auto found = std::ranges::find(result.richer, id.substr(4));
-    if (found != result.richer.end()) {
-      result.richer.erase(found);
-    }
-  }
-  return result;
-}
-
 // The same parts, whatever their order of discovery.
 bool same_parts(const Hypothesis& a, const Hypothesis& b) {
   return a.model == b.model && std::ranges::is_permutation(a.effects, b.effects) &&
          std::ranges::is_permutation(a.richer, b.richer);
-}
-
-bool contains(const Hypothesis& what, const std::string& id) {
-  return is_law(id) ? std::ranges::find(what.richer, id.substr(4)) != what.richer.end()
-                    : std::ranges::find(what.effects, id) != what.effects.end();
-}
-
-// Parameters whose law in the drive could have one more order: as many as there are drive levels allow.
-std::vector<std::string> law_candidates(const Workbench& bench, const Hypothesis& base) {
-  std::set<long> levels;
-  bool varies = false;
-  for (const Recording& recording : bench.split().fit) {
-    if (recording.drive.empty()) {
-      return {};
-    }
-    const auto [low, high] = std::ranges::minmax(recording.drive);
-    varies = varies || drive_varies(recording);
-    levels.insert(std::lround(1e3 * 0.5 * (low + high)));
-  }
-  const int most = varies ? 3 : static_cast<int>(levels.size()) - 1;
-  std::vector<std::string> result;
-  const Layout layout = bench.layout(base);
-  for (const ParameterLaw& law : layout.laws()) {
-    if (static_cast<int>(law.drive_nodes.size()) <= most) {
-      result.push_back("law:" + layout.names()[law.parameter]);
-    }
-  }
-  return result;
-}
-
-Tried weighed(const std::string& id, const Fit& fit, const Fit& before, double effective) {
-  Tried tried;
-  tried.id = id;
-  tried.fit = fit;
-  tried.gain = squared(before.cost) - squared(fit.cost);
-  tried.heldout_gain = squared(before.heldout) - squared(fit.heldout);
-  tried.evidence = evidence(squared(before.cost), squared(fit.cost),
-                            static_cast<double>(fit.dimension()) - static_cast<double>(before.dimension()), effective);
-  return tried;
-}
-
-// All candidates behind `before`, a few rounds each, the best taken further; best first. The base's parameters start
-// from those of `before` and, where given, of `also`.
-std::vector<Tried> stage(const Workbench& bench, const Fit& before, const std::vector<std::string>& candidates,
-                         double effective, const Fit* also = nullptr) {
-  std::vector<std::string> ids;
-  std::vector<Hypothesis> hypotheses;
-  // Two elements in series share one force and are told apart by their sum only.
-  const bool has_series = std::ranges::any_of(before.what.effects, is_series);
-  for (const std::string& id : candidates) {
-    if ((!contains(before.what, id) || is_law(id)) && !(is_series(id) && has_series)) {
-      ids.push_back(id);
-      hypotheses.push_back(with(before.what, id));
-    }
-  }
-  std::vector<Fit> fits = bench.from_fit(hypotheses, before, screening_rounds, also);
-  std::vector<std::size_t> order(fits.size());
-  for (std::size_t k = 0; k < order.size(); ++k) {
-    order[k] = k;
-  }
-  std::ranges::stable_sort(order, {}, [&](std::size_t k) { return fits[k].cost; });
-  const std::size_t count = std::min(survivors, order.size());
-  std::vector<Fit> best;
-  for (std::size_t k = 0; k < count; ++k) {
-    best.push_back(fits[order[k]]);
-  }
-  best = bench.polished(best, fitting_rounds);
-  std::vector<Tried> result;
-  for (std::size_t k = 0; k < order.size(); ++k) {
-    result.push_back(weighed(ids[order[k]], k < count ? best[k] : fits[order[k]], before, effective));
-  }
-  std::ranges::stable_sort(result, [](const Tried& a, const Tried& b) { return a.evidence > b.evidence; });
-  return result;
-}
-
-bool worth(const Tried& tried, const Fit& before, double candidates) {
-  // Recordings that do not excite the effect may get a little worse.
-  const double bearable = std::max(0.005 * squared(before.heldout), 0.02 * tried.gain);
-  return tried.evidence > least_evidence + 2.0 * std::log(candidates) &&
-         tried.gain > least_gain * squared(before.cost) && tried.heldout_gain > -bearable;
 }
 
 const ParameterLaw* law_of(const Layout& layout, const std::string& parameter) {
@@ -202,8 +86,6 @@ std::vector<std::string> closest(const std::vector<std::vector<Tried>>& stages, 
 }
 
 }  // namespace
-
-bool is_law(const std::string& id) { return id.starts_with("law:"); }
 
 Search search(const Workbench& bench, const Workbench& fine, const Hypothesis& base, const SearchOptions& options,
               const SearchProgress& progress) {
@@ -290,7 +172,8 @@ Search search(const Workbench& bench, const Workbench& fine, const Hypothesis& b
       found.evidence = evidence(
           squared(found.without.cost), squared(current.cost),
           static_cast<double>(current.dimension()) - static_cast<double>(found.without.dimension()), effective);
-      if (found.evidence < least_evidence || found.gain < least_gain * squared(found.without.cost)) {
+      if (found.evidence < least_evidence_of_a_place ||
+          found.gain < least_gain_of_a_place * squared(found.without.cost)) {
         current = found.without;
         changed = true;
         break;
@@ -337,7 +220,7 @@ Search search(const Workbench& bench, const Workbench& fine, const Hypothesis& b
             evidence(squared(rival.fit.cost), squared(current.cost),
                      static_cast<double>(current.dimension()) - static_cast<double>(rival.fit.dimension()), effective);
         // A wider form must be worth its further parameters.
-        const double asked = is_limit(rival.id, id) ? wider_evidence : -least_evidence;
+        const double asked = is_limit(rival.id, id) ? wider_evidence : -least_evidence_of_a_place;
         if (row.evidence < asked && (better == nullptr || rival.fit.cost < better->fit.cost)) {
           better = &rival;
         }

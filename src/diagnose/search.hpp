@@ -8,18 +8,10 @@
 #include <vector>
 
 #include "diagnose/misfit.hpp"
+#include "diagnose/stage.hpp"
 #include "diagnose/withstand.hpp"
 
 namespace hysteron {
-
-// A hypothesis tried at one stage, against what stood before it.
-struct Tried {
-  std::string id;  // effect, or "law:PARAMETER" for a richer parameter law
-  Fit fit;
-  double evidence = 0.0;      // gain of the Bayesian information criterion with the effective samples, > 0 is for it
-  double gain = 0.0;          // squares before - squares after
-  double heldout_gain = 0.0;  // likewise on the judged recordings
-};
 
 struct Rival {
   std::string id;
@@ -73,7 +65,5 @@ Search search(const Workbench& quick, const Workbench& fine, const Hypothesis& b
 
 // The effect that a yield force is which rises ever less with the drive, whichever parameter law shows it.
 constexpr const char* saturation = "magnetic-saturation";
-// Whether an id of Tried, Rival or Found is of a richer parameter law: "law:PARAMETER".
-bool is_law(const std::string& id);
 
 }  // namespace hysteron

@@ -55,7 +55,8 @@ Problem make_problem(const Objective& objective, const SolverEntry& entry, const
   problem.screening = true;
   objective.describe_data(problem);
   for (const auto& [name, value] : options.settings) {
-    const bool known = std::ranges::any_of(entry.settings, [&name = name](const Setting& row) { return row.name == name; });
+    const bool known =
+        std::ranges::any_of(entry.settings, [&name = name](const Setting& row) { return row.name == name; });
     if (known || options.solvers.size() == 1) {
       problem.settings[name] = value;
     }
@@ -173,9 +174,11 @@ Identification identify(const Campaign& campaign, const std::string& model, cons
         [&](const RunResult& partial) {
           return !progress || progress(std::string(entry->id) + ": " + final_stage(refit), partial);
         });
-    if (refit || run.cost < result.cost) {
+    // Interrupted before it came as far, the fit is what it started from.
+    const double before = refit ? final_objective.evaluate({best, false}).cost[0] : result.cost;
+    result.cost = std::min(before, run.cost);
+    if (run.cost < before) {
       best = run.best;
-      result.cost = run.cost;
       if (!refit && !heldout.empty()) {
         result.nrmse_heldout =
             predicted_nrmse(layout, layout.terms(best), pick(campaign.recordings, heldout), options.objective);

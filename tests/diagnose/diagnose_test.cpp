@@ -153,6 +153,47 @@ TEST(Diagnosis, DoesNotCallAForceCompleteThatASupplyScales) {
   EXPECT_TRUE(diagnosis->verdict.effects.empty());
 }
 
+TEST(Diagnosis, WithoutANameTheModelStillLearnsTheCurveOfTheDrive) {
+  // Yield force and damping rise with the current by one curve, steep in the middle, that no effect is.
+  Campaign campaign;
+  for (int level = 0; level < 5; ++level) {
+    const double current = 0.25 * level;
+    const double curve = 0.2 + current * current * (3.0 - 2.0 * current);
+    for (const double frequency : {0.7, 2.2}) {
+      LayoutOptions made;
+      made.fix = {{"alpha", 600.0 * curve},
+                  {"c0", 1500.0 * curve},
+                  {"k0", 0.0},
+                  {"f0", 0.0},
+                  {"x_y", 8e-4},
+                  {"share", 0.6},
+                  {"n", 1.5}};
+      const Layout layout(make_model("bouc-wen", {}), DataScale{}, made);
+      const std::size_t index = campaign.recordings.size();
+      Recording recording = testing::motion("r" + std::to_string(index) + ".csv", {{0.008, frequency}}, 3.0 / frequency,
+                                            400, 0.2 / frequency);
+      testing::set_force(recording, layout, layout.terms(layout.initial()), {}, 0.01, Stream(seed).child(index));
+      recording.drive.assign(recording.size(), current);
+      recording.drive_kind = DriveKind::current;
+      campaign.recordings.push_back(recording);
+      campaign.roles.push_back(Role::unassigned);
+    }
+  }
+  DiagnoseOptions options;
+  options.model = "bouc-wen";
+  options.seed = seed;
+  options.candidates = {"inertia", "force-drift"};
+  options.layout.by_current = {{"alpha", 1}, {"c0", 1}};
+  const auto diagnosis = diagnose(campaign, options, [](double, const std::string&) {});
+  EXPECT_EQ(diagnosis->verdict.word, "unattributed");
+  EXPECT_TRUE(diagnosis->verdict.effects.empty());
+  const std::vector<std::string>& richer = diagnosis->search.augmented.what.richer;
+  EXPECT_EQ(std::ranges::count(richer, "alpha"), 2);
+  EXPECT_EQ(std::ranges::count(richer, "c0"), 2);
+  EXPECT_LT(diagnosis->search.augmented.heldout, 1.2 * diagnosis->noise_floor_heldout);
+  EXPECT_GT(diagnosis->search.base.heldout, 4.0 * diagnosis->noise_floor_heldout);
+}
+
 TEST(Diagnosis, RecordHoldsWhatTheContractNames) {
   const auto diagnosis =
       diagnosis_of(campaign_with({"inertia"}, {{"inertia.m", 8.0}}, 0.01), {"inertia", "force-drift"});

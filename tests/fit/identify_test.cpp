@@ -225,6 +225,26 @@ TEST(Identify, StopsWhenTheObserverSaysSoAndKeepsTheBest) {
   EXPECT_LT(result.cost, 1.0);
 }
 
+TEST(Identify, AFinalFitThatIsInterruptedIsNoWorseThanWhatItStartedFrom) {
+  std::vector<Recording> recordings;
+  for (const Campaign& campaign : {viscous_campaign(10.0), viscous_campaign(11.0)}) {
+    recordings.insert(recordings.end(), campaign.recordings.begin(), campaign.recordings.end());
+  }
+  IdentifyOptions options;
+  options.budget = 600;
+  for (const int calls_allowed : {0, 1}) {
+    int calls = 0;
+    const Identification result =
+        identify(campaign_of(recordings), "modified-bouc-wen", options, [&](const std::string& stage, const RunResult&) {
+          return stage.find("final fit") == std::string::npos || calls++ < calls_allowed;
+        });
+    ASSERT_TRUE(result.final_run);
+    EXPECT_EQ(result.final_run->stopped, "interrupted");
+    EXPECT_LT(result.cost, 1.1 * result.solvers.at(result.chosen).run.cost);
+    EXPECT_DOUBLE_EQ(result.cost, predicted_nrmse(result.layout, result.terms, recordings, {}));
+  }
+}
+
 TEST(Identify, SameSeedSameBitsOtherSeedOtherRun) {
   const Campaign campaign = viscous_campaign(10.0);
   const auto cost = [&](std::uint64_t of_seed, int threads) {
