@@ -25,7 +25,10 @@ json evidence_json(const Search& search) {
   for (const Found& one : search.found) {
     json rivals = json::array();
     for (const Rival& rival : one.rivals) {
-      rivals.push_back({{"id", rival.id}, {"share_of_gain", rival.share}, {"evidence", rival.evidence}});
+      rivals.push_back({{"id", rival.id},
+                        {"share_of_gain", rival.share},
+                        {"evidence", rival.evidence},
+                        {"nrmse_heldout", rival.fit.heldout}});
     }
     found.push_back({{"id", one.id},
                      {"gain", one.gain},

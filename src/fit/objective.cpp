@@ -127,9 +127,13 @@ void march_window(const CompositeModel& model, const Target& target, const Param
       parameters_at_drive(excitation.act(command, values), values);
     }
   };
-  const auto block = [&](const Motion& motion, std::size_t begin, std::size_t end) {
+  // Effects on the drive remember: every sample is asked once, and the one that ends a block begins the next.
+  const auto block = [&](const Motion& motion, std::size_t begin, std::size_t end, bool goes_on) {
     if (target.drive_varies) {
-      for (std::size_t n = begin; n < end; ++n) {
+      if (goes_on) {
+        std::copy_n(p.data() + block_samples * width, width, p.data());
+      }
+      for (std::size_t n = begin + (goes_on ? 1 : 0); n < std::min(end + 1, motion.time.size()); ++n) {
         parameters_of({motion.time, motion.drive, n}, p.data() + (n - begin) * width);
       }
     }
@@ -143,7 +147,7 @@ void march_window(const CompositeModel& model, const Target& target, const Param
     std::ranges::fill(state, T(0.0));
     for (std::size_t begin = 0; begin < target.preroll; begin += block_samples) {
       const std::size_t end = std::min(begin + block_samples, target.preroll);
-      block(target.lead_in, begin, end);
+      block(target.lead_in, begin, end, begin > 0);
       before(begin, end - begin, out.data());
     }
   } else if (target.drive_varies && !excitation.none()) {
@@ -154,7 +158,7 @@ void march_window(const CompositeModel& model, const Target& target, const Param
   }
   for (std::size_t begin = first; begin < last; begin += block_samples) {
     const std::size_t end = std::min(begin + block_samples, last);
-    block(target.motion, begin, end);
+    block(target.motion, begin, end, begin > first);
     sink(begin, end - begin, out.data());
   }
 }

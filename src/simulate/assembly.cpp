@@ -465,6 +465,7 @@ void march_assembly(const CompositeModel& model, const Motion& motion, const T* 
   std::copy_n(state, system.states(), current.begin());
   Room<T> room;
   auto& start = room.start;
+  std::vector<T> between(stride);
   for (std::size_t n = begin; n < end; ++n) {
     if (n == begin || stride > 0) {
       system.set_parameters(p + (n - begin) * stride);
@@ -480,7 +481,11 @@ void march_assembly(const CompositeModel& model, const Motion& motion, const T* 
       continue;
     }
     const MotionInterval& interval = motion.intervals[n];
-    march_segment<T>(system, motion, n, 0.0, interval.reversal_at, true, room, current);
+    if (stride > 0) {
+      detail::parameters_between(p + (n - begin) * stride, stride, between.data());
+      system.set_parameters(between.data());
+    }
+    march_segment<T>(system, motion, n, 0.0, interval.reversal_at, stride == 0, room, current);
     if (interval.reversal) {
       march_segment<T>(system, motion, n, interval.reversal_at, 1.0, false, room, current);
     }

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <vector>
 
 #include "simulate/motion.hpp"
 #include "simulate/part.hpp"
@@ -350,6 +351,14 @@ template <class T, class Chain>
 // Intervals checked at once for needing a single step.
 inline constexpr std::size_t block_length = 8;
 
+// Parameters that act over an interval, from those at its ends: of second order in its length where they vary.
+template <class T>
+void parameters_between(const T* p, std::size_t stride, T* result) {
+  for (std::size_t j = 0; j < stride; ++j) {
+    result[j] = T(0.5) * (p[j] + p[stride + j]);
+  }
+}
+
 // march with constant parameters.
 template <class T, class Chain>
 [[gnu::noinline, gnu::flatten]] void march_constant(const Chain& system, const Motion& motion,
@@ -432,8 +441,15 @@ void march(const Chain& system, const Motion& motion, const T* __restrict p, std
     detail::march_constant<T>(system, motion, p, begin, end, state, out);
     return;
   }
+  T last{};  // the force with the parameters of an interval, which is that of no sample
+  std::vector<T> between(stride);
   for (std::size_t n = begin; n < end; ++n) {
-    detail::march_constant<T>(system, motion, p + (n - begin) * stride, n, n + 1, state, out + (n - begin));
+    const T* here = p + (n - begin) * stride;
+    out[n - begin] = system.force(here, state, detail::input_of_sample<T>(motion, n));
+    if (system.states() > 0 && n < motion.intervals.size()) {
+      detail::parameters_between(here, stride, between.data());
+      detail::march_constant<T>(system, motion, between.data(), n, n + 1, state, &last);
+    }
   }
 }
 

@@ -318,5 +318,44 @@ TEST(Batch, ANeighbourWithNanDoesNotStopTheOthers) {
   }
 }
 
+// Force at `rate` Hz while yield force and damping swing by 80 % of themselves at 3 Hz.
+Vector force_of_swinging_parameters(const CompositeModel& model, double rate) {
+  const Vector time = uniform_time(rate, 1.0);
+  Motion motion = motion_of(time, sine);
+  motion = make_motion(motion.time, motion.x, motion.v, {}, 1e-9);
+  const std::vector<Parameter> cards = model.parameters();
+  Vector all;
+  for (const double t : time) {
+    for (const Parameter& card : cards) {
+      const bool swings = card.name == "alpha" || card.name == "c0";
+      const double initial = card.name == "C" ? 1e-6 : card.initial;
+      all.push_back(initial * (swings ? 1.0 + 0.8 * std::sin(6.0 * std::numbers::pi * t) : 1.0));
+    }
+  }
+  Vector force(time.size());
+  Vector state(max_states, 0.0);
+  model.march<double>(motion, all.data(), cards.size(), 0, time.size(), state.data(), force.data());
+  return force;
+}
+
+TEST(March, ParametersThatVaryAreOfSecondOrder) {
+  for (const CompositeModel& model : {make_model("modified-bouc-wen", {}), make_model("bouc-wen", {"compliance"})}) {
+    constexpr double rate = 200.0;
+    constexpr std::size_t finer = 32;
+    const Vector exact = force_of_swinging_parameters(model, rate * finer);
+    const auto error = [&](std::size_t part) {
+      const Vector force = force_of_swinging_parameters(model, rate * static_cast<double>(part));
+      double sum = 0.0;
+      for (std::size_t n = 0; n * part < force.size(); ++n) {
+        sum += std::pow(force[n * part] - exact[n * finer], 2.0);
+      }
+      return std::sqrt(sum);
+    };
+    EXPECT_GT(error(1) / error(2), 3.0) << model.law->id;
+    EXPECT_GT(error(2) / error(4), 3.0) << model.law->id;
+    EXPECT_LT(error(4), 2e-3 * peak(exact) * std::sqrt(static_cast<double>(exact.size()) / finer)) << model.law->id;
+  }
+}
+
 }  // namespace
 }  // namespace hysteron
