@@ -1,7 +1,8 @@
 #include "core/recording.hpp"
 
 #include <algorithm>
-#include <cmath>
+
+#include "core/drive.hpp"
 
 namespace hysteron {
 
@@ -22,12 +23,6 @@ Recording every_kth(const Recording& recording, std::size_t k) {
   return result;
 }
 
-bool drive_varies(const Recording& recording) {
-  if (recording.drive.empty()) {
-    return false;
-  }
-  const auto [low, high] = std::ranges::minmax(recording.drive);
-  return high - low > 0.02 * std::max(std::fabs(low), std::fabs(high));
-}
+bool drive_varies(const Recording& recording) { return varies(recording.drive); }
 
 }  // namespace hysteron

@@ -39,7 +39,7 @@ struct Recording {
 std::array<std::vector<double>*, 8> channels_of(Recording& recording);
 // Every k-th sample of every channel, from the first on; k > 0.
 Recording every_kth(const Recording& recording, std::size_t k);
-// Whether the drive moves by more than 2 % of its largest size; false when there is none.
+// Whether the drive moves, by more than its noise (core/drive.hpp); false when there is none.
 bool drive_varies(const Recording& recording);
 
 enum class Role { unassigned, fit, validate };

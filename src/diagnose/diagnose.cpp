@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "core/drive.hpp"
 #include "diagnose/account.hpp"
 #include "diagnose/extend.hpp"
 #include "diagnose/noise.hpp"
@@ -34,6 +35,8 @@ constexpr double above_floor = 1.5;
 constexpr double least_noise = 1e-4;
 // A recorded velocity correlates with the slope of the displacement at least so.
 constexpr double least_likeness = 0.5;
+// Where less than this many times the squares of the noise stay, nothing more is added for the sake of prediction.
+constexpr double far_from_noise = 4.0;
 // What may join the augmented model for the sake of prediction, and derivative evaluations of it on more samples.
 constexpr int most_added = 4;
 constexpr int refitting_rounds = 10;
@@ -329,7 +332,8 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const Split& split
   return result;
 }
 
-// Takes what stands out alone from the forces; the note that says so, empty where nothing does.
+// Takes what stands out alone from the forces, and the noise from the drive, which thinned samples tell less well; the
+// note that says so, empty where nothing stands out.
 std::string without_outliers(Campaign& campaign) {
   std::size_t replaced = 0;
   std::size_t samples = 0;
@@ -338,6 +342,7 @@ std::string without_outliers(Campaign& campaign) {
     const std::size_t here = replace_outliers(recording);
     replaced += here;
     samples += recording.size();
+    recording.drive = quiet_drive(recording.drive);
     recordings += here > 0 ? 1 : 0;
   }
   return replaced == 0 ? std::string{}

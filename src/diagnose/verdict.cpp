@@ -40,7 +40,10 @@ constexpr double sure_evidence = 3.0;
 // More effects than that are the shape of something else.
 constexpr std::size_t most_told = 2;
 constexpr double most_further_evidence = 15.0;
-constexpr double most_further_part = 0.1;
+constexpr double most_further_part = 0.15;
+// Judging recordings on which the squared error falls by as large a share as on the fitted ones, and by this at least,
+// bear an effect out, however few samples of these are independent.
+constexpr double borne_out = 0.05;
 constexpr double told_margin = 0.12;
 constexpr double told_evidence_part = 0.1;
 // A further effect is named only where at most this many times the noise stays, and not beside its own kin: what the
@@ -57,15 +60,20 @@ constexpr double dominant_over_predicted = 20.0;
 // A gain below this share of the squared error must show in the judging recordings too, by this part of it.
 constexpr double plain_gain = 0.3;
 constexpr double confirmed_part = 0.25;
-// A gain of this share of the squared error that they bear out shows that something is missing.
+// A gain of this share of the squared error that they bear out shows that something is missing; so does this share of
+// theirs with telling evidence of all effects together.
 constexpr double shown_gain = 0.05;
+constexpr double shown_heldout_gain = 0.03;
 // Of the residual beyond its white noise, this part counts as unexplained even where nothing shows that it repeats.
 constexpr double doubtful_share = 0.2;
 // A further effect must explain this part of what the strongest does: the equations of that one are not exact, and what
 // they miss looks like an effect of its own.
 constexpr double least_share_of_strongest = 0.08;
-// A rival that leaves this many times the squared error on the judging recordings is none, however it fits.
+// A rival that leaves this many times the squared error on the judging recordings is none, however it fits; where so
+// much evidence of the fitted ones is against it too, this many times is enough.
 constexpr double refuting_factor = 2.0;
+constexpr double refuting_evidence = 100.0;
+constexpr double refuting_factor_with_evidence = 1.2;
 // A fitted lag of the velocity channel and the one between the channels agree within this share.
 constexpr double channel_agreement = 0.25;
 // An effect survives another assumption where it keeps this part of its gain; else the confidence is multiplied by
@@ -86,6 +94,20 @@ bool confirmed(const Found& found, const Fit& augmented, double sure) {
     return true;
   }
   return fit > plain_gain ? heldout > -0.01 : heldout > confirmed_part * fit;
+}
+
+// Whether the judging recordings show the effect as plainly as the fitted ones.
+bool is_borne_out(const Found& found, const Fit& augmented) {
+  const double fit = 1.0 - squared(augmented.cost / found.without.cost);
+  const double heldout = 1.0 - squared(augmented.heldout / found.without.heldout);
+  return heldout > std::max(fit, borne_out);
+}
+
+// Whether a rival is out of the question by what it leaves on the judging recordings.
+bool is_refuted(const Rival& rival, const Fit& augmented, double honest) {
+  const double factor = squared(rival.fit.heldout / augmented.heldout);
+  return factor > refuting_factor ||
+         (factor > refuting_factor_with_evidence && rival.evidence > refuting_evidence / honest);
 }
 
 // Whether the lag of the velocity channel that a fit found is the one that the channels show.
@@ -183,9 +205,10 @@ Verdict verdict_of(const Search& search, const Circumstances& known) {
   // Evidence counts samples as independent that a slow noise under a white one makes alike: `honest` is the rest.
   const double honest =
       search.misfit.effective > 0.0 ? std::min(1.0, search.misfit.independent / search.misfit.effective) : 1.0;
-  const double telling =
-      telling_evidence * (search.misfit.motion > noisy_motion * search.misfit.floor ? 2.0 : 1.0) / honest;
+  const double told_at_best =
+      telling_evidence * (search.misfit.motion > noisy_motion * search.misfit.floor ? 2.0 : 1.0);
   for (const Found& found : search.found) {
+    const double telling = is_borne_out(found, search.augmented) ? told_at_best : told_at_best / honest;
     const bool told = settled && search.found.size() <= most_told && found.evidence > telling && search.further &&
                       *search.further < std::max(most_further_evidence / honest, most_further_part * found.evidence);
     if (found.gain < least_share_of_strongest * search.found.front().gain ||
@@ -217,7 +240,7 @@ Verdict verdict_of(const Search& search, const Circumstances& known) {
     std::vector<const Rival*> as_good;
     const Rival* instead = nullptr;  // to be named in place of the effect
     for (const Rival& rival : found.rivals) {
-      const bool refuted = squared(rival.fit.heldout) > refuting_factor * squared(search.augmented.heldout);
+      const bool refuted = is_refuted(rival, search.augmented, honest);
       // Where structure stays, one that ends as the other at a bound may be a descent gone astray of the other.
       const bool unsure = verdict.remaining_structure && !bound_parameter(found.id, rival.id).empty();
       const bool close = unsure || (!refuted && (rival.share > 1.0 - margin || rival.evidence < ahead)) ||
@@ -289,11 +312,18 @@ Verdict verdict_of(const Search& search, const Circumstances& known) {
   }
   if (verdict.effects.empty()) {
     // Gains that the held-out recordings bear out are of something, even where the residual looks like noise.
-    const bool shown = std::ranges::any_of(search.found, [&](const Found& found) {
-      return (found.evidence > telling ||
-              (found.evidence > least_evidence && found.gain > shown_gain * search.base_misfit.squares)) &&
-             confirmed(found, search.augmented, sure_evidence * telling);
-    });
+    const double telling = told_at_best / honest;
+    double together = 0.0;
+    for (const Found& found : search.found) {
+      together += found.evidence;
+    }
+    const bool all_shown =
+        together > told_at_best && squared(search.augmented.heldout / search.base.heldout) < 1.0 - shown_heldout_gain;
+    const bool shown = all_shown || std::ranges::any_of(search.found, [&](const Found& found) {
+                         return (found.evidence > telling || (found.evidence > least_evidence &&
+                                                              found.gain > shown_gain * search.base_misfit.squares)) &&
+                                confirmed(found, search.augmented, sure_evidence * telling);
+                       });
     const bool quiet = !structured(search.base_misfit) && !shown;
     verdict.word = quiet ? "complete" : "unattributed";
     verdict.reason = quiet ? "the best known effect explains too little to be more than the colour of the noise"

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <tuple>
 
+#include "core/drive.hpp"
 #include "core/error.hpp"
 #include "fit/parallel.hpp"
 #include "fit/start.hpp"
@@ -172,8 +173,8 @@ void march_target(const CompositeModel& model, const Target& target, const Param
 }
 
 Motion motion_of(const Recording& recording, double tolerance) {
-  return make_motion(recording.time, recording.displacement, recording.velocity, recording.drive, tolerance,
-                     recording.derived_acceleration);
+  return make_motion(recording.time, recording.displacement, recording.velocity, quiet_drive(recording.drive),
+                     tolerance, recording.derived_acceleration);
 }
 
 // The period to march beforehand, if any, so that the recording goes on from its end.

@@ -70,10 +70,13 @@ TEST(Verdict, ARivalThatLeavesMuchMoreThanNoiseIsExcluded) {
 
 TEST(Verdict, ARivalThatTheJudgingRecordingsRefuteIsNone) {
   Search search = search_of("linear-stiffness", 1.1 * floor_squares, 10.0 * floor_squares);
-  search.found[0].rivals = {rival("pre-yield-hysteresis", 0.98, 500.0)};
-  for (const auto& [factor, word] : {std::pair{1.5, "ambiguous"}, std::pair{2.5, "missing-physics"}}) {
+  // With much evidence of the fitted recordings against it a smaller contradiction is enough.
+  for (const auto& [factor, evidence, word] :
+       {std::tuple{1.5, 50.0, "ambiguous"}, std::tuple{2.5, 50.0, "missing-physics"},
+        std::tuple{1.1, 500.0, "ambiguous"}, std::tuple{1.5, 500.0, "missing-physics"}}) {
+    search.found[0].rivals = {rival("pre-yield-hysteresis", 0.98, evidence)};
     search.found[0].rivals[0].fit.heldout = std::sqrt(factor) * search.augmented.heldout;
-    EXPECT_EQ(verdict_of(search, plain).word, word) << factor;
+    EXPECT_EQ(verdict_of(search, plain).word, word) << factor << " " << evidence;
   }
 }
 
@@ -129,6 +132,15 @@ TEST(Verdict, NearTheNoiseTheEvidenceDecides) {
   search.misfit.effective = 1000.0;
   search.misfit.independent = 100.0;
   EXPECT_NE(verdict_of(search, plain).word, "missing-physics") << "a slow noise gives more";
+  search.augmented.heldout = std::sqrt(0.9) * search.found[0].without.heldout;
+  EXPECT_EQ(verdict_of(search, plain).word, "missing-physics") << "the judging recordings bear it out";
+  // Effects that are too many for a name, or too little each, show together that something is missing.
+  for (const auto& [heldout, word] : {std::pair{0.99, "complete"}, std::pair{0.95, "unattributed"}}) {
+    search = small(30.0, 5.0);
+    search.found.resize(3, search.found.front());
+    search.augmented.heldout = std::sqrt(heldout) * search.base.heldout;
+    EXPECT_EQ(verdict_of(search, plain).word, word) << heldout;
+  }
   // Judging recordings that do not excite the effect are no objection to much evidence, those that contradict are.
   for (const auto& [evidence, heldout, word] :
        {std::tuple{100.0, 1.0, "complete"}, std::tuple{400.0, 1.0, "missing-physics"},

@@ -1,0 +1,66 @@
+#include "core/drive.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace hysteron {
+namespace {
+
+constexpr double least_variation = 0.02;  // of the largest size
+constexpr double least_over_noise = 12.0;
+constexpr double agreement = 5.7;  // four standard deviations of the difference of two samples
+constexpr std::size_t reach = 8;
+constexpr std::size_t least_samples = 16;
+
+}  // namespace
+
+double drive_noise(const std::vector<double>& drive) {
+  if (drive.size() < least_samples) {
+    return 0.0;
+  }
+  std::vector<double> sizes;
+  sizes.reserve(drive.size());
+  for (std::size_t n = 4; n < drive.size(); ++n) {
+    sizes.push_back(std::fabs(drive[n - 4] - 4.0 * drive[n - 3] + 6.0 * drive[n - 2] - 4.0 * drive[n - 1] + drive[n]));
+  }
+  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+  std::ranges::nth_element(sizes, middle);
+  return *middle / (0.6745 * std::sqrt(70.0));
+}
+
+bool varies(const std::vector<double>& drive) {
+  if (drive.empty()) {
+    return false;
+  }
+  const auto [low, high] = std::ranges::minmax(drive);
+  return high - low >
+         std::max(least_variation * std::max(std::fabs(low), std::fabs(high)), least_over_noise * drive_noise(drive));
+}
+
+std::vector<double> quiet_drive(const std::vector<double>& drive) {
+  if (drive.empty()) {
+    return {};
+  }
+  if (!varies(drive)) {
+    const double mean = std::accumulate(drive.begin(), drive.end(), 0.0) / static_cast<double>(drive.size());
+    return std::vector<double>(drive.size(), mean);
+  }
+  const double limit = agreement * drive_noise(drive);
+  std::vector<double> result(drive.size());
+  for (std::size_t n = 0; n < drive.size(); ++n) {
+    double sum = drive[n];
+    std::size_t count = 1;
+    for (std::size_t k = 1; k <= std::min({reach, n, drive.size() - 1 - n}); ++k) {
+      if (std::fabs(drive[n - k] - drive[n]) > limit || std::fabs(drive[n + k] - drive[n]) > limit) {
+        break;
+      }
+      sum += drive[n - k] + drive[n + k];
+      count += 2;
+    }
+    result[n] = sum / static_cast<double>(count);
+  }
+  return result;
+}
+
+}  // namespace hysteron

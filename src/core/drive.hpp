@@ -1,0 +1,19 @@
+// The drive channel without the noise of its measurement: what the device saw is smoother than what was recorded.
+#pragma once
+
+#include <vector>
+
+namespace hysteron {
+
+// Standard deviation of the channel's white noise, by the median of its fourth differences; 0 for a channel that is
+// smooth, constant or steps without noise.
+double drive_noise(const std::vector<double>& drive);
+
+// Whether it moves by more than 2 % of its largest size, and by more than its noise does.
+bool varies(const std::vector<double>& drive);
+
+// Its mean where it does not vary; else each sample is the mean of up to 17 around it, as far to both sides as they
+// agree with it within their noise, so that steps and ramps stay.
+std::vector<double> quiet_drive(const std::vector<double>& drive);
+
+}  // namespace hysteron
