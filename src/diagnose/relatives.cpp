@@ -39,6 +39,12 @@ bool is_kin(const std::string& effect, const std::string& other) {
   return std::ranges::find(alike, other) != alike.end();
 }
 
+bool is_of_place(const std::string& effect) {
+  constexpr std::array<std::string_view, 6> ids = {"offset-force", "linear-stiffness", "cubic-stiffness",
+                                                   "end-stop",     "gas-spring",       "pinching"};
+  return std::ranges::find(ids, effect) != ids.end();
+}
+
 namespace {
 
 struct Limit {

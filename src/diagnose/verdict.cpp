@@ -67,8 +67,15 @@ constexpr double shown_heldout_gain = 0.03;
 // Of the residual beyond its white noise, this part counts as unexplained even where nothing shows that it repeats.
 constexpr double doubtful_share = 0.2;
 // A further effect must explain this part of what the strongest does: the equations of that one are not exact, and what
-// they miss looks like an effect of its own.
+// they miss looks like an effect of its own. Less is enough for one that is not of the same kind and takes this share
+// off the squared error of the judging recordings.
 constexpr double least_share_of_strongest = 0.08;
+constexpr double plain_heldout_gain = 0.2;
+// An effect with such a share is named beside structure-like noise too where no rival explains this part of it.
+constexpr double sole_share = 0.5;
+// Twice the logarithm of the likelihood that a wider form gains, from which on near the noise it is as good as its
+// limit, though not worth its parameters.
+constexpr double wider_gain = 4.0;
 // A rival that leaves this many times the squared error on the judging recordings is none, however it fits; where so
 // much evidence of the fitted ones is against it too, this many times is enough.
 constexpr double refuting_factor = 2.0;
@@ -101,6 +108,12 @@ bool is_borne_out(const Found& found, const Fit& augmented) {
   const double fit = 1.0 - squared(augmented.cost / found.without.cost);
   const double heldout = 1.0 - squared(augmented.heldout / found.without.heldout);
   return heldout > std::max(fit, borne_out);
+}
+
+// Whether the judging recordings leave no doubt of it.
+bool is_plain(const Found& found, const Fit& augmented) {
+  return is_borne_out(found, augmented) &&
+         squared(augmented.heldout / found.without.heldout) < 1.0 - plain_heldout_gain;
 }
 
 // Whether a rival is out of the question by what it leaves on the judging recordings.
@@ -211,16 +224,23 @@ Verdict verdict_of(const Search& search, const Circumstances& known) {
     const double telling = is_borne_out(found, search.augmented) ? told_at_best : told_at_best / honest;
     const bool told = settled && search.found.size() <= most_told && found.evidence > telling && search.further &&
                       *search.further < std::max(most_further_evidence / honest, most_further_part * found.evidence);
-    if (found.gain < least_share_of_strongest * search.found.front().gain ||
-        !confirmed(found, search.augmented, told ? sure_evidence * telling : 1e300)) {
+    const bool close_to_noise = search.misfit.squares < near_noise * search.misfit.floor;
+    const bool no_rival =
+        std::ranges::all_of(found.rivals, [](const Rival& rival) { return rival.share < sole_share; });
+    const bool sole = found.evidence > telling && is_plain(found, search.augmented) && close_to_noise && no_rival &&
+                      search.found.size() <= most_told && search.misfit.predictable < predicted_share;
+    const bool of_its_kind = is_of_place(found.id) && is_of_place(search.found.front().id);
+    const bool too_small = found.gain < least_share_of_strongest * search.found.front().gain &&
+                           (of_its_kind || !is_plain(found, search.augmented));
+    if (too_small || !confirmed(found, search.augmented, told ? sure_evidence * telling : 1e300)) {
       continue;
     }
-    if (!told && (found.gain < wanted || (found.evidence < least_settled_evidence &&
-                                          found.gain < least_gain_over_leftover * beyond_estimate))) {
+    if (!told && !sole &&
+        (found.gain < wanted ||
+         (found.evidence < least_settled_evidence && found.gain < least_gain_over_leftover * beyond_estimate))) {
       continue;
     }
-    if (!verdict.effects.empty() &&
-        (search.misfit.squares > near_noise * search.misfit.floor || is_kin(found.id, verdict.effects.front().id))) {
+    if (!verdict.effects.empty() && (!close_to_noise || is_kin(found.id, verdict.effects.front().id))) {
       continue;
     }
     if (found.gain < dominating && (!verdict.effects.empty() || !steady(search.augmented, found.id, known))) {
@@ -247,7 +267,8 @@ Verdict verdict_of(const Search& search, const Circumstances& known) {
                          ends_as(search.augmented, found.id, rival.id, known);
       // What holds the effect as a limit always explains as much; only more than its further parameters are worth
       // counts.
-      if (is_limit(found.id, rival.id) &&
+      const bool wider_as_good = told && (rival.share - 1.0) * found.evidence > wider_gain;
+      if (is_limit(found.id, rival.id) && !wider_as_good &&
           (rival.evidence > 0.0 ||
            (close && !stands_apart(rival.fit, rival.id, limit_parameter(found.id, rival.id), known)))) {
         continue;

@@ -149,6 +149,13 @@ TEST(Verdict, NearTheNoiseTheEvidenceDecides) {
     search.augmented.heldout = std::sqrt(heldout) * search.found[0].without.heldout;
     EXPECT_EQ(verdict_of(search, plain).word, word) << evidence << " " << heldout;
   }
+  // A wider form is as good that gains more than chance, though less than its parameters are worth.
+  for (const auto& [share, word] : {std::pair{1.01, "missing-physics"}, std::pair{1.06, "ambiguous"}}) {
+    search = small(100.0, 5.0);
+    search.found[0].id = "coulomb-friction";
+    search.found[0].rivals = {rival("seal-friction", share, 12.0)};
+    EXPECT_EQ(verdict_of(search, plain).word, word) << share;
+  }
   search = small(200.0, 5.0);
   search.found.resize(3, search.found.front());
   EXPECT_EQ(verdict_of(search, plain).word, "unattributed") << "three effects are the shape of something else";
@@ -159,6 +166,38 @@ TEST(Verdict, NearTheNoiseTheEvidenceDecides) {
     search.found[0].rivals = {rival("shear-thinning", share, evidence)};
     EXPECT_EQ(verdict_of(search, plain).word == "ambiguous", ambiguous) << share << " " << evidence;
   }
+}
+
+TEST(Verdict, ASmallFurtherEffectIsNamedWhereTheJudgingRecordingsLeaveNoDoubt) {
+  const auto names = [](const std::string& strong, const std::string& small, double heldout_without) {
+    Search search = search_of(strong, 1.05 * floor_squares, 20.0 * floor_squares);
+    search.misfit.evenness = {0.01, 0.02};
+    Found further = search.found.front();
+    further.id = small;
+    further.gain = 0.4 * floor_squares;
+    further.evidence = 500.0;
+    further.without.cost = std::sqrt(1.45 * floor_squares);
+    further.without.heldout = std::sqrt(heldout_without * floor_squares);
+    search.found.push_back(further);
+    return verdict_of(search, plain).effects.size();
+  };
+  EXPECT_EQ(names("series-dashpot", "inertia", 2.0), 2U);
+  EXPECT_EQ(names("series-dashpot", "inertia", 1.3), 1U) << "less than on the fitted ones";
+  EXPECT_EQ(names("pinching", "gas-spring", 2.0), 1U) << "what the form of the one misses looks like the other";
+}
+
+TEST(Verdict, BesideAnUnevenNoiseAnEffectWithoutRivalsIsNamed) {
+  const auto word = [](double heldout_without, double share) {
+    Search search = search_of("sensor-delay", 1.4 * floor_squares, 0.6 * floor_squares);
+    search.misfit.evenness = {0.03, 0.02};
+    search.found[0].without.cost = std::sqrt(2.0 * floor_squares);
+    search.found[0].without.heldout = std::sqrt(heldout_without * floor_squares);
+    search.found[0].rivals = {rival("seal-friction", share, 1000.0)};
+    return verdict_of(search, plain).word;
+  };
+  EXPECT_EQ(word(2.6, 0.1), "missing-physics");
+  EXPECT_EQ(word(2.6, 0.6), "unattributed");
+  EXPECT_EQ(word(1.6, 0.1), "unattributed");
 }
 
 TEST(Verdict, AnotherLawIsAsGoodOnlyIfItTakesMuchOfTheGain) {
