@@ -35,6 +35,9 @@ constexpr double above_floor = 1.5;
 constexpr double least_noise = 1e-4;
 // A recorded velocity correlates with the slope of the displacement at least so.
 constexpr double least_likeness = 0.5;
+// Another law takes the place of the one asked for if at most this part of the squared error stays on the judging
+// recordings.
+constexpr double least_swap = 0.8;
 // Where less than this many times the squares of the noise stay, nothing more is added for the sake of prediction.
 constexpr double far_from_noise = 4.0;
 // What may join the augmented model for the sake of prediction, and derivative evaluations of it on more samples.
@@ -137,28 +140,28 @@ std::vector<std::string> candidates_of(const DiagnoseOptions& options, Diagnosis
   return result;
 }
 
-// What was found on fewer samples, of every sample at the tolerance asked for; found nothing where that predicts worse.
-void score_on_all(Diagnosis& diagnosis) {
-  Search& found = diagnosis.search;
-  found.base = diagnosis.bench.scored(found.base);
-  found.augmented = diagnosis.bench.scored(found.augmented);
+// What was found on fewer samples, of every sample at the tolerance asked for. Nothing is found where that predicts
+// worse; whether that is so.
+bool score_on_all(Search& found, const Workbench& bench) {
+  found.base = bench.scored(found.base);
+  found.augmented = bench.scored(found.augmented);
   for (Found& one : found.found) {
-    one.without = diagnosis.bench.scored(one.without);
+    one.without = bench.scored(one.without);
     for (Rival& rival : one.rivals) {
       if (rival.share > 0.5) {
-        rival.fit = diagnosis.bench.scored(rival.fit);
+        rival.fit = bench.scored(rival.fit);
       }
     }
   }
-  if (found.augmented.heldout > most_loss * found.base.heldout) {
-    found.augmented = found.base;
-    found.quick_augmented = found.quick_base;
-    found.misfit = found.base_misfit;
-    found.found.clear();
-    found.richer.clear();
-    diagnosis.notes.push_back(
-        "effects that improved the fit made the prediction of the held-out recordings worse and were dropped");
+  if (found.augmented.heldout <= most_loss * found.base.heldout) {
+    return false;
   }
+  found.augmented = found.base;
+  found.quick_augmented = found.quick_base;
+  found.misfit = found.base_misfit;
+  found.found.clear();
+  found.richer.clear();
+  return true;
 }
 
 // `complete` is withdrawn where a held-out recording, or the residual's bond to the force, shows that something is
@@ -198,11 +201,40 @@ void doubt_completeness(Diagnosis& diagnosis, const Workbench& fine) {
   }
 }
 
+// Where another damper law does as well without any effect, what is missing behind that one is looked for. If there are
+// names for it, and the judging recordings are predicted better, the law takes the place of the one asked for; errors
+// and place of the misfit stay those of the latter.
+void swap_law(Diagnosis& diagnosis, const Workbench& quick, const Workbench& fine, const SearchOptions& searching,
+              const Circumstances& known, const SearchProgress& progress) {
+  Search& first = diagnosis.search;
+  const std::string law = diagnosis.verdict.better_law;
+  if (law.empty()) {
+    return;
+  }
+  Search second = search(quick, fine, {law, {}, {}}, searching, [&](double share, const std::string& stage) {
+    progress(0.8 + 0.05 * share, "behind " + law + ": " + stage);
+  });
+  score_on_all(second, diagnosis.bench);
+  if (verdict_of(second, known).effects.empty() ||
+      squared(second.augmented.heldout) > least_swap * squared(first.augmented.heldout)) {
+    return;
+  }
+  const Fit asked = first.base;
+  const Misfit asked_misfit = first.base_misfit;
+  first = std::move(second);
+  diagnosis.verdict = verdict_of(first, known);
+  diagnosis.notes.push_back(fmt::format(
+      "{} takes the place of {}, which with effects leaves no less than {} without: what is named is missing behind {}",
+      law, asked.what.model, law, law));
+  first.base = asked;
+  first.base_misfit = asked_misfit;
+}
+
 // Where no name is given, what else improves the prediction of the judging recordings joins the augmented model.
 void extend(Diagnosis& diagnosis, const Workbench& quick, const Workbench& fine, const SearchOptions& searching) {
   Search& found = diagnosis.search;
-  if (diagnosis.verdict.word != "unattributed" || !diagnosis.verdict.better_law.empty() || !structured(found.misfit) ||
-      !diagnosis.surprises.empty()) {
+  if (diagnosis.verdict.word != "unattributed" || !diagnosis.verdict.better_law.empty() ||
+      found.misfit.squares < far_from_noise * found.misfit.floor || !diagnosis.surprises.empty()) {
     return;
   }
   const Fit more = extended(quick, found.quick_augmented, searching.candidates, found.effective, most_added);
@@ -291,10 +323,15 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const Split& split
   const Workbench quick(scale, std::move(fewer), layout, coarse, options.seed, options.stopped);
   const Workbench fine(scale, std::move(some), layout, coarse, options.seed, options.stopped);
   diagnosis.search = search(quick, fine, {options.model, {}, {}}, searching, progress);
-  score_on_all(diagnosis);
-  diagnosis.verdict = verdict_of(
-      diagnosis.search, {[&](const Fit& fit, const std::string& effect) { return intervals_of(fine, fit, effect); },
-                         velocity_channel_lag(diagnosis.bench.split().fit)});
+  if (score_on_all(diagnosis.search, diagnosis.bench)) {
+    diagnosis.notes.push_back(
+        "effects that improved the fit made the prediction of the held-out recordings worse and were dropped");
+  }
+  const Circumstances known = {
+      [&](const Fit& fit, const std::string& effect) { return intervals_of(fine, fit, effect); },
+      velocity_channel_lag(diagnosis.bench.split().fit)};
+  diagnosis.verdict = verdict_of(diagnosis.search, known);
+  swap_law(diagnosis, quick, fine, searching, known, progress);
   doubt_completeness(diagnosis, fine);
   progress(0.85, "looking for what else improves the prediction");
   extend(diagnosis, quick, fine, searching);

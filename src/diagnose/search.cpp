@@ -247,7 +247,7 @@ Search search(const Workbench& bench, const Workbench& fine, const Hypothesis& b
     result.further = next.empty() ? 0.0 : std::max(0.0, next.front().evidence);
   }
 
-  if (!result.found.empty()) {
+  if (!result.found.empty() || structured(result.base_misfit)) {
     progress(0.75, "fitting other damper laws");
     for (const char* law : {"bouc-wen", "hyperbolic-tangent", "algebraic-hysteresis", "modified-dahl", "lugre"}) {
       if (base.model == law || find_model(law) == nullptr) {
@@ -255,6 +255,8 @@ Search search(const Workbench& bench, const Workbench& fine, const Hypothesis& b
       }
       result.other_laws.push_back(bench.from_anywhere({law, {}, {}}, options.base_budget / 2));
     }
+  }
+  if (!result.found.empty()) {
     const auto strong = std::ranges::max_element(result.found, {}, &Found::gain);
     if (!is_law(strong->id)) {
       result.tried = strong->id;

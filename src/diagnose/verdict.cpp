@@ -88,7 +88,7 @@ constexpr double channel_agreement = 0.25;
 constexpr double surviving_share = 0.25;
 constexpr double unsteady_confidence = 0.7;
 // Another damper law does as well when its squared error is within this factor of the augmented model's, and it takes
-// this part of what the effects take off the base law's.
+// this part of what the effects take off the base law's; or, where no effect helps, of the base law's squared error.
 constexpr double law_factor = 1.1;
 constexpr double law_part = 0.5;
 
@@ -193,6 +193,15 @@ Verdict verdict_of(const Search& search, const Circumstances& known) {
       std::max({least_gain_over_structure * surely, doubtful, least_gain_over_noise * search.misfit.squares,
                 std::min(least_gain_over_leftover * beyond_estimate,
                          settled ? least_settled_gain * search.misfit.squares : 1e300)});
+  const auto law = std::ranges::min_element(search.other_laws, {}, &Fit::cost);
+  if (search.found.empty() && law != search.other_laws.end() &&
+      squared(law->cost) < law_part * squared(search.quick_base.cost)) {
+    verdict.word = "unattributed";
+    verdict.better_law = law->what.model;
+    verdict.reason = "the damper law " + law->what.model + " leaves much less than " + search.base.what.model +
+                     ", which no known effect helps: the base law is in question";
+    return verdict;
+  }
   if (search.found.empty()) {
     const bool laws = !search.richer.empty() && squared(search.augmented.cost / search.base.cost) < 1.0 - shown_gain &&
                       search.augmented.heldout < search.base.heldout;
@@ -206,14 +215,12 @@ Verdict verdict_of(const Search& search, const Circumstances& known) {
   }
   const double with_effects = squared(search.quick_augmented.cost);
   const double by_law = with_effects + (1.0 - law_part) * (squared(search.quick_base.cost) - with_effects);
-  for (const Fit& law : search.other_laws) {
-    if (squared(law.cost) < std::min(law_factor * with_effects, by_law)) {
-      verdict.word = "unattributed";
-      verdict.better_law = law.what.model;
-      verdict.reason = "the damper law " + law.what.model + " without any added effect does as well as " +
-                       search.base.what.model + " with them: the base law is in question";
-      return verdict;
-    }
+  if (law != search.other_laws.end() && squared(law->cost) < std::min(law_factor * with_effects, by_law)) {
+    verdict.word = "unattributed";
+    verdict.better_law = law->what.model;
+    verdict.reason = "the damper law " + law->what.model + " without any added effect does as well as " +
+                     search.base.what.model + " with them: the base law is in question";
+    return verdict;
   }
   // Evidence counts samples as independent that a slow noise under a white one makes alike: `honest` is the rest.
   const double honest =
@@ -273,7 +280,7 @@ Verdict verdict_of(const Search& search, const Circumstances& known) {
            (close && !stands_apart(rival.fit, rival.id, limit_parameter(found.id, rival.id), known)))) {
         continue;
       }
-      if (close && is_limit(rival.id, found.id) &&
+      if (close && is_limit(rival.id, found.id) && rival.evidence < telling_evidence / honest &&
           !stands_apart(search.augmented, found.id, limit_parameter(rival.id, found.id), known)) {
         instead = &rival;
         continue;

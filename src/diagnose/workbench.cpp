@@ -14,6 +14,7 @@ namespace {
 
 constexpr std::size_t start_count = 8;
 constexpr std::string_view damping_unit = "N s/m";
+constexpr std::string_view yield_unit = "N";
 // Rounds after which only the best starts go on.
 constexpr int race_rounds = 2;
 
@@ -110,9 +111,18 @@ Layout Workbench::layout(const Hypothesis& what) const {
   LayoutOptions options = layout_;
   const CompositeModel model = make_model(what.model, what.effects);
   const std::vector<std::string> names = model.parameter_names();
-  // Another base law need not have the parameters of the first.
-  std::erase_if(options.by_current,
-                [&](const auto& law) { return std::ranges::find(names, law.first) == names.end(); });
+  // Another base law need not have the parameters of the first. Its yield force then follows the drive as theirs.
+  int lost = 0;
+  std::erase_if(options.by_current, [&](const auto& law) {
+    const bool absent = std::ranges::find(names, law.first) == names.end();
+    lost = absent ? std::max(lost, law.second) : lost;
+    return absent;
+  });
+  for (const Parameter& parameter : model.law->parameters) {
+    if (lost > 0 && parameter.unit == yield_unit && parameter.lower >= 0.0 && !parameter.fixed) {
+      options.by_current.try_emplace(std::string(parameter.name), lost);
+    }
+  }
   std::erase_if(options.by_frequency,
                 [&](const auto& law) { return std::ranges::find(names, law.first) == names.end(); });
   std::erase_if(options.fix, [&](const auto& law) { return std::ranges::find(names, law.first) == names.end(); });

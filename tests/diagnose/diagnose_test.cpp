@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -83,6 +84,24 @@ TEST(Diagnosis, NamesNothingWhereNothingIsMissing) {
   const auto diagnosis = diagnosis_of(campaign_with({}, {}, 0.02), few);
   EXPECT_EQ(diagnosis->verdict.word, "complete");
   EXPECT_TRUE(diagnosis->verdict.effects.empty());
+}
+
+TEST(Diagnosis, NamesWhatIsMissingBehindALawThatTakesThePlaceOfTheOneAskedFor) {
+  DiagnoseOptions options;
+  options.model = "bingham";
+  options.seed = seed;
+  options.candidates = few;
+  const auto diagnosis =
+      diagnose(campaign_with({"inertia"}, {{"inertia.m", 2.0}}, 0.01), options, [](double, const std::string&) {});
+  ASSERT_EQ(diagnosis->verdict.word, "missing-physics") << diagnosis->verdict.reason;
+  ASSERT_EQ(diagnosis->verdict.effects.size(), 1U);
+  EXPECT_EQ(diagnosis->verdict.effects[0].id, "inertia");
+  EXPECT_NEAR(diagnosis->parameters[0][0].value, 2.0, 0.6);
+  EXPECT_EQ(diagnosis->search.base.what.model, "bingham");
+  EXPECT_NE(diagnosis->search.augmented.what.model, "bingham");
+  EXPECT_TRUE(std::ranges::any_of(diagnosis->notes, [](const std::string& note) {
+    return note.find("takes the place of bingham") != std::string::npos;
+  }));
 }
 
 TEST(Diagnosis, DoesNotNameWhatIsNotAmongTheCandidates) {
