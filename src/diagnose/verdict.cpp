@@ -182,7 +182,7 @@ Verdict verdict_of(const Search& search, const Circumstances& known) {
   const double doubtful = doubtful_share * (search.misfit.squares - search.misfit.white);
   // What a noise estimate without repeated cycles does not see is its colour: where what is left is like noise in all,
   // it is the noise, and a gain that the uncertainty of the noise does not explain is enough for a name.
-  const bool settled = noise_like(search.misfit);
+  const bool settled = noise_like(search.misfit) && search.found.size() <= most_told;
   const double beyond_estimate = search.misfit.squares - search.misfit.floor;
   const double above_floor = settled ? 0.0 : beyond_estimate;
   const double leftover = std::max({surely, doubtful, above_floor});
@@ -229,7 +229,7 @@ Verdict verdict_of(const Search& search, const Circumstances& known) {
       telling_evidence * (search.misfit.motion > noisy_motion * search.misfit.floor ? 2.0 : 1.0);
   for (const Found& found : search.found) {
     const double telling = is_borne_out(found, search.augmented) ? told_at_best : told_at_best / honest;
-    const bool told = settled && search.found.size() <= most_told && found.evidence > telling && search.further &&
+    const bool told = settled && found.evidence > telling && search.further &&
                       *search.further < std::max(most_further_evidence / honest, most_further_part * found.evidence);
     const bool close_to_noise = search.misfit.squares < near_noise * search.misfit.floor;
     const bool no_rival =
@@ -237,8 +237,8 @@ Verdict verdict_of(const Search& search, const Circumstances& known) {
     const bool sole = found.evidence > telling && is_plain(found, search.augmented) && close_to_noise && no_rival &&
                       search.found.size() <= most_told && search.misfit.predictable < predicted_share;
     const bool of_its_kind = is_of_place(found.id) && is_of_place(search.found.front().id);
-    const bool too_small = found.gain < least_share_of_strongest * search.found.front().gain &&
-                           (of_its_kind || !is_plain(found, search.augmented));
+    const bool too_small =
+        found.gain < least_share_of_strongest * search.found.front().gain && !is_plain(found, search.augmented);
     if (too_small || !confirmed(found, search.augmented, told ? sure_evidence * telling : 1e300)) {
       continue;
     }
@@ -247,7 +247,7 @@ Verdict verdict_of(const Search& search, const Circumstances& known) {
          (found.evidence < least_settled_evidence && found.gain < least_gain_over_leftover * beyond_estimate))) {
       continue;
     }
-    if (!verdict.effects.empty() && (!close_to_noise || is_kin(found.id, verdict.effects.front().id))) {
+    if (!verdict.effects.empty() && (!close_to_noise || of_its_kind || is_kin(found.id, verdict.effects.front().id))) {
       continue;
     }
     if (found.gain < dominating && (!verdict.effects.empty() || !steady(search.augmented, found.id, known))) {

@@ -88,6 +88,9 @@ TEST(Verdict, WhatIsLikeNoiseInAllIsTheNoise) {
   // ... unless neither the values of what stays nor their size follow the motion.
   search.misfit.evenness = {0.01, 0.02};
   EXPECT_EQ(verdict_of(search, plain).word, "missing-physics");
+  Search shapes = search;
+  shapes.found.resize(3, shapes.found.front());
+  EXPECT_EQ(verdict_of(shapes, plain).word, "unattributed") << "three effects are the shape of something else";
   search.misfit.evenness = {0.03, 0.02};
   EXPECT_EQ(verdict_of(search, plain).word, "unattributed");
   // What is within the uncertainty of the noise is no effect.
