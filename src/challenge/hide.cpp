@@ -174,20 +174,20 @@ void shuffle(Values& values, Draws& draws) {
 
 std::vector<Recording> with_shuffled_drive(std::vector<Recording> recordings, Draws& draws) {
   std::vector<double> levels;
+  std::vector<Recording*> constant;
   for (Recording& recording : recordings) {
     if (recording.drive.empty()) throw InputError(recording.file, 0, "no current or voltage, expected one to shuffle");
     if (drive_varies(recording)) {
       shuffle(recording.drive, draws);
     } else {
       levels.push_back(recording.drive.front());
+      constant.push_back(&recording);
     }
   }
   shuffle(levels, draws);
-  for (Recording& recording : recordings) {
-    if (!drive_varies(recording)) {
-      recording.drive.assign(recording.size(), levels.back());
-      levels.pop_back();
-    }
+  for (Recording* recording : constant) {
+    recording->drive.assign(recording->size(), levels.back());
+    levels.pop_back();
   }
   return recordings;
 }
