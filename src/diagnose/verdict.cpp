@@ -37,7 +37,7 @@ constexpr double telling_evidence = 40.0;
 constexpr double noisy_motion = 0.05;
 // With so many times the evidence, judging recordings that do not show the effect are no objection.
 constexpr double sure_evidence = 3.0;
-// More effects than that are the shape of something else.
+// More effects than that are the shape of something else, which only a dominant one among them is not part of.
 constexpr std::size_t most_told = 2;
 constexpr double most_further_evidence = 15.0;
 constexpr double most_further_part = 0.15;
@@ -186,6 +186,7 @@ Verdict verdict_of(const Search& search, const Circumstances& known) {
   const double beyond_estimate = search.misfit.squares - search.misfit.floor;
   const double above_floor = settled ? 0.0 : beyond_estimate;
   const double leftover = std::max({surely, doubtful, above_floor});
+  const bool shape = search.found.size() > most_told && search.misfit.squares > near_noise * search.misfit.floor;
   const double dominating =
       std::max(search.misfit.squares > far_from_noise * search.misfit.floor ? dominant * above_floor : 0.0,
                search.misfit.predictable > predicted_share ? dominant_over_predicted * beyond_estimate : 0.0);
@@ -248,6 +249,9 @@ Verdict verdict_of(const Search& search, const Circumstances& known) {
       continue;
     }
     if (!verdict.effects.empty() && (!close_to_noise || of_its_kind || is_kin(found.id, verdict.effects.front().id))) {
+      continue;
+    }
+    if (shape && found.gain < dominant * beyond_estimate) {
       continue;
     }
     if (found.gain < dominating && (!verdict.effects.empty() || !steady(search.augmented, found.id, known))) {

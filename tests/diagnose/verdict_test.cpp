@@ -189,6 +189,18 @@ TEST(Verdict, ASmallFurtherEffectIsNamedWhereTheJudgingRecordingsLeaveNoDoubt) {
   EXPECT_EQ(names("pinching", "gas-spring", 2.0), 1U) << "what the form of the one misses looks like the other";
 }
 
+TEST(Verdict, ThreeEffectsThatLeaveMoreThanNoiseAreAShape) {
+  for (const auto& [gain, left, word] : {std::tuple{3.0, 1.6, "unattributed"}, std::tuple{9.0, 1.6, "missing-physics"},
+                                         std::tuple{3.0, 1.2, "missing-physics"}}) {
+    Search search = search_of("clearance", left * floor_squares, gain * floor_squares);
+    search.found.resize(3, search.found.front());
+    search.found[1].gain = search.found[2].gain = 0.1 * gain * floor_squares;
+    search.found[1].id = "viscous-damping";
+    search.found[2].id = "inertia";
+    EXPECT_EQ(verdict_of(search, plain).word, word) << gain << " " << left;
+  }
+}
+
 TEST(Verdict, BesideAnUnevenNoiseAnEffectWithoutRivalsIsNamed) {
   const auto word = [](double heldout_without, double share) {
     Search search = search_of("sensor-delay", 1.4 * floor_squares, 0.6 * floor_squares);
