@@ -15,18 +15,25 @@ constexpr std::size_t least_samples = 16;
 
 }  // namespace
 
+std::vector<double> fourth_differences(const std::vector<double>& values) {
+  std::vector<double> result;
+  result.reserve(values.size());
+  for (std::size_t n = 4; n < values.size(); ++n) {
+    result.push_back((values[n - 4] - 4.0 * values[n - 3] + 6.0 * values[n - 2] - 4.0 * values[n - 1] + values[n]) /
+                     std::sqrt(70.0));
+  }
+  return result;
+}
+
 double drive_noise(const std::vector<double>& drive) {
   if (drive.size() < least_samples) {
     return 0.0;
   }
-  std::vector<double> sizes;
-  sizes.reserve(drive.size());
-  for (std::size_t n = 4; n < drive.size(); ++n) {
-    sizes.push_back(std::fabs(drive[n - 4] - 4.0 * drive[n - 3] + 6.0 * drive[n - 2] - 4.0 * drive[n - 1] + drive[n]));
-  }
+  std::vector<double> sizes = fourth_differences(drive);
+  std::ranges::transform(sizes, sizes.begin(), [](double v) { return std::fabs(v); });
   const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
   std::ranges::nth_element(sizes, middle);
-  return *middle / (0.6745 * std::sqrt(70.0));
+  return 1.4826 * *middle;
 }
 
 bool varies(const std::vector<double>& drive) {

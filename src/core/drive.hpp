@@ -5,6 +5,10 @@
 
 namespace hysteron {
 
+// Fourth differences, scaled so that white noise keeps its standard deviation; empty for fewer than five values. What is
+// smooth leaves next to nothing in them.
+std::vector<double> fourth_differences(const std::vector<double>& values);
+
 // Standard deviation of the channel's white noise, by the median of its fourth differences; 0 for a channel that is
 // smooth, constant or steps without noise.
 double drive_noise(const std::vector<double>& drive);

@@ -247,6 +247,7 @@ void extend(Diagnosis& diagnosis, const Workbench& quick, const Workbench& fine,
     found.quick_augmented = more;
     found.misfit = misfit_of(fine, found.augmented);
     found.richer = found.augmented.what.richer;
+    diagnosis.verdict.remaining_structure = structured(found.misfit);
   }
 }
 
@@ -271,8 +272,7 @@ void doubt_velocity(Diagnosis& diagnosis) {
       diagnosis.verdict.effects.clear();
       diagnosis.verdict.reason = fmt::format(
           "{}: the recorded velocity is not the slope of the displacement (correlation {:.2f}); without that column "
-          "the "
-          "velocity would be derived",
+          "the velocity would be derived",
           recording.file, alike);
       return;
     }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/drive.hpp"
 #include "core/random.hpp"
 #include "fit/layout.hpp"
 #include "io/velocity.hpp"
@@ -136,11 +137,7 @@ NoiseFloor noise_floor(const Recording& recording) {
   if (recording.size() < 16) {
     return result;
   }
-  std::vector<double> fourth;
-  for (std::size_t n = 4; n < recording.size(); ++n) {
-    const auto& f = recording.force;
-    fourth.push_back((f[n - 4] - 4.0 * f[n - 3] + 6.0 * f[n - 2] - 4.0 * f[n - 1] + f[n]) / std::sqrt(70.0));
-  }
+  const std::vector<double> fourth = fourth_differences(recording.force);
   std::vector<double> sizes(fourth.size());
   std::ranges::transform(fourth, sizes.begin(), [](double v) { return std::fabs(v); });
   result.white = 1.4826 * median_of(sizes);

@@ -67,8 +67,8 @@ constexpr double shown_heldout_gain = 0.03;
 // Of the residual beyond its white noise, this part counts as unexplained even where nothing shows that it repeats.
 constexpr double doubtful_share = 0.2;
 // A further effect must explain this part of what the strongest does: the equations of that one are not exact, and what
-// they miss looks like an effect of its own. Less is enough for one that is not of the same kind and takes this share
-// off the squared error of the judging recordings.
+// they miss looks like an effect of its own. Less is enough for one that takes this share off the squared error of the
+// judging recordings.
 constexpr double least_share_of_strongest = 0.08;
 constexpr double plain_heldout_gain = 0.2;
 // An effect with such a share is named beside structure-like noise too where no rival explains this part of it.
