@@ -77,7 +77,9 @@ void print_summary(const Diagnosis& diagnosis, const std::filesystem::path& out)
   fmt::print("{}\n",
              table({"model", "NRMSE fit", "NRMSE held out"},
                    {{search.base.what.model, format_number(search.base.cost, 4), format_number(search.base.heldout, 4)},
-                    {"augmented", format_number(search.augmented.cost, 4), format_number(search.augmented.heldout, 4)},
+                    {search.augmented.what.model == search.base.what.model ? "augmented"
+                                                                           : "augmented " + search.augmented.what.model,
+                     format_number(search.augmented.cost, 4), format_number(search.augmented.heldout, 4)},
                     {"noise floor (" + diagnosis.noise_floor_method + ")", format_number(diagnosis.noise_floor, 4),
                      format_number(diagnosis.noise_floor_heldout, 4)}}));
   for (std::size_t k = 0; k < diagnosis.sentences.size(); ++k) {

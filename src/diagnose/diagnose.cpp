@@ -203,13 +203,13 @@ void doubt_completeness(Diagnosis& diagnosis, const Workbench& fine) {
 
 // Where another damper law does as well without any effect, what is missing behind that one is looked for. If there are
 // names for it, and the judging recordings are predicted better, the law takes the place of the one asked for; errors
-// and place of the misfit stay those of the latter.
-void swap_law(Diagnosis& diagnosis, const Workbench& quick, const Workbench& fine, const SearchOptions& searching,
+// and place of the misfit stay those of the latter. Whether it does.
+bool swap_law(Diagnosis& diagnosis, const Workbench& quick, const Workbench& fine, const SearchOptions& searching,
               const Circumstances& known, const SearchProgress& progress) {
   Search& first = diagnosis.search;
   const std::string law = diagnosis.verdict.better_law;
   if (law.empty()) {
-    return;
+    return false;
   }
   Search second = search(quick, fine, {law, {}, {}}, searching, [&](double share, const std::string& stage) {
     progress(0.8 + 0.05 * share, "behind " + law + ": " + stage);
@@ -217,17 +217,24 @@ void swap_law(Diagnosis& diagnosis, const Workbench& quick, const Workbench& fin
   score_on_all(second, diagnosis.bench);
   if (verdict_of(second, known).effects.empty() ||
       squared(second.augmented.heldout) > least_swap * squared(first.augmented.heldout)) {
-    return;
+    return false;
   }
   const Fit asked = first.base;
   const Misfit asked_misfit = first.base_misfit;
   first = std::move(second);
+  // Of the misfit of the law asked for, most of which the other law may take.
+  const double left = first.misfit.squares - first.misfit.structure;
+  for (Found& found : first.found) {
+    found.share_of_misfit *=
+        std::clamp((first.base_misfit.squares - left) / std::max(asked_misfit.squares - left, 1e-300), 0.0, 1.0);
+  }
   diagnosis.verdict = verdict_of(first, known);
   diagnosis.notes.push_back(fmt::format(
       "{} takes the place of {}, which with effects leaves no less than {} without: what is named is missing behind {}",
       law, asked.what.model, law, law));
   first.base = asked;
   first.base_misfit = asked_misfit;
+  return true;
 }
 
 // Where no name is given, what else improves the prediction of the judging recordings joins the augmented model.
@@ -323,15 +330,16 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const Split& split
   const Workbench quick(scale, std::move(fewer), layout, coarse, options.seed, options.stopped);
   const Workbench fine(scale, std::move(some), layout, coarse, options.seed, options.stopped);
   diagnosis.search = search(quick, fine, {options.model, {}, {}}, searching, progress);
-  if (score_on_all(diagnosis.search, diagnosis.bench)) {
-    diagnosis.notes.push_back(
-        "effects that improved the fit made the prediction of the held-out recordings worse and were dropped");
-  }
+  const bool dropped = score_on_all(diagnosis.search, diagnosis.bench);
   const Circumstances known = {
       [&](const Fit& fit, const std::string& effect) { return intervals_of(fine, fit, effect); },
       velocity_channel_lag(diagnosis.bench.split().fit)};
   diagnosis.verdict = verdict_of(diagnosis.search, known);
-  swap_law(diagnosis, quick, fine, searching, known, progress);
+  const bool swapped = swap_law(diagnosis, quick, fine, searching, known, progress);
+  if (dropped && !swapped) {
+    diagnosis.notes.push_back(
+        "effects that improved the fit made the prediction of the held-out recordings worse and were dropped");
+  }
   doubt_completeness(diagnosis, fine);
   progress(0.85, "looking for what else improves the prediction");
   extend(diagnosis, quick, fine, searching);
@@ -346,7 +354,10 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const Split& split
   diagnosis.drift_of_augmented = drift_of(fine, diagnosis.search.augmented);
   for (const Named& named : diagnosis.verdict.effects) {
     diagnosis.parameters.push_back(intervals_of(fine, *named.fit, named.id));
-    diagnosis.sentences.push_back(sentence_of(diagnosis, named, diagnosis.parameters.back()));
+    diagnosis.sentences.push_back(sentence_of(diagnosis, named, diagnosis.parameters.back()) +
+                                  (swapped ? " All this behind " + diagnosis.search.augmented.what.model +
+                                                 ", which takes the place of " + options.model + "."
+                                           : ""));
   }
   std::vector<std::string> absent;
   for (const std::string& id : searching.candidates) {

@@ -98,6 +98,8 @@ TEST(Diagnosis, NamesWhatIsMissingBehindALawThatTakesThePlaceOfTheOneAskedFor) {
   EXPECT_EQ(diagnosis->verdict.effects[0].id, "inertia");
   EXPECT_NEAR(diagnosis->parameters[0][0].value, 2.0, 0.6);
   EXPECT_EQ(diagnosis->search.base.what.model, "bingham");
+  EXPECT_LT(diagnosis->verdict.effects[0].share_of_misfit, 0.5) << "the law takes most of it";
+  EXPECT_NE(diagnosis->sentences[0].find("takes the place of bingham"), std::string::npos);
   EXPECT_NE(diagnosis->search.augmented.what.model, "bingham");
   EXPECT_TRUE(std::ranges::any_of(diagnosis->notes, [](const std::string& note) {
     return note.find("takes the place of bingham") != std::string::npos;
