@@ -103,14 +103,16 @@ std::string sentence_of(const Diagnosis& diagnosis, const Named& named,
   if (!values.empty()) {
     text += ", " + joined(values, " and ");
   }
-  if (named.fit->heldout < shown_by_judges * named.without->heldout) {
-    text += fmt::format(", which takes the held-out NRMSE from {:.3g} to {:.3g} (noise floor {:.2g})",
-                        named.without->heldout, named.fit->heldout, diagnosis.noise_floor_heldout);
+  const Fit& with = fit_of(diagnosis.search, named);
+  const Fit& without = without_of(diagnosis.search, named);
+  if (with.heldout < shown_by_judges * without.heldout) {
+    text += fmt::format(", which takes the held-out NRMSE from {:.3g} to {:.3g} (noise floor {:.2g})", without.heldout,
+                        with.heldout, diagnosis.noise_floor_heldout);
   } else {
     text += fmt::format(
         ", which takes the fitted NRMSE from {:.3g} to {:.3g} (noise floor {:.2g}); held-out recordings do not show it "
         "(NRMSE {:.3g} without, {:.3g} with it)",
-        named.without->cost, named.fit->cost, diagnosis.noise_floor, named.without->heldout, named.fit->heldout);
+        without.cost, with.cost, diagnosis.noise_floor, without.heldout, with.heldout);
   }
   if (!named.indistinguishable_from.empty()) {
     std::vector<std::string> others;

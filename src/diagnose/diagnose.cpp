@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "core/drive.hpp"
@@ -46,12 +47,16 @@ constexpr int refitting_rounds = 10;
 // What the base and the augmented model are then fitted on; every sample is predicted in the end.
 constexpr std::size_t fine_samples = 12000;
 
-std::vector<ParameterInterval> intervals_of(const Workbench& bench, const Fit& fit, const std::string& effect) {
+std::vector<Estimate> estimates_of(const Workbench& bench, const Fit& fit) {
   const Objective objective(*fit.layout, bench.split().fit, bench.options());
   Identification identification{*fit.layout, fit.terms, {}, {}, 0, fit.cost, {}, {}, {}, false, {}};
   estimate(identification, objective, fit.point, bench.split().fit.front().drive_kind);
+  return identification.estimates;
+}
+
+std::vector<ParameterInterval> intervals_of(const std::vector<Estimate>& estimates, const std::string& effect) {
   std::vector<ParameterInterval> result;
-  for (const Estimate& row : identification.estimates) {
+  for (const Estimate& row : estimates) {
     if (row.name.starts_with(effect + ".")) {
       result.push_back({row.name.substr(effect.size() + 1), row.unit, row.term.value, row.half_width,
                         row.at_bound.value_or(""), row.lower});
@@ -164,48 +169,97 @@ bool score_on_all(Search& found, const Workbench& bench) {
   return true;
 }
 
-// `complete` is withdrawn where a held-out recording, or the residual's bond to the force, shows that something is
-// left.
-void doubt_completeness(Diagnosis& diagnosis, const Workbench& fine) {
-  diagnosis.surprises = surprises(diagnosis.bench, diagnosis.search.augmented);
-  if (diagnosis.verdict.word != "complete") {
-    return;
+// Why more than noise is left though no effect helps: a held-out recording, or the residual's bond to the force, shows
+// it. Empty where nothing does.
+std::string doubt_of_completeness(const Search& search, const Workbench& fine,
+                                  const std::vector<std::string>& surprising) {
+  if (!surprising.empty()) {
+    return "nothing but noise is left on the fitted recordings, but not on " + joined(surprising, " and ") +
+           ": what is missing shows there only, and only a fitted recording can tell its cause";
   }
-  if (!diagnosis.surprises.empty()) {
-    diagnosis.verdict.word = "unattributed";
-    diagnosis.verdict.reason = "nothing but noise is left on the fitted recordings, but not on " +
-                               joined(diagnosis.surprises, " and ") +
-                               ": what is missing shows there only, and only a fitted recording can tell its cause";
-    return;
-  }
-  const Misfit& left = diagnosis.search.misfit;
+  const Misfit& left = search.misfit;
   if (left.squares <= above_white * left.white) {
-    return;
+    return {};
   }
   if (left.squares > above_floor * left.floor && uneven(left.evenness)) {
-    diagnosis.verdict.word = "unattributed";
-    diagnosis.verdict.reason =
-        "what is left does not repeat with the motion, but its size follows it, which that of noise does not; no known "
-        "effect describes it";
-    return;
+    return "what is left does not repeat with the motion, but its size follows it, which that of noise does not; no "
+           "known effect describes it";
   }
-  const Wandering wander = wandering(leftovers_of(fine, diagnosis.search.augmented));
-  if (wanders(wander)) {
-    diagnosis.verdict.word = "unattributed";
-    diagnosis.verdict.reason = fmt::format(
-        "{:.0f} % of what is left is a factor of the force that {}; no known effect describes it", 100.0 * wander.share,
-        wander.period > 0.0
-            ? fmt::format("swings with a period of {:.2g} s whatever the motion, as of a supply that cycles",
-                          wander.period)
-            : std::string("changes from moment to moment, as of a supply or a grip that changes"));
+  const Wandering wander = wandering(leftovers_of(fine, search.augmented));
+  if (!wanders(wander)) {
+    return {};
   }
+  return fmt::format(
+      "{:.0f} % of what is left is a factor of the force that {}; no known effect describes it", 100.0 * wander.share,
+      wander.period > 0.0
+          ? fmt::format("swings with a period of {:.2g} s whatever the motion, as of a supply that cycles",
+                        wander.period)
+          : std::string("changes from moment to moment, as of a supply or a grip that changes"));
+}
+
+// Why no name can be given: the recorded velocity is not that of the displacement, and effects would explain a fault of
+// the data. Empty where it is.
+std::string doubt_of_velocity(const std::vector<Recording>& recordings) {
+  for (const Recording& recording : recordings) {
+    if (!recording.velocity_measured) {
+      continue;
+    }
+    const std::vector<double> slope = derive_velocity(recording.time, recording.displacement);
+    double product = 0.0;
+    double squares = 0.0;
+    double recorded = 0.0;
+    for (std::size_t n = 0; n < slope.size(); ++n) {
+      product += slope[n] * recording.velocity[n];
+      squares += slope[n] * slope[n];
+      recorded += recording.velocity[n] * recording.velocity[n];
+    }
+    const double alike = product / std::max(std::sqrt(squares * recorded), 1e-300);
+    if (alike < least_likeness) {
+      return fmt::format(
+          "{}: the recorded velocity is not the slope of the displacement (correlation {:.2f}); without that column "
+          "the velocity would be derived",
+          recording.file, alike);
+    }
+  }
+  return {};
+}
+
+// What speaks for and against names after a search on `quick` and `fine`.
+struct Judgement {
+  std::vector<std::string> surprising;
+  Findings findings;
+  Verdict verdict;
+};
+
+Judgement judged(const Search& found, const Workbench& bench, const Workbench& fine) {
+  std::map<const Fit*, std::vector<Estimate>> estimates;  // fits are asked for several effects
+  const Circumstances known = {[&](const Fit& fit, const std::string& effect) {
+                                 if (!estimates.contains(&fit)) {
+                                   estimates[&fit] = estimates_of(fine, fit);
+                                 }
+                                 return intervals_of(estimates[&fit], effect);
+                               },
+                               velocity_channel_lag(bench.split().fit)};
+  Judgement result;
+  result.surprising = surprises(bench, found.augmented);
+  result.findings = findings_of(found, known);
+  result.findings.doubt_of_completeness = doubt_of_completeness(found, fine, result.surprising);
+  result.findings.doubt_of_data = doubt_of_velocity(bench.split().fit);
+  result.verdict = verdict_of(result.findings);
+  return result;
+}
+
+void take(Diagnosis& diagnosis, Judgement judgement) {
+  diagnosis.surprises = std::move(judgement.surprising);
+  diagnosis.findings = std::move(judgement.findings);
+  diagnosis.verdict = std::move(judgement.verdict);
 }
 
 // Where another damper law does as well without any effect, what is missing behind that one is looked for. If there are
 // names for it, and the judging recordings are predicted better, the law takes the place of the one asked for; errors
 // and place of the misfit stay those of the latter. Whether it does.
 bool swap_law(Diagnosis& diagnosis, const Workbench& quick, const Workbench& fine, const SearchOptions& searching,
-              const Circumstances& known, const SearchProgress& progress) {
+              const SearchProgress& progress) {
   Search& first = diagnosis.search;
   const std::string law = diagnosis.verdict.better_law;
   if (law.empty()) {
@@ -215,7 +269,8 @@ bool swap_law(Diagnosis& diagnosis, const Workbench& quick, const Workbench& fin
     progress(0.8 + 0.05 * share, "behind " + law + ": " + stage);
   });
   score_on_all(second, diagnosis.bench);
-  if (verdict_of(second, known).effects.empty() ||
+  Judgement judgement = judged(second, diagnosis.bench, fine);
+  if (judgement.verdict.effects.empty() ||
       squared(second.augmented.heldout) > least_swap * squared(first.augmented.heldout)) {
     return false;
   }
@@ -224,11 +279,11 @@ bool swap_law(Diagnosis& diagnosis, const Workbench& quick, const Workbench& fin
   first = std::move(second);
   // Of the misfit of the law asked for, most of which the other law may take.
   const double left = first.misfit.squares - first.misfit.structure;
-  for (Found& found : first.found) {
-    found.share_of_misfit *=
+  for (Named& named : judgement.verdict.effects) {
+    named.share_of_misfit *=
         std::clamp((first.base_misfit.squares - left) / std::max(asked_misfit.squares - left, 1e-300), 0.0, 1.0);
   }
-  diagnosis.verdict = verdict_of(first, known);
+  take(diagnosis, std::move(judgement));
   diagnosis.notes.push_back(fmt::format(
       "{} takes the place of {}, which with effects leaves no less than {} without: what is named is missing behind {}",
       law, asked.what.model, law, law));
@@ -255,34 +310,6 @@ void extend(Diagnosis& diagnosis, const Workbench& quick, const Workbench& fine,
     found.misfit = misfit_of(fine, found.augmented);
     found.richer = found.augmented.what.richer;
     diagnosis.verdict.remaining_structure = structured(found.misfit);
-  }
-}
-
-// No name where the recorded velocity is not that of the displacement: the effects would explain a fault of the data.
-void doubt_velocity(Diagnosis& diagnosis) {
-  for (const Recording& recording : diagnosis.bench.split().fit) {
-    if (!recording.velocity_measured) {
-      continue;
-    }
-    const std::vector<double> slope = derive_velocity(recording.time, recording.displacement);
-    double product = 0.0;
-    double squares = 0.0;
-    double recorded = 0.0;
-    for (std::size_t n = 0; n < slope.size(); ++n) {
-      product += slope[n] * recording.velocity[n];
-      squares += slope[n] * slope[n];
-      recorded += recording.velocity[n] * recording.velocity[n];
-    }
-    const double alike = product / std::max(std::sqrt(squares * recorded), 1e-300);
-    if (alike < least_likeness) {
-      diagnosis.verdict.word = "unattributed";
-      diagnosis.verdict.effects.clear();
-      diagnosis.verdict.reason = fmt::format(
-          "{}: the recorded velocity is not the slope of the displacement (correlation {:.2f}); without that column "
-          "the velocity would be derived",
-          recording.file, alike);
-      return;
-    }
   }
 }
 
@@ -331,19 +358,14 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const Split& split
   const Workbench fine(scale, std::move(some), layout, coarse, options.seed, options.stopped);
   diagnosis.search = search(quick, fine, {options.model, {}, {}}, searching, progress);
   const bool dropped = score_on_all(diagnosis.search, diagnosis.bench);
-  const Circumstances known = {
-      [&](const Fit& fit, const std::string& effect) { return intervals_of(fine, fit, effect); },
-      velocity_channel_lag(diagnosis.bench.split().fit)};
-  diagnosis.verdict = verdict_of(diagnosis.search, known);
-  const bool swapped = swap_law(diagnosis, quick, fine, searching, known, progress);
+  take(diagnosis, judged(diagnosis.search, diagnosis.bench, fine));
+  const bool swapped = swap_law(diagnosis, quick, fine, searching, progress);
   if (dropped && !swapped) {
     diagnosis.notes.push_back(
         "effects that improved the fit made the prediction of the held-out recordings worse and were dropped");
   }
-  doubt_completeness(diagnosis, fine);
   progress(0.85, "looking for what else improves the prediction");
   extend(diagnosis, quick, fine, searching);
-  doubt_velocity(diagnosis);
   estimate_noise_floor(diagnosis, options.objective.normalisation);
 
   progress(0.95, "locating the misfit");
@@ -353,7 +375,7 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const Split& split
   diagnosis.drift_of_base = drift_of(fine, diagnosis.search.base);
   diagnosis.drift_of_augmented = drift_of(fine, diagnosis.search.augmented);
   for (const Named& named : diagnosis.verdict.effects) {
-    diagnosis.parameters.push_back(intervals_of(fine, *named.fit, named.id));
+    diagnosis.parameters.push_back(intervals_of(estimates_of(fine, fit_of(diagnosis.search, named)), named.id));
     diagnosis.sentences.push_back(sentence_of(diagnosis, named, diagnosis.parameters.back()) +
                                   (swapped ? " All this behind " + diagnosis.search.augmented.what.model +
                                                  ", which takes the place of " + options.model + "."

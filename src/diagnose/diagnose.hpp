@@ -33,6 +33,7 @@ struct Diagnosis {
 
   Workbench bench;
   Search search;
+  Findings findings;  // of the search, before the augmented model was extended
   Verdict verdict;
   double noise_floor = 0.0;          // of the force, NRMSE over the fitted recordings
   double noise_floor_heldout = 0.0;  // likewise over the judging ones

@@ -6,54 +6,6 @@ using nlohmann::json;
 
 namespace {
 
-json misfit_json(const Misfit& misfit) {
-  return {{"squares", misfit.squares},
-          {"structure", misfit.structure},
-          {"white", misfit.white},
-          {"floor", misfit.floor},
-          {"floor_of_motion", misfit.motion},
-          {"predictable", misfit.predictable},
-          {"unevenness", misfit.evenness.deviation},
-          {"unevenness_by_chance", misfit.evenness.by_chance},
-          {"effective_samples", misfit.effective},
-          {"independent_samples", misfit.independent}};
-}
-
-// What the verdict rests on; squares are of NRMSE.
-json evidence_json(const Search& search) {
-  json found = json::array();
-  for (const Found& one : search.found) {
-    json rivals = json::array();
-    for (const Rival& rival : one.rivals) {
-      rivals.push_back({{"id", rival.id},
-                        {"share_of_gain", rival.share},
-                        {"evidence", rival.evidence},
-                        {"nrmse_heldout", rival.fit.heldout}});
-    }
-    found.push_back({{"id", one.id},
-                     {"gain", one.gain},
-                     {"evidence", one.evidence},
-                     {"nrmse_fit_without", one.without.cost},
-                     {"nrmse_heldout_without", one.without.heldout},
-                     {"rivals", rivals}});
-  }
-  json laws = json::array();
-  for (const Fit& law : search.other_laws) {
-    laws.push_back({{"model", law.what.model}, {"squares", squared(law.cost)}});
-  }
-  json trials = json::array();
-  for (const Trial& trial : search.trials) {
-    trials.push_back(
-        {{"id", search.tried}, {"under", trial.under}, {"share_of_gain", trial.share}, {"evidence", trial.evidence}});
-  }
-  return {{"base", misfit_json(search.base_misfit)},
-          {"augmented", misfit_json(search.misfit)},
-          {"found", found},
-          {"further", search.further ? json(*search.further) : json(nullptr)},
-          {"other_laws", laws},
-          {"trials", trials}};
-}
-
 json drift_json(const Diagnosis& diagnosis) {
   json conditions = json::array();
   for (std::size_t k = 0; k < diagnosis.drift_of_base.recordings.size(); ++k) {
@@ -99,8 +51,8 @@ json diagnosis_json(const Diagnosis& diagnosis) {
                        {"indistinguishable_from", named.indistinguishable_from},
                        {"sentence", diagnosis.sentences[k]},
                        {"parameters", parameters},
-                       {"nrmse_heldout_before", named.without->heldout},
-                       {"nrmse_heldout_after", named.fit->heldout},
+                       {"nrmse_heldout_before", without_of(search, named).heldout},
+                       {"nrmse_heldout_after", fit_of(search, named).heldout},
                        {"share_of_misfit", named.share_of_misfit}});
   }
   json locations = json::array();
@@ -146,7 +98,7 @@ json diagnosis_json(const Diagnosis& diagnosis) {
             {"nrmse_fit", search.augmented.cost},
             {"nrmse_heldout", search.augmented.heldout},
             {"remaining_structure", diagnosis.verdict.remaining_structure}}},
-          {"evidence", evidence_json(search)},
+          {"evidence", findings_json(diagnosis.findings)},
           {"drift", drift_json(diagnosis)},
           {"next_experiment", diagnosis.next_experiment},
           {"notes", diagnosis.notes}};

@@ -81,8 +81,6 @@ constexpr double wider_gain = 4.0;
 constexpr double refuting_factor = 2.0;
 constexpr double refuting_evidence = 100.0;
 constexpr double refuting_factor_with_evidence = 1.2;
-// A fitted lag of the velocity channel and the one between the channels agree within this share.
-constexpr double channel_agreement = 0.25;
 // An effect survives another assumption where it keeps this part of its gain; else the confidence is multiplied by
 // this.
 constexpr double surviving_share = 0.25;
@@ -94,8 +92,8 @@ constexpr double law_part = 0.5;
 
 // Whether the judging recordings bear the gain out. A plain gain, or one of `sure` evidence, may be of something that
 // they do not excite.
-bool confirmed(const Found& found, const Fit& augmented, double sure) {
-  const double fit = 1.0 - squared(augmented.cost / found.without.cost);
+bool confirmed(const Finding& found, const Errors& augmented, double sure) {
+  const double fit = 1.0 - squared(augmented.fit / found.without.fit);
   const double heldout = 1.0 - squared(augmented.heldout / found.without.heldout);
   if (found.evidence > sure && heldout > -0.002) {
     return true;
@@ -104,108 +102,66 @@ bool confirmed(const Found& found, const Fit& augmented, double sure) {
 }
 
 // Whether the judging recordings show the effect as plainly as the fitted ones.
-bool is_borne_out(const Found& found, const Fit& augmented) {
-  const double fit = 1.0 - squared(augmented.cost / found.without.cost);
+bool is_borne_out(const Finding& found, const Errors& augmented) {
+  const double fit = 1.0 - squared(augmented.fit / found.without.fit);
   const double heldout = 1.0 - squared(augmented.heldout / found.without.heldout);
   return heldout > std::max(fit, borne_out);
 }
 
 // Whether the judging recordings leave no doubt of it.
-bool is_plain(const Found& found, const Fit& augmented) {
+bool is_plain(const Finding& found, const Errors& augmented) {
   return is_borne_out(found, augmented) &&
          squared(augmented.heldout / found.without.heldout) < 1.0 - plain_heldout_gain;
 }
 
 // Whether a rival is out of the question by what it leaves on the judging recordings.
-bool is_refuted(const Rival& rival, const Fit& augmented, double honest) {
-  const double factor = squared(rival.fit.heldout / augmented.heldout);
+bool is_refuted(const Contender& rival, const Errors& augmented, double honest) {
+  const double factor = squared(rival.heldout / augmented.heldout);
   return factor > refuting_factor ||
          (factor > refuting_factor_with_evidence && rival.evidence > refuting_evidence / honest);
 }
 
-// Whether the lag of the velocity channel that a fit found is the one that the channels show.
-bool as_channels_show(const Fit& fit, const Circumstances& known) {
-  const std::vector<ParameterInterval> intervals = known.intervals(fit, channel_lag);
-  if (!known.channel || intervals.empty()) {
-    return false;
-  }
-  const double error = std::fabs(intervals.front().value - known.channel->lag);
-  return error < std::max(channel_agreement * std::fabs(known.channel->lag), 3.0 * known.channel->std_error);
-}
-
-// Whether the parameter by which a wider form differs from its limit is surely not at the limit.
-bool stands_apart(const Fit& fit, const std::string& wider, const std::string& parameter, const Circumstances& known) {
-  if (parameter.empty()) {
-    return true;
-  }
-  const std::vector<ParameterInterval> intervals = known.intervals(fit, wider);
-  const auto at = std::ranges::find(intervals, parameter, &ParameterInterval::name);
-  return at != intervals.end() && at->half_width && std::fabs(at->value) > *at->half_width;
-}
-
-// Whether the effect ends as the other one: the parameter that tells them apart has no interval, or one that reaches
-// the end of its box where they are the same.
-bool ends_as(const Fit& fit, const std::string& effect, const std::string& other, const Circumstances& known) {
-  const std::string parameter = bound_parameter(effect, other);
-  if (parameter.empty()) {
-    return false;
-  }
-  const std::vector<ParameterInterval> intervals = known.intervals(fit, effect);
-  const auto at = std::ranges::find(intervals, parameter, &ParameterInterval::name);
-  return at != intervals.end() && (!at->half_width || at->value - *at->half_width <= at->lower);
-}
-
-// Whether the effect's size, its first parameter, is much the same whichever recordings it is taken from.
-bool steady(const Fit& fit, const std::string& effect, const Circumstances& known) {
-  const std::vector<ParameterInterval> intervals = known.intervals(fit, effect);
-  return !intervals.empty() && intervals.front().half_width &&
-         *intervals.front().half_width < steady_share * std::fabs(intervals.front().value);
-}
-
-// A parameter that follows the drive in the base model: more curvature of it is what saturation is.
-bool follows_drive(const Layout& layout, const std::string& parameter) {
-  return std::ranges::any_of(layout.laws(), [&](const ParameterLaw& law) {
-    return layout.names()[law.parameter] == parameter && law.drive_nodes.size() > 1;
-  });
-}
+// Whether the effect's size is much the same whichever recordings it is taken from.
+bool steady(const Finding& found) { return found.spread > 0.0 && found.spread < steady_share; }
 
 }  // namespace
 
 bool survived(const Trial& trial) { return trial.evidence > least_evidence && trial.share > surviving_share; }
 
-Verdict verdict_of(const Search& search, const Circumstances& known) {
+namespace {
+
+Verdict undoubted(const Findings& findings) {
   Verdict verdict;
-  verdict.remaining_structure = structured(search.misfit);
+  verdict.remaining_structure = structured(findings.misfit);
   // Coloured noise and structure that no motion variable tells look alike: part of what exceeds the white noise counts
   // as unexplained.
-  const double surely = verdict.remaining_structure ? search.misfit.structure : 0.0;
-  const double doubtful = doubtful_share * (search.misfit.squares - search.misfit.white);
+  const double surely = verdict.remaining_structure ? findings.misfit.structure : 0.0;
+  const double doubtful = doubtful_share * (findings.misfit.squares - findings.misfit.white);
   // What a noise estimate without repeated cycles does not see is its colour: where what is left is like noise in all,
   // it is the noise, and a gain that the uncertainty of the noise does not explain is enough for a name.
-  const bool settled = noise_like(search.misfit) && search.found.size() <= most_told;
-  const double beyond_estimate = search.misfit.squares - search.misfit.floor;
+  const bool settled = noise_like(findings.misfit) && findings.found.size() <= most_told;
+  const double beyond_estimate = findings.misfit.squares - findings.misfit.floor;
   const double above_floor = settled ? 0.0 : beyond_estimate;
   const double leftover = std::max({surely, doubtful, above_floor});
-  const bool shape = search.found.size() > most_told && search.misfit.squares > near_noise * search.misfit.floor;
+  const bool shape = findings.found.size() > most_told && findings.misfit.squares > near_noise * findings.misfit.floor;
   const double dominating =
-      std::max(search.misfit.squares > far_from_noise * search.misfit.floor ? dominant * above_floor : 0.0,
-               search.misfit.predictable > predicted_share ? dominant_over_predicted * beyond_estimate : 0.0);
+      std::max(findings.misfit.squares > far_from_noise * findings.misfit.floor ? dominant * above_floor : 0.0,
+               findings.misfit.predictable > predicted_share ? dominant_over_predicted * beyond_estimate : 0.0);
   const double wanted =
-      std::max({least_gain_over_structure * surely, doubtful, least_gain_over_noise * search.misfit.squares,
+      std::max({least_gain_over_structure * surely, doubtful, least_gain_over_noise * findings.misfit.squares,
                 std::min(least_gain_over_leftover * beyond_estimate,
-                         settled ? least_settled_gain * search.misfit.squares : 1e300)});
-  const auto law = std::ranges::min_element(search.other_laws, {}, &Fit::cost);
-  if (search.found.empty() && law != search.other_laws.end() &&
-      squared(law->cost) < law_part * squared(search.quick_base.cost)) {
+                         settled ? least_settled_gain * findings.misfit.squares : 1e300)});
+  const auto law = std::ranges::min_element(findings.other_laws, {}, &std::pair<std::string, double>::second);
+  if (findings.found.empty() && law != findings.other_laws.end() && law->second < law_part * findings.quick_base) {
     verdict.word = "unattributed";
-    verdict.better_law = law->what.model;
-    verdict.reason = "the damper law " + law->what.model + " leaves much less than " + search.base.what.model +
+    verdict.better_law = law->first;
+    verdict.reason = "the damper law " + law->first + " leaves much less than " + findings.model +
                      ", which no known effect helps: the base law is in question";
     return verdict;
   }
-  if (search.found.empty()) {
-    const bool laws = !search.richer.empty() && squared(search.augmented.cost / search.base.cost) < 1.0 - shown_gain &&
-                      search.augmented.heldout < search.base.heldout;
+  if (findings.found.empty()) {
+    const bool laws = findings.richer && squared(findings.augmented.fit / findings.base.fit) < 1.0 - shown_gain &&
+                      findings.augmented.heldout < findings.base.heldout;
     verdict.word = verdict.remaining_structure || laws ? "unattributed" : "complete";
     if (verdict.remaining_structure) {
       verdict.reason = "no known effect explains the misfit";
@@ -214,33 +170,34 @@ Verdict verdict_of(const Search& search, const Circumstances& known) {
     }
     return verdict;
   }
-  const double with_effects = squared(search.quick_augmented.cost);
-  const double by_law = with_effects + (1.0 - law_part) * (squared(search.quick_base.cost) - with_effects);
-  if (law != search.other_laws.end() && squared(law->cost) < std::min(law_factor * with_effects, by_law)) {
+  const double with_effects = findings.quick_augmented;
+  const double by_law = with_effects + (1.0 - law_part) * (findings.quick_base - with_effects);
+  if (law != findings.other_laws.end() && law->second < std::min(law_factor * with_effects, by_law)) {
     verdict.word = "unattributed";
-    verdict.better_law = law->what.model;
-    verdict.reason = "the damper law " + law->what.model + " without any added effect does as well as " +
-                     search.base.what.model + " with them: the base law is in question";
+    verdict.better_law = law->first;
+    verdict.reason = "the damper law " + law->first + " without any added effect does as well as " + findings.model +
+                     " with them: the base law is in question";
     return verdict;
   }
   // Evidence counts samples as independent that a slow noise under a white one makes alike: `honest` is the rest.
   const double honest =
-      search.misfit.effective > 0.0 ? std::min(1.0, search.misfit.independent / search.misfit.effective) : 1.0;
+      findings.misfit.effective > 0.0 ? std::min(1.0, findings.misfit.independent / findings.misfit.effective) : 1.0;
   const double told_at_best =
-      telling_evidence * (search.misfit.motion > noisy_motion * search.misfit.floor ? 2.0 : 1.0);
-  for (const Found& found : search.found) {
-    const double telling = is_borne_out(found, search.augmented) ? told_at_best : told_at_best / honest;
-    const bool told = settled && found.evidence > telling && search.further &&
-                      *search.further < std::max(most_further_evidence / honest, most_further_part * found.evidence);
-    const bool close_to_noise = search.misfit.squares < near_noise * search.misfit.floor;
+      telling_evidence * (findings.misfit.motion > noisy_motion * findings.misfit.floor ? 2.0 : 1.0);
+  for (std::size_t n = 0; n < findings.found.size(); ++n) {
+    const Finding& found = findings.found[n];
+    const double telling = is_borne_out(found, findings.augmented) ? told_at_best : told_at_best / honest;
+    const bool told = settled && found.evidence > telling && findings.further &&
+                      *findings.further < std::max(most_further_evidence / honest, most_further_part * found.evidence);
+    const bool close_to_noise = findings.misfit.squares < near_noise * findings.misfit.floor;
     const bool no_rival =
-        std::ranges::all_of(found.rivals, [](const Rival& rival) { return rival.share < sole_share; });
-    const bool sole = found.evidence > telling && is_plain(found, search.augmented) && close_to_noise && no_rival &&
-                      search.found.size() <= most_told && search.misfit.predictable < predicted_share;
-    const bool of_its_kind = is_of_place(found.id) && is_of_place(search.found.front().id);
+        std::ranges::all_of(found.contenders, [](const Contender& rival) { return rival.share < sole_share; });
+    const bool sole = found.evidence > telling && is_plain(found, findings.augmented) && close_to_noise && no_rival &&
+                      findings.found.size() <= most_told && findings.misfit.predictable < predicted_share;
+    const bool of_its_kind = is_of_place(found.id) && is_of_place(findings.found.front().id);
     const bool too_small =
-        found.gain < least_share_of_strongest * search.found.front().gain && !is_plain(found, search.augmented);
-    if (too_small || !confirmed(found, search.augmented, told ? sure_evidence * telling : 1e300)) {
+        found.gain < least_share_of_strongest * findings.found.front().gain && !is_plain(found, findings.augmented);
+    if (too_small || !confirmed(found, findings.augmented, told ? sure_evidence * telling : 1e300)) {
       continue;
     }
     if (!told && !sole &&
@@ -254,88 +211,86 @@ Verdict verdict_of(const Search& search, const Circumstances& known) {
     if (shape && found.gain < dominant * beyond_estimate) {
       continue;
     }
-    if (found.gain < dominating && (!verdict.effects.empty() || !steady(search.augmented, found.id, known))) {
+    if (found.gain < dominating && (!verdict.effects.empty() || !steady(found))) {
       continue;
     }
     Named named;
     named.id = found.id;
-    named.fit = &search.augmented;
-    named.without = &found.without;
+    named.found = n;
     named.share_of_misfit = found.share_of_misfit;
-    const double clear_of_noise = clear_factor * std::max(above_floor, floor_doubt * search.misfit.floor) / found.gain;
+    const double clear_of_noise =
+        clear_factor * std::max(above_floor, floor_doubt * findings.misfit.floor) / found.gain;
     const double usual_margin =
         std::max(std::min(least_margin, clear_of_noise), margin_of_leftover * leftover / found.gain);
     const double margin = told ? std::min(usual_margin, told_margin) : usual_margin;
     const double ahead = told ? std::max(least_evidence / honest, told_evidence_part * found.evidence) : least_evidence;
     double best_share = 0.0;
-    std::vector<const Rival*> as_good;
-    const Rival* instead = nullptr;  // to be named in place of the effect
-    for (const Rival& rival : found.rivals) {
-      const bool refuted = is_refuted(rival, search.augmented, honest);
+    std::vector<std::size_t> as_good;
+    std::optional<std::size_t> instead;  // to be named in place of the effect
+    for (std::size_t k = 0; k < found.contenders.size(); ++k) {
+      const Contender& rival = found.contenders[k];
+      const bool refuted = is_refuted(rival, findings.augmented, honest);
       // Where structure stays, one that ends as the other at a bound may be a descent gone astray of the other.
       const bool unsure = verdict.remaining_structure && !bound_parameter(found.id, rival.id).empty();
-      const bool close = unsure || (!refuted && (rival.share > 1.0 - margin || rival.evidence < ahead)) ||
-                         ends_as(search.augmented, found.id, rival.id, known);
+      const bool close =
+          unsure || (!refuted && (rival.share > 1.0 - margin || rival.evidence < ahead)) || rival.ended_as;
       // What holds the effect as a limit always explains as much; only more than its further parameters are worth
       // counts.
       const bool wider_as_good = told && (rival.share - 1.0) * found.evidence > wider_gain;
-      if (is_limit(found.id, rival.id) && !wider_as_good &&
-          (rival.evidence > 0.0 ||
-           (close && !stands_apart(rival.fit, rival.id, limit_parameter(found.id, rival.id), known)))) {
+      if (is_limit(found.id, rival.id) && !wider_as_good && (rival.evidence > 0.0 || (close && !rival.apart))) {
         continue;
       }
-      if (close && is_limit(rival.id, found.id) && rival.evidence < telling_evidence / honest &&
-          !stands_apart(search.augmented, found.id, limit_parameter(rival.id, found.id), known)) {
-        instead = &rival;
+      if (close && is_limit(rival.id, found.id) && rival.evidence < telling_evidence / honest && !rival.apart) {
+        instead = k;
         continue;
       }
       // The channels tell a lag of one of them from a delay of the force.
       if (close && rival.id == channel_lag && is_kin(channel_lag, found.id)) {
-        instead = as_channels_show(rival.fit, known) ? &rival : instead;
+        instead = rival.as_channels ? k : instead;
         continue;
       }
-      if (close && found.id == channel_lag && is_kin(channel_lag, rival.id) &&
-          as_channels_show(search.augmented, known)) {
+      if (close && found.id == channel_lag && is_kin(channel_lag, rival.id) && found.as_channels) {
         continue;
       }
       if (close) {
         if (is_law(rival.id)) {
-          if (found.id == saturation && follows_drive(*search.base.layout, rival.id.substr(4))) {
+          if (found.id == saturation && rival.follows_drive) {
             continue;
           }
           named.laws_as_good.push_back(rival.id.substr(4));
         } else {
           named.indistinguishable_from.push_back(rival.id);
-          as_good.push_back(&rival);
+          as_good.push_back(k);
         }
       } else {
         best_share = std::max(best_share, rival.share);
       }
     }
-    if (instead != nullptr) {
-      named.id = instead->id;
-      named.fit = &instead->fit;
-      named.share_of_misfit *= std::min(1.0, instead->share);
+    if (instead) {
+      named.rival = instead;
+      named.id = found.contenders[*instead].id;
+      named.share_of_misfit *= std::min(1.0, found.contenders[*instead].share);
     }
     const bool alone = named.indistinguishable_from.empty() && named.laws_as_good.empty();
     const double clear = (1.0 - best_share) / margin;
-    const bool better = search.augmented.heldout < named.without->heldout;
+    const bool better = findings.augmented.heldout < found.without.heldout;
     named.confidence =
         alone ? std::min(0.99, 1.0 - 0.3 / std::max(clear, 1.0)) * (better ? 1.0 : 0.8)
               : 1.0 / static_cast<double>(1 + named.indistinguishable_from.size() + named.laws_as_good.size());
-    if (named.id == search.tried && !std::ranges::all_of(search.trials, survived)) {
+    if (named.id == findings.tried && !std::ranges::all_of(findings.trials, survived)) {
       named.confidence *= unsteady_confidence;
     }
     verdict.effects.push_back(named);
     if (!alone && verdict.effects.size() == 1) {
       // The strongest cannot be told from its rivals: the answer is the set.
-      for (const Rival* rival : as_good) {
+      for (const std::size_t k : as_good) {
+        const Contender& rival = found.contenders[k];
         Named other = named;
-        other.id = rival->id;
-        other.fit = &rival->fit;
-        std::erase(other.indistinguishable_from, rival->id);
+        other.id = rival.id;
+        other.rival = k;
+        std::erase(other.indistinguishable_from, rival.id);
         other.indistinguishable_from.insert(other.indistinguishable_from.begin(), named.id);
-        other.share_of_misfit = named.share_of_misfit * std::min(1.0, rival->share);
+        other.share_of_misfit = named.share_of_misfit * std::min(1.0, rival.share);
         verdict.effects.push_back(other);
       }
       verdict.word = "ambiguous";
@@ -346,17 +301,18 @@ Verdict verdict_of(const Search& search, const Circumstances& known) {
     // Gains that the held-out recordings bear out are of something, even where the residual looks like noise.
     const double telling = told_at_best / honest;
     double together = 0.0;
-    for (const Found& found : search.found) {
+    for (const Finding& found : findings.found) {
       together += found.evidence;
     }
-    const bool all_shown =
-        together > told_at_best && squared(search.augmented.heldout / search.base.heldout) < 1.0 - shown_heldout_gain;
-    const bool shown = all_shown || std::ranges::any_of(search.found, [&](const Found& found) {
-                         return (found.evidence > telling || (found.evidence > least_evidence &&
-                                                              found.gain > shown_gain * search.base_misfit.squares)) &&
-                                confirmed(found, search.augmented, sure_evidence * telling);
-                       });
-    const bool quiet = !structured(search.base_misfit) && !shown;
+    const bool all_shown = together > told_at_best &&
+                           squared(findings.augmented.heldout / findings.base.heldout) < 1.0 - shown_heldout_gain;
+    const bool shown =
+        all_shown || std::ranges::any_of(findings.found, [&](const Finding& found) {
+          return (found.evidence > telling ||
+                  (found.evidence > least_evidence && found.gain > shown_gain * findings.base_misfit.squares)) &&
+                 confirmed(found, findings.augmented, sure_evidence * telling);
+        });
+    const bool quiet = !structured(findings.base_misfit) && !shown;
     verdict.word = quiet ? "complete" : "unattributed";
     verdict.reason = quiet ? "the best known effect explains too little to be more than the colour of the noise"
                            : "the best known effect explains less of the misfit than stays unexplained, or not on the "
@@ -366,5 +322,27 @@ Verdict verdict_of(const Search& search, const Circumstances& known) {
   verdict.word = "missing-physics";
   return verdict;
 }
+
+}  // namespace
+
+Verdict verdict_of(const Findings& findings) {
+  Verdict verdict = undoubted(findings);
+  if (verdict.word == "complete" && !findings.doubt_of_completeness.empty()) {
+    verdict.word = "unattributed";
+    verdict.reason = findings.doubt_of_completeness;
+  }
+  if (!findings.doubt_of_data.empty()) {
+    verdict.word = "unattributed";
+    verdict.effects.clear();
+    verdict.reason = findings.doubt_of_data;
+  }
+  return verdict;
+}
+
+const Fit& fit_of(const Search& search, const Named& named) {
+  return named.rival ? search.found[named.found].rivals[*named.rival].fit : search.augmented;
+}
+
+const Fit& without_of(const Search& search, const Named& named) { return search.found[named.found].without; }
 
 }  // namespace hysteron

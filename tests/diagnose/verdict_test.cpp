@@ -45,6 +45,10 @@ Circumstances knowing(const std::vector<ParameterInterval>& intervals, std::opti
   return {[intervals](const Fit&, const std::string&) { return intervals; }, channel};
 }
 
+Verdict verdict_of(const Search& search, const Circumstances& known) {
+  return hysteron::verdict_of(findings_of(search, known));
+}
+
 const Circumstances plain = knowing({{"size", "N", 1.0, 0.5}});
 
 TEST(Verdict, FarFromTheNoiseOnlyADominantEffectIsNamed) {
@@ -317,6 +321,31 @@ TEST(Verdict, TheChannelsTellALagOfTheVelocityFromADelayOfTheForce) {
   search.found[0].rivals = {rival("sensor-delay", 1.0, 1.0)};
   EXPECT_EQ(verdict_of(search, agreeing).word, "missing-physics");
   EXPECT_EQ(verdict_of(search, contradicting).word, "ambiguous");
+}
+
+TEST(Verdict, IsTheSameFromItsWrittenEvidence) {
+  Search search = search_of("gas-spring", 1.1 * floor_squares, 50.0 * floor_squares);
+  search.found[0].rivals = {rival("offset-force", 1.0, 30.0), rival("linear-stiffness", 0.3, 3000.0)};
+  search.further = 4.0;
+  search.misfit.evenness = {0.01, 0.02};
+  search.tried = "gas-spring";
+  search.trials = {{"behind lugre", 0.9, 900.0}};
+  const Circumstances straight = knowing({{"f_g", "N", 100.0, 1.0}, {"g", "1/m", 10.0, 12.0}});
+  for (const Circumstances& known : {plain, straight}) {
+    for (const std::string doubt : {"", "the recorded velocity is not the slope of the displacement"}) {
+      Findings findings = findings_of(search, known);
+      findings.doubt_of_data = doubt;
+      const nlohmann::json written = findings_json(findings);
+      const Findings again = findings_from(nlohmann::json::parse(written.dump()));
+      EXPECT_EQ(findings_json(again), written);
+      const Verdict a = hysteron::verdict_of(findings);
+      const Verdict b = hysteron::verdict_of(again);
+      EXPECT_EQ(a.word, b.word);
+      EXPECT_EQ(a.effects.size(), b.effects.size());
+      EXPECT_EQ(a.effects.empty(), !doubt.empty());
+    }
+  }
+  EXPECT_EQ(fit_of(search, verdict_of(search, straight).effects[0]).what, search.found[0].rivals[0].fit.what);
 }
 
 }  // namespace

@@ -1,0 +1,92 @@
+// The verdicts of a challenge once more, from the evidence that its diagnoses hold: what a change of their rules would
+// do to all campaigns, in a second. Nothing is searched or fitted, so that what a rule makes the search do (another law
+// in place of the one asked for, an extended model) is as it was.
+//
+//   hysteron_verdicts FOLDER... [--list]
+//
+// FOLDER is an --out of `hysteron challenge`, diagnosed; with --list every campaign that is not right is a line, and a
+// star marks those whose outcome is another than with the verdict they hold.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "challenge/score.hpp"
+#include "diagnose/verdict.hpp"
+
+namespace {
+
+using nlohmann::json;
+
+json read(const std::filesystem::path& path) { return json::parse(std::ifstream(path)); }
+
+// What the score asks of a diagnosis.
+json diagnosis_with(const hysteron::Verdict& verdict) {
+  json effects = json::array();
+  for (const hysteron::Named& named : verdict.effects) {
+    effects.push_back(
+        {{"id", named.id}, {"confidence", named.confidence}, {"indistinguishable_from", named.indistinguishable_from}});
+  }
+  return {{"verdict", verdict.word}, {"effects", effects}};
+}
+
+std::string listed(const json& names) {
+  std::string text;
+  for (const json& name : names) {
+    text += (text.empty() ? "" : " ") + (name.is_object() ? name.at("id") : name).get<std::string>();
+  }
+  return text.empty() ? "-" : text;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App program("verdicts of a challenge once more, from the evidence of its diagnoses");
+  std::vector<std::string> folders;
+  bool list = false;
+  program.add_option("FOLDER", folders, "--out of a challenge")->required()->check(CLI::ExistingDirectory);
+  program.add_flag("--list", list, "a line for every campaign that is not right");
+  CLI11_PARSE(program, argc, argv);
+
+  std::map<std::string, std::map<std::string, int>> counts;
+  int changed = 0;
+  for (const std::filesystem::path folder : folders) {
+    const json answers = read(folder / "answers.sealed");
+    for (const json& answer : answers.at("campaigns")) {
+      const std::string name = answer.at("campaign");
+      const std::filesystem::path path = folder / "diagnoses" / name / "diagnosis.json";
+      if (!std::filesystem::exists(path)) {
+        continue;
+      }
+      const json diagnosis = read(path);
+      if (!diagnosis.contains("evidence") || !diagnosis.at("evidence").contains("doubt_of_data")) {
+        continue;
+      }
+      const hysteron::Verdict verdict = hysteron::verdict_of(hysteron::findings_from(diagnosis.at("evidence")));
+      const json row = hysteron::challenge::score_campaign(answer, diagnosis_with(verdict));
+      const std::string outcome = row.at("outcome");
+      const std::string held = hysteron::challenge::score_campaign(answer, diagnosis).at("outcome");
+      const std::string level = answer.at("level");
+      ++counts[level][outcome];
+      changed += outcome == held ? 0 : 1;
+      if (list && (outcome != "right" || outcome != held)) {
+        fmt::print("{} {} {:<10} truth: {:<40} {:<15} {:<10}{} names: {} candidates: {}\n", folder.filename().string(),
+                   name.substr(name.size() - 4), level, listed(row.at("truth")), verdict.word, outcome,
+                   outcome == held ? "" : " *was " + held, listed(row.at("named")), listed(row.at("candidates")));
+      }
+    }
+  }
+  for (const auto& [level, outcomes] : counts) {
+    fmt::print("{:<12}", level);
+    for (const auto& [outcome, count] : outcomes) {
+      fmt::print(" {} {}", outcome, count);
+    }
+    fmt::print("\n");
+  }
+  fmt::print("{} outcomes differ from those held\n", changed);
+  return 0;
+}
