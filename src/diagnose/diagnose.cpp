@@ -172,10 +172,14 @@ bool score_on_all(Search& found, const Workbench& bench) {
 // Why more than noise is left though no effect helps: a held-out recording, or the residual's bond to the force, shows
 // it. Empty where nothing does.
 std::string doubt_of_completeness(const Search& search, const Workbench& fine,
-                                  const std::vector<std::string>& surprising) {
+                                  const std::vector<std::string>& surprising, bool dropped) {
   if (!surprising.empty()) {
     return "nothing but noise is left on the fitted recordings, but not on " + joined(surprising, " and ") +
            ": what is missing shows there only, and only a fitted recording can tell its cause";
+  }
+  if (dropped) {
+    return "effects improve the fit by more than chance and make the prediction of the held-out recordings worse: "
+           "something is missing that none of them is";
   }
   const Misfit& left = search.misfit;
   if (left.squares <= above_white * left.white) {
@@ -231,7 +235,8 @@ struct Judgement {
   Verdict verdict;
 };
 
-Judgement judged(const Search& found, const Workbench& bench, const Workbench& fine) {
+// Effects found on fewer samples were `dropped` where they predict worse.
+Judgement judged(const Search& found, bool dropped, const Workbench& bench, const Workbench& fine) {
   std::map<const Fit*, std::vector<Estimate>> estimates;  // fits are asked for several effects
   const Circumstances known = {[&](const Fit& fit, const std::string& effect) {
                                  if (!estimates.contains(&fit)) {
@@ -243,7 +248,7 @@ Judgement judged(const Search& found, const Workbench& bench, const Workbench& f
   Judgement result;
   result.surprising = surprises(bench, found.augmented);
   result.findings = findings_of(found, known);
-  result.findings.doubt_of_completeness = doubt_of_completeness(found, fine, result.surprising);
+  result.findings.doubt_of_completeness = doubt_of_completeness(found, fine, result.surprising, dropped);
   result.findings.doubt_of_data = doubt_of_velocity(bench.split().fit);
   result.verdict = verdict_of(result.findings);
   return result;
@@ -268,8 +273,8 @@ bool swap_law(Diagnosis& diagnosis, const Workbench& quick, const Workbench& fin
   Search second = search(quick, fine, {law, {}, {}}, searching, [&](double share, const std::string& stage) {
     progress(0.8 + 0.05 * share, "behind " + law + ": " + stage);
   });
-  score_on_all(second, diagnosis.bench);
-  Judgement judgement = judged(second, diagnosis.bench, fine);
+  const bool dropped = score_on_all(second, diagnosis.bench);
+  Judgement judgement = judged(second, dropped, diagnosis.bench, fine);
   if (judgement.verdict.effects.empty() ||
       squared(second.augmented.heldout) > least_swap * squared(first.augmented.heldout)) {
     return false;
@@ -358,9 +363,9 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const Split& split
   const Workbench fine(scale, std::move(some), layout, coarse, options.seed, options.stopped);
   diagnosis.search = search(quick, fine, {options.model, {}, {}}, searching, progress);
   const bool dropped = score_on_all(diagnosis.search, diagnosis.bench);
-  take(diagnosis, judged(diagnosis.search, diagnosis.bench, fine));
+  take(diagnosis, judged(diagnosis.search, dropped, diagnosis.bench, fine));
   const bool swapped = swap_law(diagnosis, quick, fine, searching, progress);
-  if (dropped && !swapped) {
+  if (dropped && !swapped && diagnosis.verdict.reason != diagnosis.findings.doubt_of_completeness) {
     diagnosis.notes.push_back(
         "effects that improved the fit made the prediction of the held-out recordings worse and were dropped");
   }

@@ -182,7 +182,10 @@ Findings findings_of(const Search& search, const Circumstances& known) {
   }
   result.further = search.further;
   for (const Fit& law : search.other_laws) {
-    result.other_laws.emplace_back(law.what.model, squared(law.cost));
+    const bool has_found = !search.found.empty() && std::ranges::all_of(search.found, [&](const Found& found) {
+      return is_part_of(found.id, law.what.model) && !is_part_of(found.id, result.model);
+    });
+    result.other_laws.push_back({law.what.model, squared(law.cost), has_found});
   }
   result.tried = search.tried;
   result.trials = search.trials;
@@ -195,8 +198,8 @@ json findings_json(const Findings& findings) {
     found.push_back(finding_json(one));
   }
   json laws = json::array();
-  for (const auto& [model, squares] : findings.other_laws) {
-    laws.push_back({{"model", model}, {"squares", squares}});
+  for (const OtherLaw& law : findings.other_laws) {
+    laws.push_back({{"model", law.model}, {"squares", law.squares}, {"has_found", law.has_found}});
   }
   json trials = json::array();
   for (const Trial& trial : findings.trials) {
@@ -235,7 +238,7 @@ Findings findings_from(const json& row) {
     result.further = row.at("further").get<double>();
   }
   for (const json& law : row.at("other_laws")) {
-    result.other_laws.emplace_back(law.at("model"), law.at("squares"));
+    result.other_laws.push_back({law.at("model"), law.at("squares"), law.at("has_found")});
   }
   for (const json& trial : row.at("trials")) {
     result.tried = trial.at("id");

@@ -5,7 +5,6 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "diagnose/observe.hpp"
@@ -61,6 +60,13 @@ struct Finding {
   std::vector<Contender> contenders;  // best first
 };
 
+// Another damper law without effects.
+struct OtherLaw {
+  std::string model;
+  double squares = 0.0;    // of NRMSE, as the comparison saw it
+  bool has_found = false;  // all that was found are parameters of its own, which the law asked for lacks
+};
+
 struct Findings {
   std::string model;
   Errors base;
@@ -72,8 +78,8 @@ struct Findings {
   bool richer = false;            // the augmented model has a richer law
   std::vector<Finding> found;     // strongest first
   std::optional<double> further;  // evidence of the best further hypothesis, where that was looked at
-  std::vector<std::pair<std::string, double>> other_laws;  // squares of other damper laws without effects
-  std::string tried;                                       // the strongest effect, which was put to these trials
+  std::vector<OtherLaw> other_laws;
+  std::string tried;  // the strongest effect, which was put to these trials
   std::vector<Trial> trials;
   std::string doubt_of_completeness;  // why more than noise is left where no effect helps; empty when nothing shows it
   std::string doubt_of_data;          // why no name can be given on these recordings; empty when there is no reason

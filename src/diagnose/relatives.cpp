@@ -4,6 +4,8 @@
 #include <array>
 #include <string_view>
 
+#include "simulate/part.hpp"
+
 namespace hysteron {
 
 std::vector<std::string> relatives(const std::string& id) {
@@ -83,6 +85,18 @@ constexpr std::array<Kindred, 8> kindred_parameters = {{{"entrapped-gas.d_a", "c
 std::span<const Kindred> kindred() { return kindred_parameters; }
 
 bool is_limit(const std::string& effect, const std::string& wider) { return find_limit(effect, wider) != nullptr; }
+
+bool is_part_of(const std::string& effect, const std::string& law) {
+  const Part* part = find_effect(effect);
+  const Part* model = find_model(law);
+  if (part == nullptr || model == nullptr || part->parameters.size() != 1 || !part->parameters.front().linear) {
+    return false;
+  }
+  const Parameter& size = part->parameters.front();
+  return std::ranges::any_of(model->parameters, [&](const Parameter& own) {
+    return own.linear && own.unit == size.unit && own.lower == size.lower && own.upper == size.upper;
+  });
+}
 
 std::string limit_parameter(const std::string& effect, const std::string& wider) {
   const Limit* limit = find_limit(effect, wider);

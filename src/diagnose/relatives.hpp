@@ -24,6 +24,9 @@ std::string limit_parameter(const std::string& effect, const std::string& wider)
 // The parameter of `effect` with which, at an end of its box, the effect is `other`; empty where there is none.
 std::string bound_parameter(const std::string& effect, const std::string& other);
 
+// Whether the law has the effect as a linear parameter of its own, as a stiffness or an offset.
+bool is_part_of(const std::string& effect, const std::string& law);
+
 // The effect that a lag of the velocity channel is, which the channels show without any model.
 constexpr const char* channel_lag = "velocity-lag";
 

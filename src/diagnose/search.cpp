@@ -260,8 +260,9 @@ Search search(const Workbench& bench, const Workbench& fine, const Hypothesis& b
     const auto strong = std::ranges::max_element(result.found, {}, &Found::gain);
     if (!is_law(strong->id)) {
       result.tried = strong->id;
-      result.trials =
-          trials_of(bench, strong->id, current, strong->without, result.quick_base, result.other_laws, effective);
+      std::vector<Fit> judges = result.other_laws;
+      std::erase_if(judges, [&](const Fit& law) { return is_part_of(strong->id, law.what.model); });
+      result.trials = trials_of(bench, strong->id, current, strong->without, result.quick_base, judges, effective);
     }
   }
 

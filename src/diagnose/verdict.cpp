@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "diagnose/relatives.hpp"
 
@@ -151,11 +152,15 @@ Verdict undoubted(const Findings& findings) {
       std::max({least_gain_over_structure * surely, doubtful, least_gain_over_noise * findings.misfit.squares,
                 std::min(least_gain_over_leftover * beyond_estimate,
                          settled ? least_settled_gain * findings.misfit.squares : 1e300)});
-  const auto law = std::ranges::min_element(findings.other_laws, {}, &std::pair<std::string, double>::second);
-  if (findings.found.empty() && law != findings.other_laws.end() && law->second < law_part * findings.quick_base) {
+  // A law that has what was found as a parameter of its own says the same in other words.
+  std::vector<OtherLaw> others;
+  std::ranges::copy_if(findings.other_laws, std::back_inserter(others),
+                       [](const OtherLaw& law) { return !law.has_found; });
+  const auto law = std::ranges::min_element(others, {}, &OtherLaw::squares);
+  if (findings.found.empty() && law != others.end() && law->squares < law_part * findings.quick_base) {
     verdict.word = "unattributed";
-    verdict.better_law = law->first;
-    verdict.reason = "the damper law " + law->first + " leaves much less than " + findings.model +
+    verdict.better_law = law->model;
+    verdict.reason = "the damper law " + law->model + " leaves much less than " + findings.model +
                      ", which no known effect helps: the base law is in question";
     return verdict;
   }
@@ -172,10 +177,10 @@ Verdict undoubted(const Findings& findings) {
   }
   const double with_effects = findings.quick_augmented;
   const double by_law = with_effects + (1.0 - law_part) * (findings.quick_base - with_effects);
-  if (law != findings.other_laws.end() && law->second < std::min(law_factor * with_effects, by_law)) {
+  if (law != others.end() && law->squares < std::min(law_factor * with_effects, by_law)) {
     verdict.word = "unattributed";
-    verdict.better_law = law->first;
-    verdict.reason = "the damper law " + law->first + " without any added effect does as well as " + findings.model +
+    verdict.better_law = law->model;
+    verdict.reason = "the damper law " + law->model + " without any added effect does as well as " + findings.model +
                      " with them: the base law is in question";
     return verdict;
   }

@@ -238,6 +238,22 @@ TEST(Verdict, AnotherLawIsAsGoodOnlyIfItTakesMuchOfTheGain) {
   }
 }
 
+TEST(Verdict, ALawThatHasWhatWasFoundOfItsOwnSaysTheSame) {
+  for (const auto& [effect, asked, word] :
+       {std::tuple{"linear-stiffness", "bingham", "missing-physics"}, std::tuple{"inertia", "bingham", "unattributed"},
+        std::tuple{"linear-stiffness", "bouc-wen", "unattributed"}}) {
+    Search search = search_of(effect, 1.1 * floor_squares, 40.0 * floor_squares);
+    search.base.what.model = asked;
+    search.quick_base.cost = search.base.cost;
+    search.quick_augmented.cost = search.augmented.cost;
+    Fit other;
+    other.what.model = "algebraic-hysteresis";
+    other.cost = search.augmented.cost;
+    search.other_laws = {other};
+    EXPECT_EQ(verdict_of(search, plain).word, word) << effect << " behind " << asked;
+  }
+}
+
 TEST(Verdict, FarFromTheNoiseAnEffectOfOneSizeInAllRecordingsIsNamed) {
   const Search search = search_of("inertia", 16.0 * floor_squares, 5.0 * 15.0 * floor_squares, true);
   EXPECT_EQ(verdict_of(search, knowing({{"m", "kg", 2.0, 0.3}})).word, "missing-physics");
