@@ -63,6 +63,7 @@ IdentifyOptions identify_options(const FitOptions& options, const Campaign& camp
   result.seed = options.common.seed;
   result.effects = options.effects;
   result.objective = objective_options(options.common);
+  result.objective.stopped = [] { return interrupted(); };
   result.layout.by_current =
       options.by_current.empty() ? campaign.by_current : parse_orders("--by-current", options.by_current);
   result.layout.by_frequency =
@@ -156,8 +157,12 @@ void run(const FitOptions& options) {
   const Identification result = identify(campaign, model, identify_with, show);
   std::optional<TwoStage> two;
   if (options.stages == "two" && !interrupted()) {
-    two = fit_two_stage(campaign, result.layout, result.compared_on(campaign.recordings.size()), result.heldout,
-                        *find_solver(result.solvers[result.chosen].run.solver), identify_with, show);
+    try {
+      two = fit_two_stage(campaign, result.layout, result.compared_on(campaign.recordings.size()), result.heldout,
+                          *find_solver(result.solvers[result.chosen].run.solver), identify_with, show);
+    } catch (const Stopped&) {
+      two.reset();
+    }
   }
   progress.finish();
   make_output_folder(options.out);

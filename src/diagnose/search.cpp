@@ -13,9 +13,13 @@ namespace {
 constexpr std::size_t rival_count = 6;
 // A form that holds a simpler one as its limit is taken for it only above this.
 constexpr double wider_evidence = 3.0;
-// No further effects are looked for once this part of what was explained is left above the noise, or is all that the
-// last one added: the next could not be named.
+// Times that a rival takes the place of an effect: two could go on taking each other's.
+constexpr int most_swaps = 3;
+// No further effects are looked for once this is all that the last one added to what was explained: the next could not
+// be named ...
 constexpr double negligible = 0.05;
+// ... or once only this part of the noise is left above it, which it is not known to.
+constexpr double unsure_of_noise = 0.05;
 // Where the effects take less than this many times what they leave off the squared error, the verdict asks whether
 // anything else would help.
 constexpr double near_what_stays = 2.0;
@@ -131,8 +135,7 @@ Search search(const Workbench& bench, const Workbench& fine, const Hypothesis& b
     if (chosen->gain < negligible * strongest) {
       break;
     }
-    if (!structured(left) &&
-        left.squares - left.floor < negligible * (squared(result.quick_base.cost) - left.squares)) {
+    if (!structured(left) && left.squares < (1.0 + unsure_of_noise) * left.floor) {
       break;
     }
   }
@@ -146,8 +149,9 @@ Search search(const Workbench& bench, const Workbench& fine, const Hypothesis& b
       seen.push_back(one.fit);
     }
   }
-  for (int pass = 0; pass < 3; ++pass) {
-    bool changed = false;
+  int swaps = 0;
+  for (bool changed = true; changed;) {
+    changed = false;
     result.found.clear();
     std::vector<std::string> parts = current.what.effects;
     for (const std::string& name : current.what.richer) {
@@ -227,15 +231,13 @@ Search search(const Workbench& bench, const Workbench& fine, const Hypothesis& b
         found.rivals.push_back(row);
       }
       std::ranges::stable_sort(found.rivals, [](const Rival& a, const Rival& b) { return a.share > b.share; });
-      if (better != nullptr && pass < 2) {
+      if (better != nullptr && swaps < most_swaps) {
+        ++swaps;
         current = better->fit;
         changed = true;
         break;
       }
       result.found.push_back(std::move(found));
-    }
-    if (!changed) {
-      break;
     }
   }
 

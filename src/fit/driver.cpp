@@ -128,7 +128,13 @@ RunResult run_solver(const SolverEntry& entry, const Problem& problem, const Eva
       return end("budget");
     }
     request.points.resize(std::min(request.points.size() / d, affordable) * d);
-    const Response response = evaluate(request);
+    Response response;
+    try {
+      response = evaluate(request);
+    } catch (const Stopped&) {
+      result.stopped = "interrupted";
+      return result;
+    }
     record(request, response);
     if (observer && !observer(result)) {
       return end("interrupted");

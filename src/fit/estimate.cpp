@@ -11,6 +11,15 @@ namespace {
 
 constexpr double normal_quantile = 1.96;
 
+// Of the terms of a layout.
+struct Uncertainty {
+  std::vector<bool> open;          // coordinates of which nothing can be said
+  std::vector<Eigen::Index> free;  // those off their bounds
+  Eigen::MatrixXd to_terms;        // derivatives of the terms
+  Eigen::VectorXd std_error;
+  Eigen::VectorXd half_width;
+};
+
 }  // namespace
 
 // Lag-1 correlation of the residuals, pooled: a coloured residual carries fewer independent samples than it has.
@@ -30,16 +39,17 @@ double residual_correlation(const Objective& objective, const std::vector<Term>&
   return square > 0.0 ? std::clamp(product / square, 0.0, 0.9999) : 0.0;
 }
 
+namespace {
+
 // Standard errors and 95 % intervals: the widest of the following and of what the jackknife says.
 // From the Gauss-Newton matrix at the optimum, free coordinates only, with the effective sample size
 // N (1 - r) / (1 + r) of residuals whose lag-1 correlation is r. Directions the data leave open make the parameters
 // in them unidentifiable; they are looked for among all coordinates, since a parameter whose partner in a redundant
 // pair sits on a bound is no better determined.
-void estimate(Identification& result, const Objective& objective, const std::vector<double>& u, DriveKind drive_kind) {
-  const Layout& layout = result.layout;
+Uncertainty uncertainty_of(const Identification& result, const Objective& objective, const std::vector<double>& u) {
+  const Layout& layout = objective.layout();
   const auto d = static_cast<Eigen::Index>(layout.dimension());
-  Request request{u, true};
-  const Response response = objective.evaluate(request);
+  const Response response = objective.evaluate({u, true});
   Eigen::MatrixXd full = Eigen::Map<const Eigen::MatrixXd>(response.gauss_newton.data(), d, d);
   std::vector<bool> open(static_cast<std::size_t>(d), false);
   std::vector<Eigen::Index> free;
@@ -112,6 +122,29 @@ void estimate(Identification& result, const Objective& objective, const std::vec
       half_width = half_width.cwiseMax(spreads->recordings->quantile * deviation(*spreads->recordings));
     }
   }
+  return {open, free, to_terms, std_error, half_width};
+}
+
+// Where nothing was worked out.
+Uncertainty unknown(std::size_t dimension) {
+  const auto d = static_cast<Eigen::Index>(dimension);
+  return {std::vector<bool>(dimension, false),
+          {},
+          Eigen::MatrixXd::Zero(d, d),
+          Eigen::VectorXd::Zero(d),
+          Eigen::VectorXd::Zero(d)};
+}
+
+}  // namespace
+
+void estimate(Identification& result, const Objective& objective, const std::vector<double>& u, DriveKind drive_kind) {
+  const Layout& layout = result.layout;
+  Uncertainty uncertainty = unknown(layout.dimension());
+  try {
+    uncertainty = uncertainty_of(result, objective, u);
+  } catch (const Stopped&) {
+    result.warnings.emplace_back("interrupted before the standard errors were worked out");
+  }
   for (const ParameterLaw& law : layout.laws()) {
     const std::size_t count = law.drive_nodes.size() * law.frequency_nodes.size();
     bool law_open = false;
@@ -119,7 +152,7 @@ void estimate(Identification& result, const Objective& objective, const std::vec
     std::optional<std::string> bound;
     for (std::size_t k = 0; k < count; ++k) {
       const double position = u[law.first + k];
-      law_open = law_open || open[law.first + k];
+      law_open = law_open || uncertainty.open[law.first + k];
       if (position <= 1e-6 || position >= 1.0 - 1e-6) {
         bound = position < 0.5 ? "lower" : "upper";
       } else {
@@ -148,12 +181,12 @@ void estimate(Identification& result, const Objective& objective, const std::vec
       const auto row = static_cast<Eigen::Index>(t);
       // A term all of whose nodes sit on bounds has no error to state, not the error zero.
       bool determined = false;
-      for (const Eigen::Index c : free) {
-        determined = determined || to_terms(row, c) != 0.0;
+      for (const Eigen::Index c : uncertainty.free) {
+        determined = determined || uncertainty.to_terms(row, c) != 0.0;
       }
-      if (!law_open && law_free && determined && std::isfinite(half_width[row])) {
-        estimate.std_error = std_error[row];
-        estimate.half_width = half_width[row];
+      if (!law_open && law_free && determined && std::isfinite(uncertainty.half_width[row])) {
+        estimate.std_error = uncertainty.std_error[row];
+        estimate.half_width = uncertainty.half_width[row];
       }
       result.estimates.push_back(std::move(estimate));
     }

@@ -95,6 +95,27 @@ std::vector<std::size_t> choose_heldout(const std::vector<Recording>& recordings
   return result;
 }
 
+namespace {
+
+// The winner once more with a tighter integration: a difference is the integrator's, not the model's.
+void check_integration(Identification& result, const std::vector<double>& best, const Campaign& campaign,
+                       const IdentifyOptions& options) {
+  ObjectiveOptions tight = options.objective;
+  tight.tolerance = options.objective.tolerance / 256.0;
+  try {
+    const double tight_cost =
+        Objective(result.layout, pick(campaign.recordings, result.fitted), tight).evaluate({best, false}).cost[0];
+    if (std::fabs(tight_cost - result.cost) > 1e-3 * result.cost) {
+      result.warnings.push_back("a four times finer integration moves the NRMSE from " + std::to_string(result.cost) +
+                                " to " + std::to_string(tight_cost) + ": use a smaller --tolerance");
+    }
+  } catch (const Stopped&) {
+    result.warnings.emplace_back("interrupted before the integration was checked");
+  }
+}
+
+}  // namespace
+
 Identification identify(const Campaign& campaign, const std::string& model, const IdentifyOptions& options,
                         const Progress& progress) {
   std::vector<std::size_t> all(campaign.recordings.size());
@@ -139,6 +160,12 @@ Identification identify(const Campaign& campaign, const std::string& model, cons
         [&](const RunResult& partial) {
           return !progress || progress(std::string(entry->id) + ": " + stage, partial);
         });
+    if (run.best.empty() && run.stopped == "interrupted" && !result.solvers.empty()) {
+      break;
+    }
+    if (run.best.empty() && run.stopped == "interrupted") {
+      throw WorkError("interrupted before a candidate was evaluated: nothing was identified");
+    }
     if (run.best.empty() || run.cost >= diverged_cost) {
       throw WorkError("solver " + run.solver + " found no candidate whose simulation stays finite in " +
                       std::to_string(run.evaluations) + " evaluations");
@@ -175,7 +202,10 @@ Identification identify(const Campaign& campaign, const std::string& model, cons
           return !progress || progress(std::string(entry->id) + ": " + final_stage(refit), partial);
         });
     // Interrupted before it came as far, the fit is what it started from.
-    const double before = refit ? final_objective.evaluate({best, false}).cost[0] : result.cost;
+    ObjectiveOptions calm = options.objective;
+    calm.stopped = {};
+    const double before =
+        refit ? Objective(layout, pick(campaign.recordings, all), calm).evaluate({best, false}).cost[0] : result.cost;
     result.cost = std::min(before, run.cost);
     if (run.cost < before) {
       best = run.best;
@@ -193,15 +223,7 @@ Identification identify(const Campaign& campaign, const std::string& model, cons
   result.terms = layout.terms(best);
   estimate(result, final_objective, best, campaign.recordings.front().drive_kind);
 
-  // The winner once more with a tighter integration: a difference is the integrator's, not the model's.
-  ObjectiveOptions tight = options.objective;
-  tight.tolerance = options.objective.tolerance / 256.0;
-  const double tight_cost =
-      Objective(layout, pick(campaign.recordings, result.fitted), tight).evaluate({best, false}).cost[0];
-  if (std::fabs(tight_cost - result.cost) > 1e-3 * result.cost) {
-    result.warnings.push_back("a four times finer integration moves the NRMSE from " + std::to_string(result.cost) +
-                              " to " + std::to_string(tight_cost) + ": use a smaller --tolerance");
-  }
+  check_integration(result, best, campaign, options);
   for (const Estimate& estimate : result.estimates) {
     if (estimate.term.drive_power + estimate.term.frequency_power > 0) {
       continue;

@@ -340,7 +340,7 @@ Target make_target(const Recording& recording, const ObjectiveOptions& options) 
 }
 
 Objective::Objective(const Layout& layout, const std::vector<Recording>& recordings, const ObjectiveOptions& options)
-    : layout_(layout), threads_(options.threads) {
+    : layout_(layout), threads_(options.threads), stopped_(options.stopped) {
   double total = 0.0;
   double pooled_normaliser = 0.0;
   for (const Recording& recording : recordings) {
@@ -395,6 +395,12 @@ std::size_t sums_size(std::size_t dimension, bool derivatives) {
 
 }  // namespace
 
+void Objective::check_stopped() const {
+  if (stopped_ && stopped_()) {
+    throw Stopped{};
+  }
+}
+
 template <>
 void Objective::run_pack<Lanes>(const std::vector<double>& points, Rows rows, const Target& target,
                                 double* sums) const {
@@ -411,6 +417,7 @@ void Objective::run_pack<Lanes>(const std::vector<double>& points, Rows rows, co
       layout_.model(), target,
       [&](const auto& drive, Lanes* p) { parameters_of_pack(layout_, nodes, drive, target.frequency, p); },
       [&](std::size_t begin, std::size_t samples, const Lanes* out) {
+        check_stopped();
         for (std::size_t k = 0; k < samples; ++k) {
           const Lanes residual = out[k] - Lanes(target.force[begin + k]);
           if (begin + k >= target.run_in) {
@@ -465,6 +472,7 @@ Objective::PackSums Objective::differentiated(const std::vector<double>& points,
         layout_.model(), target,
         [&](const auto& drive, LaneDual* p) { parameters_of_pack(layout_, nodes, drive, target.frequency, p); },
         [&](std::size_t begin, std::size_t block, const LaneDual* out) {
+          check_stopped();
           const std::size_t base = together ? 0 : begin;
           for (std::size_t k = 0; k < block; ++k) {
             Lanes* row = jacobian.data() + (base + k) * d;
@@ -614,6 +622,7 @@ Response Objective::evaluate_window(const Request& request) const {
         [&](const auto& drive, Lanes* p) { parameters_of_pack(layout_, nodes, drive, target.frequency, p); },
         window.begin, window.end, state,
         [&](std::size_t begin, std::size_t count, const Lanes* out) {
+          check_stopped();
           for (std::size_t lane = 0; lane < rows.size(); ++lane) {
             double* residual = response.residual.data() + (first + lane) * samples + begin - window.begin;
             for (std::size_t k = 0; k < count; ++k) {

@@ -32,6 +32,8 @@ struct ObjectiveOptions {
   // Leave out of the cost the run-in of recordings that begin in mid-motion and never come back to their start, so that
   // the initial hysteresis is neither known nor found by marching a period beforehand.
   bool skip_run_in = false;
+  // Asked often, also within an evaluation, which a stiff candidate can make long; once true evaluations throw Stopped.
+  std::function<bool()> stopped = {};
 };
 
 // A recording as the objective sees it.
@@ -69,6 +71,7 @@ class Objective {
   // Tells a problem what its windows may be: samples of the recordings, state variables.
   void describe_data(Problem& problem) const;
   // Costs (and derivatives with respect to unit coordinates) of the request's points, or residuals of its window.
+  // Throws Stopped, as linearised does.
   [[nodiscard]] Response evaluate(const Request& request) const;
   // One entry per recording.
   [[nodiscard]] std::vector<Linearised> linearised(const std::vector<double>& point) const;
@@ -91,11 +94,13 @@ class Objective {
                 double* sums) const;
   [[nodiscard]] Response evaluate_window(const Request& request) const;
   [[nodiscard]] std::vector<std::size_t> packing(const std::vector<double>& points) const;
+  void check_stopped() const;
 
   Layout layout_;
   std::vector<Target> targets_;
   std::vector<Target> screening_targets_;
   int threads_;
+  std::function<bool()> stopped_;
 };
 
 // Predicted force of one parameter set on a recording's motion.

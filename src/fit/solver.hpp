@@ -38,6 +38,9 @@ struct Request {
   std::vector<double> states = {};
 };
 
+// Thrown out of an evaluation that was asked to stop.
+struct Stopped {};
+
 // Answer to a request, in the order of its points. `cost` is finite or a large ordered value for diverged
 // candidates (>= diverged_cost), never NaN. For a sum of squares objective, cost^2 = sum r^2.
 struct Response {

@@ -225,6 +225,28 @@ TEST(Identify, StopsWhenTheObserverSaysSoAndKeepsTheBest) {
   EXPECT_LT(result.cost, 1.0);
 }
 
+// Within an evaluation, which a stiff candidate can make longer than anybody waits.
+TEST(Identify, StopsWithinAnEvaluationAndKeepsTheBest) {
+  for (const int asked_until : {40, 300, 3000}) {
+    IdentifyOptions options;
+    options.solvers = {"pso"};
+    options.budget = 1000000;
+    options.objective.threads = 1;
+    int asked = 0;
+    options.objective.stopped = [&] { return ++asked > asked_until; };
+    const Identification result = identify(viscous_campaign(10.0), "viscous", options, {});
+    EXPECT_EQ(result.solvers.at(0).run.stopped, "interrupted");
+    EXPECT_LT(result.cost, 1.0);
+    EXPECT_FALSE(result.estimates.empty());
+    EXPECT_FALSE(result.estimates.front().std_error);
+    EXPECT_TRUE(result.estimates.front().identifiable) << "nothing was looked at";
+    EXPECT_FALSE(result.warnings.empty());
+  }
+  IdentifyOptions options;
+  options.objective.stopped = [] { return true; };
+  EXPECT_THROW(identify(viscous_campaign(10.0), "viscous", options, {}), WorkError);
+}
+
 TEST(Identify, AFinalFitThatIsInterruptedIsNoWorseThanWhatItStartedFrom) {
   std::vector<Recording> recordings;
   for (const Campaign& campaign : {viscous_campaign(10.0), viscous_campaign(11.0)}) {
