@@ -29,12 +29,9 @@ class EvennessSum {
   std::array<std::array<std::array<double, classes>, variables>, 1 + shifts> squares_{};
 };
 
-// Whether chance explains what deviation there is: one in twenty noises fails. Not known, and so not the case, where no
-// recording had enough samples.
-inline bool even(const Evenness& evenness) {
-  return evenness.by_chance > 0.0 && evenness.deviation <= evenness.by_chance;
-}
-// Whether it surely does not.
+// Whether chance does not explain what deviation there is.
 inline bool uneven(const Evenness& evenness) { return evenness.deviation > 1.5 * evenness.by_chance; }
+// Whether it does. Not known, and so not the case, where no recording had enough samples.
+inline bool even(const Evenness& evenness) { return evenness.by_chance > 0.0 && !uneven(evenness); }
 
 }  // namespace hysteron

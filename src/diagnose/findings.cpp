@@ -11,7 +11,8 @@ using nlohmann::json;
 
 namespace {
 
-// A fitted lag of the velocity channel and the one between the channels agree within this share.
+// A fitted lag of the velocity channel and the one between the channels agree within this share, or within the interval
+// of the one or the other.
 constexpr double channel_agreement = 0.25;
 
 // Whether the lag of the velocity channel that a fit found is the one that the channels show.
@@ -21,7 +22,8 @@ bool as_channels_show(const Fit& fit, const Circumstances& known) {
     return false;
   }
   const double error = std::fabs(intervals.front().value - known.channel->lag);
-  return error < std::max(channel_agreement * std::fabs(known.channel->lag), 3.0 * known.channel->std_error);
+  return error < std::max({channel_agreement * std::fabs(known.channel->lag), 3.0 * known.channel->std_error,
+                           intervals.front().half_width.value_or(0.0)});
 }
 
 // Whether the parameter by which a wider form differs from its limit is surely not at the limit.

@@ -107,7 +107,7 @@ bool structured(const Misfit& misfit) {
 }
 
 bool noise_like(const Misfit& misfit) {
-  return !structured(misfit) && misfit.predictable < 0.03 && misfit.evenness.by_chance > 0.0 && !uneven(misfit.evenness);
+  return !structured(misfit) && misfit.predictable < 0.03 && even(misfit.evenness);
 }
 
 double evidence(double before, double after, double more, double effective) {

@@ -202,6 +202,10 @@ Verdict undoubted(const Findings& findings) {
     const bool of_its_kind = is_of_place(found.id) && is_of_place(findings.found.front().id);
     const bool too_small =
         found.gain < least_share_of_strongest * findings.found.front().gain && !is_plain(found, findings.augmented);
+    // What the law has of its own is no name: it makes up for what another effect's form misses.
+    if (is_part_of(found.id, findings.model)) {
+      continue;
+    }
     if (too_small || !confirmed(found, findings.augmented, told ? sure_evidence * telling : 1e300)) {
       continue;
     }

@@ -95,7 +95,7 @@ TEST(Verdict, WhatIsLikeNoiseInAllIsTheNoise) {
   Search shapes = search;
   shapes.found.resize(3, shapes.found.front());
   EXPECT_EQ(verdict_of(shapes, plain).word, "unattributed") << "three effects are the shape of something else";
-  search.misfit.evenness = {0.03, 0.02};
+  search.misfit.evenness = {0.04, 0.02};
   EXPECT_EQ(verdict_of(search, plain).word, "unattributed");
   // What is within the uncertainty of the noise is no effect.
   search = search_of("coil-lag", 2.0 * floor_squares, 0.15 * floor_squares);
@@ -129,7 +129,7 @@ TEST(Verdict, NearTheNoiseTheEvidenceDecides) {
   EXPECT_EQ(verdict_of(small(200.0, 60.0), plain).word, "unattributed") << "something else is missing too";
   EXPECT_EQ(verdict_of(small(200.0, std::nullopt), plain).word, "unattributed") << "what else helps was not looked at";
   Search search = small(200.0, 5.0);
-  search.misfit.evenness = {0.03, 0.02};
+  search.misfit.evenness = {0.04, 0.02};
   EXPECT_EQ(verdict_of(search, plain).word, "unattributed") << "what stays follows the motion";
   search = small(70.0, 5.0);
   EXPECT_EQ(verdict_of(search, plain).word, "missing-physics");
@@ -208,7 +208,7 @@ TEST(Verdict, ThreeEffectsThatLeaveMoreThanNoiseAreAShape) {
 TEST(Verdict, BesideAnUnevenNoiseAnEffectWithoutRivalsIsNamed) {
   const auto word = [](double heldout_without, double share) {
     Search search = search_of("sensor-delay", 1.4 * floor_squares, 0.6 * floor_squares);
-    search.misfit.evenness = {0.03, 0.02};
+    search.misfit.evenness = {0.04, 0.02};
     search.found[0].without.cost = std::sqrt(2.0 * floor_squares);
     search.found[0].without.heldout = std::sqrt(heldout_without * floor_squares);
     search.found[0].rivals = {rival("seal-friction", share, 1000.0)};
