@@ -48,13 +48,6 @@ bool ends_as(const Fit& fit, const std::string& effect, const std::string& other
   return at != intervals.end() && (!at->half_width || at->value - *at->half_width <= at->lower);
 }
 
-double spread_of(const Fit& fit, const std::string& effect, const Circumstances& known) {
-  const std::vector<ParameterInterval> intervals = known.intervals(fit, effect);
-  return intervals.empty() || !intervals.front().half_width || intervals.front().value == 0.0
-             ? 0.0
-             : *intervals.front().half_width / std::fabs(intervals.front().value);
-}
-
 // A parameter that follows the drive in the base model.
 bool follows_drive(const Fit& base, const std::string& parameter) {
   return base.layout != nullptr && std::ranges::any_of(base.layout->laws(), [&](const ParameterLaw& law) {
@@ -136,7 +129,6 @@ json finding_json(const Finding& one) {
           {"nrmse_fit_without", one.without.fit},
           {"nrmse_heldout_without", one.without.heldout},
           {"share_of_misfit", one.share_of_misfit},
-          {"spread", one.spread},
           {"as_channels_show", one.as_channels},
           {"rivals", rivals}};
 }
@@ -148,7 +140,6 @@ Finding finding_from(const json& row) {
   one.evidence = row.at("evidence");
   one.without = {row.at("nrmse_fit_without"), row.at("nrmse_heldout_without")};
   one.share_of_misfit = row.at("share_of_misfit");
-  one.spread = row.at("spread");
   one.as_channels = row.at("as_channels_show");
   for (const json& rival : row.at("rivals")) {
     one.contenders.push_back(contender_from(rival));
@@ -175,7 +166,6 @@ Findings findings_of(const Search& search, const Circumstances& known) {
     one.evidence = found.evidence;
     one.without = {found.without.cost, found.without.heldout};
     one.share_of_misfit = found.share_of_misfit;
-    one.spread = spread_of(search.augmented, found.id, known);
     one.as_channels = found.id == channel_lag && as_channels_show(search.augmented, known);
     for (const Rival& rival : found.rivals) {
       one.contenders.push_back(contender_of(rival, found, search, known));

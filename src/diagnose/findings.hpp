@@ -55,8 +55,7 @@ struct Finding {
   double evidence = 0.0;  // as of the search
   Errors without;         // of the final hypothesis less this effect, refitted
   double share_of_misfit = 0.0;
-  double spread = 0.0;       // half width of the 95 % interval of its first parameter over its value; 0 without one
-  bool as_channels = false;  // as of a contender
+  bool as_channels = false;           // as of a contender
   std::vector<Contender> contenders;  // best first
 };
 

@@ -59,25 +59,21 @@ TEST(Verdict, FarFromTheNoiseOnlyADominantEffectIsNamed) {
   EXPECT_EQ(verdict_of(search_of("inertia", left, 20.0 * 15.0 * floor_squares, true), plain).word, "missing-physics");
 }
 
-TEST(Verdict, ARivalThatLeavesMuchMoreThanNoiseIsExcluded) {
-  // One part in a hundred of the gain: eleven times what stays above the noise ...
-  Search search = search_of("linear-stiffness", 1.2 * floor_squares, 220.0 * floor_squares);
-  search.found[0].rivals = {rival("cubic-stiffness", 0.99, 500.0)};
-  const Verdict clear = verdict_of(search, plain);
-  ASSERT_EQ(clear.word, "missing-physics");
-  EXPECT_TRUE(clear.effects[0].indistinguishable_from.empty());
-  // ... and half of it where more stays.
-  search = search_of("linear-stiffness", 5.0 * floor_squares, 220.0 * floor_squares);
-  search.found[0].rivals = {rival("cubic-stiffness", 0.99, 500.0)};
-  EXPECT_EQ(verdict_of(search, plain).word, "ambiguous");
+TEST(Verdict, ARivalIsExcludedByWhatItLeavesUnexplained) {
+  for (const auto& [share, left, word] :
+       {std::tuple{0.99, 1.2, "ambiguous"}, std::tuple{0.95, 1.2, "missing-physics"},
+        std::tuple{0.95, 15.0, "missing-physics"}, std::tuple{0.95, 40.0, "ambiguous"}}) {
+    // Where more stays beyond the noise, what is unknown may favour either.
+    Search search = search_of("linear-stiffness", left * floor_squares, 290.0 * floor_squares);
+    search.found[0].rivals = {rival("cubic-stiffness", share, 500.0)};
+    EXPECT_EQ(verdict_of(search, plain).word, word) << share << " " << left;
+  }
 }
 
 TEST(Verdict, ARivalThatTheJudgingRecordingsRefuteIsNone) {
   Search search = search_of("linear-stiffness", 1.1 * floor_squares, 10.0 * floor_squares);
-  // With much evidence of the fitted recordings against it a smaller contradiction is enough.
-  for (const auto& [factor, evidence, word] :
-       {std::tuple{1.5, 50.0, "ambiguous"}, std::tuple{2.5, 50.0, "missing-physics"},
-        std::tuple{1.1, 500.0, "ambiguous"}, std::tuple{1.5, 500.0, "missing-physics"}}) {
+  for (const auto& [factor, evidence, word] : {std::tuple{1.5, 50.0, "ambiguous"}, std::tuple{1.1, 500.0, "ambiguous"},
+                                               std::tuple{1.5, 500.0, "missing-physics"}}) {
     search.found[0].rivals = {rival("pre-yield-hysteresis", 0.98, evidence)};
     search.found[0].rivals[0].fit.heldout = std::sqrt(factor) * search.augmented.heldout;
     EXPECT_EQ(verdict_of(search, plain).word, word) << factor << " " << evidence;
@@ -89,24 +85,17 @@ TEST(Verdict, WhatIsLikeNoiseInAllIsTheNoise) {
   Search search = search_of("coil-lag", 2.0 * floor_squares, 0.5 * floor_squares);
   search.found[0].without.cost = search.found[0].without.heldout = std::sqrt(2.5 * floor_squares);
   EXPECT_EQ(verdict_of(search, plain).word, "unattributed");
-  // ... unless neither the values of what stays nor their size follow the motion.
+  // ... unless neither the values of what stays nor their size follow the motion, and nothing further helps.
   search.misfit.evenness = {0.01, 0.02};
+  EXPECT_EQ(verdict_of(search, plain).word, "unattributed");
+  search.further = 5.0;
   EXPECT_EQ(verdict_of(search, plain).word, "missing-physics");
   Search shapes = search;
   shapes.found.resize(3, shapes.found.front());
   EXPECT_EQ(verdict_of(shapes, plain).word, "unattributed") << "three effects are the shape of something else";
   search.misfit.evenness = {0.04, 0.02};
   EXPECT_EQ(verdict_of(search, plain).word, "unattributed");
-  // What is within the uncertainty of the noise is no effect.
-  search = search_of("coil-lag", 2.0 * floor_squares, 0.15 * floor_squares);
-  search.misfit.evenness = {0.01, 0.02};
-  EXPECT_NE(verdict_of(search, plain).word, "missing-physics");
-  // Little of it asks for evidence.
-  search = search_of("coil-lag", 2.0 * floor_squares, 0.5 * floor_squares);
-  search.misfit.evenness = {0.01, 0.02};
-  search.found[0].evidence = 100.0;
-  EXPECT_NE(verdict_of(search, plain).word, "missing-physics");
-  // Close to the estimate the smaller of the two is asked for, and in any case a twentieth of the noise.
+  // Where what further would help was not looked at, a twentieth of the noise is asked for in any case.
   for (const auto& [gain, named] : {std::pair{0.1, true}, std::pair{0.03, false}}) {
     search = search_of("stiction", 1.01 * floor_squares, gain * floor_squares);
     search.found[0].without.cost = search.found[0].without.heldout = std::sqrt((1.01 + gain) * floor_squares);
@@ -131,10 +120,6 @@ TEST(Verdict, NearTheNoiseTheEvidenceDecides) {
   Search search = small(200.0, 5.0);
   search.misfit.evenness = {0.04, 0.02};
   EXPECT_EQ(verdict_of(search, plain).word, "unattributed") << "what stays follows the motion";
-  search = small(70.0, 5.0);
-  EXPECT_EQ(verdict_of(search, plain).word, "missing-physics");
-  search.misfit.motion = 0.1 * floor_squares;
-  EXPECT_NE(verdict_of(search, plain).word, "missing-physics") << "noise of the motion gives more";
   search = small(200.0, 5.0);
   search.misfit.effective = 1000.0;
   search.misfit.independent = 100.0;
@@ -156,19 +141,12 @@ TEST(Verdict, NearTheNoiseTheEvidenceDecides) {
     search.augmented.heldout = std::sqrt(heldout) * search.found[0].without.heldout;
     EXPECT_EQ(verdict_of(search, plain).word, word) << evidence << " " << heldout;
   }
-  // A wider form is as good that gains more than chance, though less than its parameters are worth.
-  for (const auto& [share, word] : {std::pair{1.01, "missing-physics"}, std::pair{1.06, "ambiguous"}}) {
-    search = small(100.0, 5.0);
-    search.found[0].id = "coulomb-friction";
-    search.found[0].rivals = {rival("seal-friction", share, 12.0)};
-    EXPECT_EQ(verdict_of(search, plain).word, word) << share;
-  }
   search = small(200.0, 5.0);
   search.found.resize(3, search.found.front());
   EXPECT_EQ(verdict_of(search, plain).word, "unattributed") << "three effects are the shape of something else";
   // A rival is as good that comes near in share or in evidence.
   for (const auto& [share, evidence, ambiguous] :
-       {std::tuple{0.7, 60.0, false}, std::tuple{0.7, 15.0, true}, std::tuple{0.92, 60.0, true}}) {
+       {std::tuple{0.7, 60.0, false}, std::tuple{0.7, 8.0, true}, std::tuple{0.97, 60.0, true}}) {
     search = small(200.0, 5.0);
     search.found[0].rivals = {rival("shear-thinning", share, evidence)};
     EXPECT_EQ(verdict_of(search, plain).word == "ambiguous", ambiguous) << share << " " << evidence;
@@ -203,20 +181,6 @@ TEST(Verdict, ThreeEffectsThatLeaveMoreThanNoiseAreAShape) {
     search.found[2].id = "inertia";
     EXPECT_EQ(verdict_of(search, plain).word, word) << gain << " " << left;
   }
-}
-
-TEST(Verdict, BesideAnUnevenNoiseAnEffectWithoutRivalsIsNamed) {
-  const auto word = [](double heldout_without, double share) {
-    Search search = search_of("sensor-delay", 1.4 * floor_squares, 0.6 * floor_squares);
-    search.misfit.evenness = {0.04, 0.02};
-    search.found[0].without.cost = std::sqrt(2.0 * floor_squares);
-    search.found[0].without.heldout = std::sqrt(heldout_without * floor_squares);
-    search.found[0].rivals = {rival("seal-friction", share, 1000.0)};
-    return verdict_of(search, plain).word;
-  };
-  EXPECT_EQ(word(2.6, 0.1), "missing-physics");
-  EXPECT_EQ(word(2.6, 0.6), "unattributed");
-  EXPECT_EQ(word(1.6, 0.1), "unattributed");
 }
 
 TEST(Verdict, AnotherLawIsAsGoodOnlyIfItTakesMuchOfTheGain) {
@@ -254,33 +218,35 @@ TEST(Verdict, ALawThatHasWhatWasFoundOfItsOwnSaysTheSame) {
   }
 }
 
-TEST(Verdict, FarFromTheNoiseAnEffectOfOneSizeInAllRecordingsIsNamed) {
-  const Search search = search_of("inertia", 16.0 * floor_squares, 5.0 * 15.0 * floor_squares, true);
-  EXPECT_EQ(verdict_of(search, knowing({{"m", "kg", 2.0, 0.3}})).word, "missing-physics");
-  EXPECT_EQ(verdict_of(search, knowing({{"m", "kg", 2.0, 0.5}})).word, "unattributed");
-  EXPECT_EQ(verdict_of(search, knowing({{"m", "kg", 2.0, std::nullopt}})).word, "unattributed");
-}
-
-TEST(Verdict, BesideWhatTheMotionPredictsOnlyADominantOrSteadyEffectIsNamed) {
-  const Circumstances steady = knowing({{"p", "1", 0.5, 0.05}});
-  Search search = search_of("pinching", 2.5 * floor_squares, 10.0 * 1.5 * floor_squares, true);
+TEST(Verdict, BesideWhatTheMotionPredictsOnlyADominantEffectIsNamed) {
+  Search search = search_of("pinching", 2.5 * floor_squares, 8.0 * 1.5 * floor_squares, true);
   EXPECT_EQ(verdict_of(search, plain).word, "unattributed");
-  EXPECT_EQ(verdict_of(search, steady).word, "missing-physics");
+  search.misfit.predictable = 0.1;
+  EXPECT_EQ(verdict_of(search, plain).word, "missing-physics");
   search = search_of("pinching", 2.5 * floor_squares, 25.0 * 1.5 * floor_squares, true);
   EXPECT_EQ(verdict_of(search, plain).word, "missing-physics");
-  // A second name asks for dominance, however steady it is.
   Found second = search.found[0];
   second.id = "compliance";
-  second.gain = 10.0 * 1.5 * floor_squares;
+  second.gain = 12.0 * 1.5 * floor_squares;
   search.found.push_back(second);
-  EXPECT_EQ(verdict_of(search, steady).effects.size(), 1U);
-  search.misfit.predictable = 0.0;
-  search.misfit.structure = 0.0;
-  EXPECT_EQ(verdict_of(search, steady).effects.size(), 1U) << "more than near the noise stays";
+  EXPECT_EQ(verdict_of(search, plain).effects.size(), 1U) << "more than near the noise stays";
   search.misfit.squares = 1.4 * floor_squares;
-  EXPECT_EQ(verdict_of(search, steady).effects.size(), 2U);
+  EXPECT_EQ(verdict_of(search, plain).effects.size(), 2U);
+  search.misfit.squares = 2.5 * floor_squares;
+  search.misfit.predictable = search.misfit.structure = 0.0;
+  EXPECT_EQ(verdict_of(search, plain).effects.size(), 1U);
+  search.misfit.evenness = {0.01, 0.02};
+  EXPECT_EQ(verdict_of(search, plain).effects.size(), 2U) << "nothing but noise stays, whatever its size";
   search.found[1].id = "cubic-stiffness";
-  EXPECT_EQ(verdict_of(search, steady).effects.size(), 1U) << "kin of pinching";
+  EXPECT_EQ(verdict_of(search, plain).effects.size(), 1U) << "kin of pinching";
+}
+
+TEST(Verdict, WhatTheLawHasOfItsOwnIsNoName) {
+  Search search = search_of("linear-stiffness", 1.1 * floor_squares, 40.0 * floor_squares);
+  for (const auto& [law, word] : {std::pair{"bingham", "missing-physics"}, std::pair{"bouc-wen", "unattributed"}}) {
+    search.base.what.model = law;
+    EXPECT_EQ(verdict_of(search, plain).word, word) << law;
+  }
 }
 
 TEST(Verdict, AFormThatHoldsTheEffectAsItsLimitMustBeWorthItsParameters) {
