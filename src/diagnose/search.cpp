@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "diagnose/relatives.hpp"
 
@@ -89,6 +90,198 @@ std::vector<std::string> closest(const std::vector<std::vector<Tried>>& stages, 
   return result;
 }
 
+// A search as it goes.
+struct Course {
+  const Workbench& bench;
+  const Hypothesis& base;
+  const Fit& quick_base;
+  Fit current;
+  double effective = 0.0;                       // samples worth of independent information
+  double strongest = 0.0;                       // the largest gain of a stage
+  std::vector<std::vector<Tried>> stages = {};  // in the order tried
+  std::vector<Hypothesis> behind = {};          // what each was tried behind
+  std::vector<Fit> seen = {};                   // all fits so far
+  int swaps = 0;                                // of an effect for its rival
+};
+
+// Adds the best candidate while one is worth a place and more than noise is left.
+void grow(Course& course, const std::vector<std::string>& candidates, int most_effects,
+          const SearchProgress& progress) {
+  const auto count = static_cast<double>(candidates.size());
+  for (int depth = 0; depth < most_effects; ++depth) {
+    progress(0.1 + 0.6 * depth / most_effects, "trying " + std::to_string(candidates.size()) + " hypotheses behind " +
+                                                   std::to_string(course.current.what.effects.size()) + " effects");
+    std::vector<Tried> tried = stage(course.bench, course.current, candidates, course.effective);
+    // What a good model leaves tells the independent samples better than what a bad one does.
+    if (!tried.empty()) {
+      course.effective = std::max(course.effective, misfit_of(course.bench, tried.front().fit).effective);
+      for (Tried& one : tried) {
+        one = weighed(one.id, one.fit, course.current, course.effective);
+      }
+      std::ranges::stable_sort(tried, [](const Tried& a, const Tried& b) { return a.evidence > b.evidence; });
+    }
+    course.stages.push_back(tried);
+    course.behind.push_back(course.current.what);
+    const auto chosen =
+        std::ranges::find_if(tried, [&](const Tried& one) { return worth(one, course.current, count); });
+    if (chosen == tried.end()) {
+      return;
+    }
+    course.current = chosen->fit;
+    course.strongest = std::max(course.strongest, chosen->gain);
+    if (chosen->gain < negligible * course.strongest) {
+      return;  // what is left could not be named beside what was found
+    }
+    const Misfit left = misfit_of(course.bench, course.current);
+    if (!structured(left) && left.squares < (1.0 + unsure_of_noise) * left.floor) {
+      return;
+    }
+  }
+}
+
+// What the current model loses without one of its parts, the rest refitted.
+Found taken_out(const Course& course, const std::string& id) {
+  const Hypothesis less = without(course.current.what, id);
+  Found found;
+  found.id = id;
+  found.without = less == course.base ? course.quick_base : course.bench.from_fit(less, course.current, fitting_rounds);
+  if (found.without.cost > course.quick_base.cost) {
+    // The base is among what is left: the descent from the fuller model went astray.
+    found.without = course.bench.from_fit(less, course.quick_base, fitting_rounds);
+  }
+  // Descents go astray; what was reached before with the same parts is no less true.
+  for (const Fit& fit : course.seen) {
+    if (same_parts(fit.what, less) && fit.cost < found.without.cost) {
+      found.without = fit;
+    }
+  }
+  found.gain = squared(found.without.cost) - squared(course.current.cost);
+  found.evidence =
+      evidence(squared(found.without.cost), squared(course.current.cost),
+               static_cast<double>(course.current.dimension()) - static_cast<double>(found.without.dimension()),
+               course.effective);
+  return found;
+}
+
+// Everything that is set in the place of a part: what came closest, and its relatives among the candidates. A rival is
+// judged from the best start it can have: the damper's parameters without the effect, and with it.
+std::vector<Tried> rivals_of(const Course& course, const Found& found, const std::vector<std::string>& candidates) {
+  std::vector<std::string> others;
+  for (const std::string& other : closest(course.stages, rival_count)) {
+    if (other != found.id && !contains(course.current.what, other)) {
+      others.push_back(other);
+    }
+  }
+  for (const std::string& other : relatives(found.id)) {
+    if (std::ranges::find(candidates, other) != candidates.end() && std::ranges::find(others, other) == others.end() &&
+        !contains(course.current.what, other)) {
+      others.push_back(other);
+    }
+  }
+  std::vector<Tried> rivals = stage(course.bench, found.without, others, course.effective, &course.current);
+  if (without(course.current.what, found.id) == course.base && !course.stages.empty()) {
+    for (const Tried& tried : course.stages.front()) {
+      const auto again = std::ranges::find(rivals, tried.id, &Tried::id);
+      if (again == rivals.end()) {
+        rivals.push_back(tried);
+      } else if (tried.fit.cost < again->fit.cost) {
+        *again = tried;
+      }
+    }
+  }
+  std::erase_if(rivals, [&](const Tried& rival) { return rival.id == found.id; });
+  return rivals;
+}
+
+// Sets the part against its rivals. The fit with one in its place that does clearly better, if any.
+std::optional<Fit> contested(Course& course, Found& found, const std::vector<std::string>& candidates) {
+  std::optional<Fit> better;
+  for (const Tried& rival : rivals_of(course, found, candidates)) {
+    Rival row;
+    row.id = rival.id;
+    row.share = rival.gain / found.gain;
+    row.fit = rival.fit;
+    course.seen.push_back(rival.fit);
+    row.evidence = evidence(
+        squared(rival.fit.cost), squared(course.current.cost),
+        static_cast<double>(course.current.dimension()) - static_cast<double>(rival.fit.dimension()), course.effective);
+    // A wider form must be worth its further parameters.
+    const double asked = is_limit(rival.id, found.id) ? wider_evidence : -least_evidence_of_a_place;
+    if (row.evidence < asked && (!better || rival.fit.cost < better->cost)) {
+      better = rival.fit;
+    }
+    found.rivals.push_back(row);
+  }
+  std::ranges::stable_sort(found.rivals, [](const Rival& a, const Rival& b) { return a.share > b.share; });
+  return better;
+}
+
+// Drops what stopped helping, sets each part against its rivals, and takes a rival that does clearly better; again
+// until nothing changes.
+std::vector<Found> settled(Course& course, const std::vector<std::string>& candidates) {
+  for (const std::vector<Tried>& tried : course.stages) {
+    for (const Tried& one : tried) {
+      course.seen.push_back(one.fit);
+    }
+  }
+  std::vector<Found> result;
+  for (bool changed = true; changed;) {
+    changed = false;
+    result.clear();
+    std::vector<std::string> parts = course.current.what.effects;
+    for (const std::string& name : course.current.what.richer) {
+      parts.push_back("law:" + name);
+    }
+    for (const std::string& id : parts) {
+      Found found = taken_out(course, id);
+      if (found.evidence < least_evidence_of_a_place ||
+          found.gain < least_gain_of_a_place * squared(found.without.cost)) {
+        course.current = found.without;
+        changed = true;
+        break;
+      }
+      if (found.gain >= negligible * course.strongest) {
+        const std::optional<Fit> better = contested(course, found, candidates);
+        if (better && course.swaps < most_swaps) {
+          ++course.swaps;
+          course.current = *better;
+          changed = true;
+          break;
+        }
+      }
+      result.push_back(std::move(found));
+    }
+  }
+  return result;
+}
+
+// Evidence of the best further hypothesis behind the current model.
+double best_further(const Course& course, const std::vector<std::string>& candidates) {
+  const auto at = std::ranges::find_if(course.behind,
+                                       [&](const Hypothesis& what) { return same_parts(what, course.current.what); });
+  const std::vector<Tried> next = at == course.behind.end()
+                                      ? stage(course.bench, course.current, candidates, course.effective)
+                                      : course.stages[static_cast<std::size_t>(at - course.behind.begin())];
+  return next.empty() ? 0.0 : std::max(0.0, next.front().evidence);
+}
+
+// Richer laws that were found are no effects, but for a yield force that saturates.
+void name_laws(Search& result) {
+  std::erase_if(result.found, [&](Found& found) {
+    if (!is_law(found.id)) {
+      return false;
+    }
+    result.richer.push_back(found.id.substr(4));
+    if (!saturates(result.base, result.augmented, result.richer.back())) {
+      return true;
+    }
+    found.by_law = result.richer.back();
+    found.id = saturation;
+    std::erase_if(found.rivals, [](const Rival& rival) { return rival.id == saturation; });
+    return false;
+  });
+}
+
 }  // namespace
 
 Search search(const Workbench& bench, const Workbench& fine, const Hypothesis& base, const SearchOptions& options,
@@ -102,151 +295,17 @@ Search search(const Workbench& bench, const Workbench& fine, const Hypothesis& b
   std::vector<std::string> candidates = options.candidates;
   const std::vector<std::string> laws = law_candidates(bench, base);
   candidates.insert(candidates.end(), laws.begin(), laws.end());
-  const auto count = static_cast<double>(candidates.size());
 
-  Fit current = result.quick_base;
-  double effective = misfit_of(bench, current).effective;
-  std::vector<std::vector<Tried>> stages;
-  std::vector<Hypothesis> behind;  // what each stage was tried behind
-  double strongest = 0.0;
-  for (int depth = 0; depth < options.most_effects; ++depth) {
-    progress(0.1 + 0.6 * depth / options.most_effects, "trying " + std::to_string(candidates.size()) +
-                                                           " hypotheses behind " +
-                                                           std::to_string(current.what.effects.size()) + " effects");
-    std::vector<Tried> tried = stage(bench, current, candidates, effective);
-    // What a good model leaves tells the independent samples better than what a bad one does.
-    if (!tried.empty()) {
-      effective = std::max(effective, misfit_of(bench, tried.front().fit).effective);
-      for (Tried& one : tried) {
-        one = weighed(one.id, one.fit, current, effective);
-      }
-      std::ranges::stable_sort(tried, [](const Tried& a, const Tried& b) { return a.evidence > b.evidence; });
-    }
-    stages.push_back(tried);
-    behind.push_back(current.what);
-    const auto chosen = std::ranges::find_if(tried, [&](const Tried& one) { return worth(one, current, count); });
-    if (chosen == tried.end()) {
-      break;
-    }
-    current = chosen->fit;
-    // What is left could not be named beside what was found.
-    const Misfit left = misfit_of(bench, current);
-    strongest = std::max(strongest, chosen->gain);
-    if (chosen->gain < negligible * strongest) {
-      break;
-    }
-    if (!structured(left) && left.squares < (1.0 + unsure_of_noise) * left.floor) {
-      break;
-    }
-  }
-  result.first_stage = stages.empty() ? std::vector<Tried>{} : stages.front();
+  Course course{bench, base, result.quick_base, result.quick_base};
+  course.effective = misfit_of(bench, course.current).effective;
+  grow(course, candidates, options.most_effects, progress);
+  result.first_stage = course.stages.empty() ? std::vector<Tried>{} : course.stages.front();
 
-  // Drop what stopped helping; set each against its rivals, and take a rival that does clearly better.
   progress(0.7, "setting each effect against its rivals");
-  std::vector<Fit> seen;
-  for (const std::vector<Tried>& tried : stages) {
-    for (const Tried& one : tried) {
-      seen.push_back(one.fit);
-    }
-  }
-  int swaps = 0;
-  for (bool changed = true; changed;) {
-    changed = false;
-    result.found.clear();
-    std::vector<std::string> parts = current.what.effects;
-    for (const std::string& name : current.what.richer) {
-      parts.push_back("law:" + name);
-    }
-    for (const std::string& id : parts) {
-      const Hypothesis less = without(current.what, id);
-      Found found;
-      found.id = id;
-      found.without = less == base ? result.quick_base : bench.from_fit(less, current, fitting_rounds);
-      if (found.without.cost > result.quick_base.cost) {
-        // The base is among what is left: the descent from the fuller model went astray.
-        found.without = bench.from_fit(less, result.quick_base, fitting_rounds);
-      }
-      // Descents go astray; what was reached before with the same parts is no less true.
-      for (const Fit& fit : seen) {
-        if (same_parts(fit.what, less) && fit.cost < found.without.cost) {
-          found.without = fit;
-        }
-      }
-      found.gain = squared(found.without.cost) - squared(current.cost);
-      found.evidence = evidence(
-          squared(found.without.cost), squared(current.cost),
-          static_cast<double>(current.dimension()) - static_cast<double>(found.without.dimension()), effective);
-      if (found.evidence < least_evidence_of_a_place ||
-          found.gain < least_gain_of_a_place * squared(found.without.cost)) {
-        current = found.without;
-        changed = true;
-        break;
-      }
-      if (found.gain < negligible * strongest) {
-        result.found.push_back(std::move(found));
-        continue;
-      }
-      std::vector<std::string> others;
-      for (const std::string& other : closest(stages, rival_count)) {
-        if (other != id && !contains(current.what, other)) {
-          others.push_back(other);
-        }
-      }
-      for (const std::string& other : relatives(id)) {
-        if (std::ranges::find(options.candidates, other) != options.candidates.end() &&
-            std::ranges::find(others, other) == others.end() && !contains(current.what, other)) {
-          others.push_back(other);
-        }
-      }
-      // A rival is judged from the best start it can have: the damper's parameters without the effect, and with it.
-      std::vector<Tried> rivals = stage(bench, found.without, others, effective, &current);
-      if (less == base) {
-        for (const Tried& tried : result.first_stage) {
-          const auto again = std::ranges::find(rivals, tried.id, &Tried::id);
-          if (again == rivals.end()) {
-            rivals.push_back(tried);
-          } else if (tried.fit.cost < again->fit.cost) {
-            *again = tried;
-          }
-        }
-      }
-      const Tried* better = nullptr;
-      for (const Tried& rival : rivals) {
-        if (rival.id == id) {
-          continue;
-        }
-        Rival row;
-        row.id = rival.id;
-        row.share = rival.gain / found.gain;
-        row.fit = rival.fit;
-        seen.push_back(rival.fit);
-        row.evidence =
-            evidence(squared(rival.fit.cost), squared(current.cost),
-                     static_cast<double>(current.dimension()) - static_cast<double>(rival.fit.dimension()), effective);
-        // A wider form must be worth its further parameters.
-        const double asked = is_limit(rival.id, id) ? wider_evidence : -least_evidence_of_a_place;
-        if (row.evidence < asked && (better == nullptr || rival.fit.cost < better->fit.cost)) {
-          better = &rival;
-        }
-        found.rivals.push_back(row);
-      }
-      std::ranges::stable_sort(found.rivals, [](const Rival& a, const Rival& b) { return a.share > b.share; });
-      if (better != nullptr && swaps < most_swaps) {
-        ++swaps;
-        current = better->fit;
-        changed = true;
-        break;
-      }
-      result.found.push_back(std::move(found));
-    }
-  }
-
+  result.found = settled(course, options.candidates);
+  const Fit& current = course.current;
   if (!result.found.empty() && squared(result.quick_base.cost) < (1.0 + near_what_stays) * squared(current.cost)) {
-    const auto at =
-        std::ranges::find_if(behind, [&](const Hypothesis& what) { return same_parts(what, current.what); });
-    const std::vector<Tried> next = at == behind.end() ? stage(bench, current, candidates, effective)
-                                                       : stages[static_cast<std::size_t>(at - behind.begin())];
-    result.further = next.empty() ? 0.0 : std::max(0.0, next.front().evidence);
+    result.further = best_further(course, candidates);
   }
 
   if (!result.found.empty() || structured(result.base_misfit)) {
@@ -264,12 +323,13 @@ Search search(const Workbench& bench, const Workbench& fine, const Hypothesis& b
       result.tried = strong->id;
       std::vector<Fit> judges = result.other_laws;
       std::erase_if(judges, [&](const Fit& law) { return is_part_of(strong->id, law.what.model); });
-      result.trials = trials_of(bench, strong->id, current, strong->without, result.quick_base, judges, effective);
+      result.trials =
+          trials_of(bench, strong->id, current, strong->without, result.quick_base, judges, course.effective);
     }
   }
 
   progress(0.8, "fitting the augmented model to more samples");
-  result.effective = effective;
+  result.effective = course.effective;
   result.quick_augmented = current;
   result.augmented = current.what == base ? result.base : fine.polished(current, screening_rounds);
   result.misfit = misfit_of(fine, result.augmented);
@@ -277,27 +337,12 @@ Search search(const Workbench& bench, const Workbench& fine, const Hypothesis& b
     if (found.without.what == base) {
       found.without = result.base;
     }
-  }
-  for (Found& found : result.found) {
     found.share_of_misfit = std::clamp(
         found.gain / std::max(result.base_misfit.squares - result.misfit.squares + result.misfit.structure, 1e-300),
         0.0, 1.0);
   }
-  std::erase_if(result.found, [&](Found& found) {
-    if (!is_law(found.id)) {
-      return false;
-    }
-    result.richer.push_back(found.id.substr(4));
-    if (!saturates(result.base, result.augmented, result.richer.back())) {
-      return true;
-    }
-    found.by_law = result.richer.back();
-    found.id = saturation;
-    std::erase_if(found.rivals, [](const Rival& rival) { return rival.id == saturation; });
-    return false;
-  });
+  name_laws(result);
   std::ranges::stable_sort(result.found, [](const Found& a, const Found& b) { return a.gain > b.gain; });
-
   return result;
 }
 
