@@ -17,13 +17,11 @@ namespace {
 constexpr std::uint64_t seed = 5;
 
 // Six sines of one damper, two amplitudes at three frequencies.
-Campaign campaign_with(const std::vector<std::string>& effects, const std::map<std::string, double>& values,
-                       double noise) {
+Campaign campaign_of(const std::string& model, const std::vector<std::string>& effects,
+                     const std::map<std::string, double>& values, double noise) {
   LayoutOptions made;
-  made.fix = {{"alpha", 600.0}, {"c0", 1500.0}, {"k0", 2000.0}, {"f0", 20.0},
-              {"x_y", 8e-4},    {"share", 0.6}, {"n", 1.5}};
-  made.fix.insert(values.begin(), values.end());
-  const Layout layout(make_model("bouc-wen", effects), DataScale{}, made);
+  made.fix = values;
+  const Layout layout(make_model(model, effects), DataScale{}, made);
   Campaign campaign;
   int index = 0;
   for (const double frequency : {0.5, 1.3, 3.0}) {
@@ -38,6 +36,15 @@ Campaign campaign_with(const std::vector<std::string>& effects, const std::map<s
     }
   }
   return campaign;
+}
+
+// Of a Bouc-Wen damper.
+Campaign campaign_with(const std::vector<std::string>& effects, const std::map<std::string, double>& values,
+                       double noise) {
+  std::map<std::string, double> made = {{"alpha", 600.0}, {"c0", 1500.0}, {"k0", 2000.0}, {"f0", 20.0},
+                                        {"x_y", 8e-4},    {"share", 0.6}, {"n", 1.5}};
+  made.insert(values.begin(), values.end());
+  return campaign_of("bouc-wen", effects, made, noise);
 }
 
 std::unique_ptr<Diagnosis> diagnosis_of(const Campaign& campaign, const std::vector<std::string>& candidates) {
@@ -104,6 +111,34 @@ TEST(Diagnosis, NamesWhatIsMissingBehindALawThatTakesThePlaceOfTheOneAskedFor) {
   EXPECT_TRUE(std::ranges::any_of(diagnosis->notes, [](const std::string& note) {
     return note.find("takes the place of bingham") != std::string::npos;
   }));
+}
+
+// Algebraic hysteresis has a stiffness of its own, with which it does as well as Bingham and the effect.
+TEST(Diagnosis, NamesAStiffnessThatAnotherLawHasOfItsOwn) {
+  DiagnoseOptions options;
+  options.model = "bingham";
+  options.seed = seed;
+  options.candidates = few;
+  options.candidates.emplace_back("linear-stiffness");
+  const auto diagnosis =
+      diagnose(campaign_of("bingham", {"linear-stiffness"},
+                           {{"fc", 600.0}, {"c0", 1500.0}, {"f0", 20.0}, {"linear-stiffness.k", 4e4}}, 0.01),
+               options, [](double, const std::string&) {});
+  ASSERT_EQ(diagnosis->verdict.word, "missing-physics") << diagnosis->verdict.reason;
+  ASSERT_EQ(diagnosis->verdict.effects.size(), 1U);
+  EXPECT_EQ(diagnosis->verdict.effects[0].id, "linear-stiffness");
+  EXPECT_NEAR(diagnosis->parameters[0][0].value, 4e4, 2e3);
+  EXPECT_TRUE(std::ranges::any_of(diagnosis->findings.other_laws, &OtherLaw::has_found));
+}
+
+// The verdict rests on what diagnosis.json holds, and on nothing else.
+TEST(Diagnosis, TheVerdictFollowsFromTheRecord) {
+  const auto diagnosis = diagnosis_of(campaign_with({"inertia"}, {{"inertia.m", 8.0}}, 0.01), few);
+  const Verdict again = verdict_of(findings_from(diagnosis_json(*diagnosis).at("evidence")));
+  EXPECT_EQ(again.word, diagnosis->verdict.word);
+  ASSERT_EQ(again.effects.size(), 1U);
+  EXPECT_EQ(again.effects[0].id, "inertia");
+  EXPECT_EQ(again.effects[0].confidence, diagnosis->verdict.effects[0].confidence);
 }
 
 TEST(Diagnosis, DoesNotNameWhatIsNotAmongTheCandidates) {
