@@ -216,17 +216,11 @@ std::optional<Fit> contested(Course& course, Found& found, const std::vector<std
   return better;
 }
 
-// Drops what stopped helping, sets each part against its rivals, and takes a rival that does clearly better; again
-// until nothing changes.
-std::vector<Found> settled(Course& course, const std::vector<std::string>& candidates) {
-  for (const std::vector<Tried>& tried : course.stages) {
-    for (const Tried& one : tried) {
-      course.seen.push_back(one.fit);
-    }
-  }
+// Every part of the current model taken out in turn, until none is found that stopped helping; such a one is dropped.
+std::vector<Found> worth_their_place(Course& course) {
   std::vector<Found> result;
-  for (bool changed = true; changed;) {
-    changed = false;
+  for (bool dropped = true; dropped;) {
+    dropped = false;
     result.clear();
     std::vector<std::string> parts = course.current.what.effects;
     for (const std::string& name : course.current.what.richer) {
@@ -237,22 +231,42 @@ std::vector<Found> settled(Course& course, const std::vector<std::string>& candi
       if (found.evidence < least_evidence_of_a_place ||
           found.gain < least_gain_of_a_place * squared(found.without.cost)) {
         course.current = found.without;
-        changed = true;
+        dropped = true;
         break;
-      }
-      if (found.gain >= negligible * course.strongest) {
-        const std::optional<Fit> better = contested(course, found, candidates);
-        if (better && course.swaps < most_swaps) {
-          ++course.swaps;
-          course.current = *better;
-          changed = true;
-          break;
-        }
       }
       result.push_back(std::move(found));
     }
   }
   return result;
+}
+
+// Drops what stopped helping, sets each part against its rivals, and takes a rival that does clearly better; again
+// until nothing changes.
+std::vector<Found> settled(Course& course, const std::vector<std::string>& candidates) {
+  for (const std::vector<Tried>& tried : course.stages) {
+    for (const Tried& one : tried) {
+      course.seen.push_back(one.fit);
+    }
+  }
+  while (true) {
+    std::vector<Found> result = worth_their_place(course);
+    bool swapped = false;
+    for (Found& found : result) {
+      if (found.gain < negligible * course.strongest) {
+        continue;
+      }
+      const std::optional<Fit> better = contested(course, found, candidates);
+      if (better && course.swaps < most_swaps) {
+        ++course.swaps;
+        course.current = *better;
+        swapped = true;
+        break;
+      }
+    }
+    if (!swapped) {
+      return result;
+    }
+  }
 }
 
 // Evidence of the best further hypothesis behind the current model.
