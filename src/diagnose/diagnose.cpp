@@ -298,13 +298,13 @@ bool swap_law(Diagnosis& diagnosis, const Workbench& quick, const Workbench& fin
 }
 
 // Where no name is given, what else improves the prediction of the judging recordings joins the augmented model.
-void extend(Diagnosis& diagnosis, const Workbench& quick, const Workbench& fine, const SearchOptions& searching) {
+void extend(Diagnosis& diagnosis, const Workbench& quick, const Workbench& fine) {
   Search& found = diagnosis.search;
   if (diagnosis.verdict.word != "unattributed" || !diagnosis.verdict.better_law.empty() ||
       found.misfit.squares < far_from_noise * found.misfit.floor || !diagnosis.surprises.empty()) {
     return;
   }
-  const Fit more = extended(quick, found.quick_augmented, searching.candidates, found.effective, most_added);
+  const Fit more = extended(quick, found.quick_augmented, found.promising, found.effective, most_added);
   if (more.what == found.quick_augmented.what) {
     return;
   }
@@ -370,7 +370,7 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const Split& split
         "effects that improved the fit made the prediction of the held-out recordings worse and were dropped");
   }
   progress(0.85, "looking for what else improves the prediction");
-  extend(diagnosis, quick, fine, searching);
+  extend(diagnosis, quick, fine);
   estimate_noise_floor(diagnosis, options.objective.normalisation);
 
   progress(0.95, "locating the misfit");

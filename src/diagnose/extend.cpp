@@ -14,8 +14,7 @@ constexpr double plain_heldout_gain = 0.01;
 
 }  // namespace
 
-Fit extended(const Workbench& bench, const Fit& fit, const std::vector<std::string>& effects, double effective,
-             int most) {
+Fit extended(const Workbench& bench, const Fit& fit, std::vector<std::string> effects, double effective, int most) {
   Fit current = fit;
   for (int depth = 0; depth < most; ++depth) {
     std::vector<std::string> candidates = effects;
@@ -31,6 +30,7 @@ Fit extended(const Workbench& bench, const Fit& fit, const std::vector<std::stri
     if (chosen == tried.end()) {
       break;
     }
+    effects = promising(tried);
     current = chosen->fit;
   }
   return current;

@@ -313,7 +313,10 @@ Search search(const Workbench& bench, const Workbench& fine, const Hypothesis& b
   Course course{bench, base, result.quick_base, result.quick_base};
   course.effective = misfit_of(bench, course.current).effective;
   grow(course, candidates, options.most_effects, progress);
-  result.first_stage = course.stages.empty() ? std::vector<Tried>{} : course.stages.front();
+  if (!course.stages.empty()) {
+    result.first_stage = course.stages.front();
+    result.promising = promising(course.stages.back());
+  }
 
   progress(0.7, "setting each effect against its rivals");
   result.found = settled(course, options.candidates);

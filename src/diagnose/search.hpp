@@ -43,9 +43,10 @@ struct Search {
   double effective = 0.0;  // samples worth of independent information there
   // Evidence of the best further hypothesis behind the augmented model; none where that was not looked at.
   std::optional<double> further;
-  std::vector<Tried> first_stage;  // every single hypothesis against the base, best first
-  std::vector<Fit> other_laws;     // other base laws without effects
-  std::string tried;               // the strongest effect, which was put to these trials
+  std::vector<Tried> first_stage;      // every single hypothesis against the base, best first
+  std::vector<std::string> promising;  // the best effects of the last stage
+  std::vector<Fit> other_laws;         // other base laws without effects
+  std::string tried;                   // the strongest effect, which was put to these trials
   std::vector<Trial> trials;
 };
 

@@ -14,6 +14,8 @@ namespace {
 constexpr std::size_t survivors = 5;
 // The highest order of a law in the drive where it varies within recordings.
 constexpr int most_order = 3;
+// Effects that promise to take more off behind others: so many of the best.
+constexpr std::size_t promising_count = 8;
 constexpr std::string_view law_prefix = "law:";
 
 bool is_series(const std::string& id) {
@@ -155,6 +157,16 @@ std::vector<Tried> stage(const Workbench& bench, const Fit& before, const std::v
     result.push_back(weighed(ids[order[k]], k < count ? best[k] : fits[order[k]], before, effective));
   }
   std::ranges::stable_sort(result, [](const Tried& a, const Tried& b) { return a.evidence > b.evidence; });
+  return result;
+}
+
+std::vector<std::string> promising(const std::vector<Tried>& tried) {
+  std::vector<std::string> result;
+  for (const Tried& one : tried) {
+    if (!is_law(one.id) && result.size() < promising_count) {
+      result.push_back(one.id);
+    }
+  }
   return result;
 }
 

@@ -48,6 +48,9 @@ Tried weighed(const std::string& id, const Fit& fit, const Fit& before, double e
 std::vector<Tried> stage(const Workbench& bench, const Fit& before, const std::vector<std::string>& candidates,
                          double effective, const Fit* also = nullptr);
 
+// The best effects among what was tried, best first: those worth trying again behind more.
+std::vector<std::string> promising(const std::vector<Tried>& tried);
+
 // Whether it is worth a place, being the best of so many candidates. Judging recordings that do not excite the effect
 // may get a little worse.
 bool worth(const Tried& tried, const Fit& before, double candidates);
