@@ -14,6 +14,8 @@ namespace {
 // A fitted lag of the velocity channel and the one between the channels agree within this share, or within the interval
 // of the one or the other.
 constexpr double channel_agreement = 0.25;
+// What was found with less than this part of the strongest effect's gain could not be named beside it.
+constexpr double negligible_gain = 0.05;
 
 // Whether the lag of the velocity channel that a fit found is the one that the channels show.
 bool as_channels_show(const Fit& fit, const Circumstances& known) {
@@ -175,7 +177,8 @@ Findings findings_of(const Search& search, const Circumstances& known) {
   result.further = search.further;
   for (const Fit& law : search.other_laws) {
     const bool has_found = !search.found.empty() && std::ranges::all_of(search.found, [&](const Found& found) {
-      return is_part_of(found.id, law.what.model) && !is_part_of(found.id, result.model);
+      return found.gain < negligible_gain * search.found.front().gain ||
+             (is_part_of(found.id, law.what.model) && !is_part_of(found.id, result.model));
     });
     result.other_laws.push_back({law.what.model, squared(law.cost), has_found});
   }

@@ -62,8 +62,9 @@ struct Finding {
 // Another damper law without effects.
 struct OtherLaw {
   std::string model;
-  double squares = 0.0;    // of NRMSE, as the comparison saw it
-  bool has_found = false;  // all that was found are parameters of its own, which the law asked for lacks
+  double squares = 0.0;  // of NRMSE, as the comparison saw it
+  bool has_found =
+      false;  // what was found, traces aside, it has as parameters of its own, which the law asked for lacks
 };
 
 struct Findings {

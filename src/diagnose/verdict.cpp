@@ -165,7 +165,7 @@ Contest contest_for(const Finding& found, const Findings& findings, const Standa
     }
     if (!close) {
       best_share = std::max(best_share, rival.share);
-    } else if (is_limit(rival.id, found.id) && rival.evidence < telling_evidence / standard.honest && !rival.apart) {
+    } else if (is_limit(rival.id, found.id) && rival.evidence < ahead && !rival.apart) {
       result.instead = k;
     } else if (rival.id == channel_lag && is_kin(channel_lag, found.id)) {
       // The channels tell a lag of one of them from a delay of the force.

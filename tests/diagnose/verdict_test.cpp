@@ -261,6 +261,8 @@ TEST(Verdict, AFormThatHoldsTheEffectAsItsLimitMustBeWorthItsParameters) {
   search = search_of("gas-spring", 1.1 * floor_squares, 50.0 * floor_squares);
   search.found[0].rivals = {rival("offset-force", 1.0, 30.0)};
   EXPECT_EQ(verdict_of(search, curved).word, "ambiguous");
+  EXPECT_EQ(verdict_of(search, straight).word, "ambiguous") << "the evidence and the interval disagree";
+  search.found[0].rivals = {rival("offset-force", 1.0, 8.0)};
   const Verdict verdict = verdict_of(search, straight);
   ASSERT_EQ(verdict.word, "missing-physics");
   EXPECT_EQ(verdict.effects[0].id, "offset-force");
@@ -307,7 +309,7 @@ TEST(Verdict, TheChannelsTellALagOfTheVelocityFromADelayOfTheForce) {
 
 TEST(Verdict, IsTheSameFromItsWrittenEvidence) {
   Search search = search_of("gas-spring", 1.1 * floor_squares, 50.0 * floor_squares);
-  search.found[0].rivals = {rival("offset-force", 1.0, 30.0), rival("linear-stiffness", 0.3, 3000.0)};
+  search.found[0].rivals = {rival("offset-force", 1.0, 8.0), rival("linear-stiffness", 0.3, 3000.0)};
   search.further = 4.0;
   search.misfit.evenness = {0.01, 0.02};
   search.tried = "gas-spring";
