@@ -151,6 +151,8 @@ Identification identify(const Campaign& campaign, const std::string& model, cons
   Identification result{layout, {}, {}, {}, 0, 0.0, {}, fitted, heldout, roles, {}};
 
   const Objective objective(layout, pick(campaign.recordings, fitted), options.objective);
+  ObjectiveOptions calm = options.objective;  // of what is evaluated whether it was interrupted or not
+  calm.stopped = {};
   std::vector<double> best;
   for (const SolverEntry* entry : entries) {
     const std::string stage = heldout.empty() || roles ? "fit" : "fit without the held-out recordings";
@@ -160,11 +162,14 @@ Identification identify(const Campaign& campaign, const std::string& model, cons
         [&](const RunResult& partial) {
           return !progress || progress(std::string(entry->id) + ": " + stage, partial);
         });
-    if (run.best.empty() && run.stopped == "interrupted" && !result.solvers.empty()) {
-      break;
-    }
     if (run.best.empty() && run.stopped == "interrupted") {
-      throw WorkError("interrupted before a candidate was evaluated: nothing was identified");
+      if (!result.solvers.empty()) {
+        break;
+      }
+      // Where every search starts: something to keep.
+      run.best = layout.initial();
+      run.evaluations = 1;
+      run.cost = Objective(layout, pick(campaign.recordings, fitted), calm).evaluate({run.best, false}).cost[0];
     }
     if (run.best.empty() || run.cost >= diverged_cost) {
       throw WorkError("solver " + run.solver + " found no candidate whose simulation stays finite in " +
@@ -202,8 +207,6 @@ Identification identify(const Campaign& campaign, const std::string& model, cons
           return !progress || progress(std::string(entry->id) + ": " + final_stage(refit), partial);
         });
     // Interrupted before it came as far, the fit is what it started from.
-    ObjectiveOptions calm = options.objective;
-    calm.stopped = {};
     const double before =
         refit ? Objective(layout, pick(campaign.recordings, all), calm).evaluate({best, false}).cost[0] : result.cost;
     result.cost = std::min(before, run.cost);

@@ -227,7 +227,7 @@ TEST(Identify, StopsWhenTheObserverSaysSoAndKeepsTheBest) {
 
 // Within an evaluation, which a stiff candidate can make longer than anybody waits.
 TEST(Identify, StopsWithinAnEvaluationAndKeepsTheBest) {
-  for (const int asked_until : {40, 300, 3000}) {
+  for (const int asked_until : {0, 3, 300, 3000}) {
     IdentifyOptions options;
     options.solvers = {"pso"};
     options.budget = 1000000;
@@ -236,15 +236,12 @@ TEST(Identify, StopsWithinAnEvaluationAndKeepsTheBest) {
     options.objective.stopped = [&] { return ++asked > asked_until; };
     const Identification result = identify(viscous_campaign(10.0), "viscous", options, {});
     EXPECT_EQ(result.solvers.at(0).run.stopped, "interrupted");
-    EXPECT_LT(result.cost, 1.0);
+    EXPECT_LT(result.cost, asked_until > 100 ? 1.0 : 10.0);
     EXPECT_FALSE(result.estimates.empty());
     EXPECT_FALSE(result.estimates.front().std_error);
     EXPECT_TRUE(result.estimates.front().identifiable) << "nothing was looked at";
     EXPECT_FALSE(result.warnings.empty());
   }
-  IdentifyOptions options;
-  options.objective.stopped = [] { return true; };
-  EXPECT_THROW(identify(viscous_campaign(10.0), "viscous", options, {}), WorkError);
 }
 
 TEST(Identify, AFinalFitThatIsInterruptedIsNoWorseThanWhatItStartedFrom) {
@@ -256,8 +253,8 @@ TEST(Identify, AFinalFitThatIsInterruptedIsNoWorseThanWhatItStartedFrom) {
   options.budget = 600;
   for (const int calls_allowed : {0, 1}) {
     int calls = 0;
-    const Identification result =
-        identify(campaign_of(recordings), "modified-bouc-wen", options, [&](const std::string& stage, const RunResult&) {
+    const Identification result = identify(
+        campaign_of(recordings), "modified-bouc-wen", options, [&](const std::string& stage, const RunResult&) {
           return stage.find("final fit") == std::string::npos || calls++ < calls_allowed;
         });
     ASSERT_TRUE(result.final_run);
