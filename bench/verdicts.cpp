@@ -9,6 +9,8 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -42,9 +44,7 @@ std::string listed(const json& names) {
   return text.empty() ? "-" : text;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
   CLI::App program("verdicts of a challenge once more, from the evidence of its diagnoses");
   std::vector<std::string> folders;
   bool list = false;
@@ -89,4 +89,15 @@ int main(int argc, char** argv) {
   }
   fmt::print("{} outcomes differ from those held\n", changed);
   return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const std::exception& problem) {
+    std::fprintf(stderr, "error: %s\n", problem.what());
+    return 1;
+  }
 }
