@@ -12,19 +12,19 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <string>
 #include <vector>
 
 #include "challenge/score.hpp"
+#include "challenge/seal.hpp"
+#include "diagnose/evidence.hpp"
 #include "diagnose/verdict.hpp"
+#include "io/file.hpp"
 
 namespace {
 
 using nlohmann::json;
-
-json read(const std::filesystem::path& path) { return json::parse(std::ifstream(path)); }
 
 // What the score asks of a diagnosis.
 json diagnosis_with(const hysteron::Verdict& verdict) {
@@ -54,16 +54,20 @@ int run(int argc, char** argv) {
 
   std::map<std::string, std::map<std::string, int>> counts;
   int changed = 0;
+  int total = 0;
+  int left_out = 0;  // not diagnosed, or by a program that did not record what its verdict rests on
   for (const std::filesystem::path folder : folders) {
-    const json answers = read(folder / "answers.sealed");
+    const json answers = hysteron::challenge::open_seal(folder);
     for (const json& answer : answers.at("campaigns")) {
       const std::string name = answer.at("campaign");
       const std::filesystem::path path = folder / "diagnoses" / name / "diagnosis.json";
       if (!std::filesystem::exists(path)) {
+        ++left_out;
         continue;
       }
-      const json diagnosis = read(path);
+      const json diagnosis = json::parse(hysteron::read_file(path));
       if (!diagnosis.contains("evidence") || !diagnosis.at("evidence").contains("doubt_of_data")) {
+        ++left_out;
         continue;
       }
       const hysteron::Verdict verdict = hysteron::verdict_of(hysteron::findings_from(diagnosis.at("evidence")));
@@ -72,6 +76,7 @@ int run(int argc, char** argv) {
       const std::string held = hysteron::challenge::score_campaign(answer, diagnosis).at("outcome");
       const std::string level = answer.at("level");
       ++counts[level][outcome];
+      ++total;
       changed += outcome == held ? 0 : 1;
       if (list && (outcome != "right" || outcome != held)) {
         fmt::print("{} {} {:<10} truth: {:<40} {:<15} {:<10}{} names: {} candidates: {}\n", folder.filename().string(),
@@ -87,7 +92,8 @@ int run(int argc, char** argv) {
     }
     fmt::print("\n");
   }
-  fmt::print("{} outcomes differ from those held\n", changed);
+  fmt::print("{} campaigns, {} of another outcome than with the verdict they hold; {} left out, without evidence\n",
+             total, changed, left_out);
   return 0;
 }
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <functional>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -63,8 +62,8 @@ struct Finding {
 struct OtherLaw {
   std::string model;
   double squares = 0.0;  // of NRMSE, as the comparison saw it
-  bool has_found =
-      false;  // what was found, traces aside, it has as parameters of its own, which the law asked for lacks
+  // What was found, traces aside, are parameters of its own, which the law asked for lacks.
+  bool has_found = false;
 };
 
 struct Findings {
@@ -87,9 +86,5 @@ struct Findings {
 
 // The doubts are left empty.
 Findings findings_of(const Search& search, const Circumstances& known);
-
-nlohmann::json findings_json(const Findings& findings);
-// The inverse. Throws nlohmann::json::exception where something is missing.
-Findings findings_from(const nlohmann::json& json);
 
 }  // namespace hysteron

@@ -1,5 +1,7 @@
 #include "diagnose/record.hpp"
 
+#include "diagnose/evidence.hpp"
+
 namespace hysteron {
 
 using nlohmann::json;

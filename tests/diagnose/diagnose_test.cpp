@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "diagnose/evidence.hpp"
 #include "diagnose/record.hpp"
 #include "diagnose/relatives.hpp"
 #include "diagnose/thin.hpp"

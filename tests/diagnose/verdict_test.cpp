@@ -5,6 +5,8 @@
 #include <cmath>
 #include <tuple>
 
+#include "diagnose/evidence.hpp"
+
 namespace hysteron {
 namespace {
 
