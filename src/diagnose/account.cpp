@@ -48,6 +48,7 @@ std::string next_experiment(const std::vector<std::string>& candidates) {
       {"seal-friction", "a slow triangle without current at several speeds below 20 mm/s"},
       {"coulomb-friction", "a slow triangle without current at several speeds below 20 mm/s"},
       {"gas-spring", "a slow full stroke around two mid-positions"},
+      {"linear-stiffness", "a slow full stroke around two mid-positions"},
       {"asymmetry",
        "the same sine around two mid-positions: asymmetry follows the velocity, a gas spring the position"},
       {"cavitation", "the same run at two gas pressures and at rising speed"},

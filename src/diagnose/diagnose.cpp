@@ -228,7 +228,7 @@ std::string doubt_of_velocity(const std::vector<Recording>& recordings) {
   return {};
 }
 
-// What speaks for and against names after a search on `quick` and `fine`.
+// What speaks for and against names after a search.
 struct Judgement {
   std::vector<std::string> surprising;
   Findings findings;
