@@ -7,8 +7,8 @@
 // kappa > 0 limits the negative force, kappa < 0 the positive one; kappa = 0 is no cavitation. While the force is
 // limited a damper of yield force f_y and viscous damping follows the rod at the speed that leaves w = 1 - f_y |kappa|
 // of the limit to the viscous part: v w / (w + r - 1); w = 1 is a viscous damper, w = 0 one of dry friction, which
-// stands still. The law below sees the recorded motion; over s_r the force builds up again. Source: no accepted form is
-// known.
+// stands still, and w > 1 one whose void is smaller than the rod leaves it, as gas comes out of solution. The law below
+// sees the recorded motion; over s_r the force builds up again. Source: no accepted form is known.
 #include "simulate/compile.hpp"
 
 namespace hysteron {
@@ -35,8 +35,8 @@ struct Cavitation {
        0.0,
        Scale::linear,
        {-1, 0, 0}},
-      {"w", "w", "1", "viscous part of the limiting force, the rest being the yield force", 1.0e-2, 1.0, 1.0e-1,
-       Scale::logarithmic},
+      {"w", "w", "1", "viscous part of the limiting force; above 1 the void is smaller than the rod leaves it", 1.0e-2,
+       1.0e2, 1.0e-1, Scale::logarithmic},
       {"q", "q", "1/s", "rate at which fluid flows into the void", 0.0, 1.0e2, 0.0, Scale::linear, {0, -1, 1}},
       {"s_r", "s_r", "m", "length over which the dwell ends", 2.0e-5, 2.0e-3, 2.0e-4, Scale::logarithmic, {0, 1, 0}},
   };

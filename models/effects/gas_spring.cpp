@@ -2,8 +2,8 @@
 //   F <- F + f_g (1 - g x)^(-kappa),   f_g = p0 A, g = A / V0
 // p0 and V0 are pressure and gas volume at x = 0. Stiffness at x = 0: kappa f_g g. Both f_g and g are negative where
 // positive displacement extends the damper. kappa is 1 for slow, 1.4 for fast strokes, more under high pressure; small
-// strokes tell only its product with g. 1 - g x is kept above 0.05.
-// Source: polytropic gas law.
+// strokes tell only its product with g. 1 - g x is kept above 0.05, which the box of g reaches at the end of the
+// stroke. Source: polytropic gas law.
 #include "simulate/compile.hpp"
 
 namespace hysteron {
@@ -21,8 +21,8 @@ struct GasSpring {
        "A/V0",
        "1/m",
        "swept fraction of the gas volume per length",
-       -2.0e1,
-       2.0e1,
+       -3.8e1,
+       3.8e1,
        4.0,
        Scale::linear,
        {0, -1, 0}},

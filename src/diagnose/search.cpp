@@ -250,9 +250,13 @@ std::vector<Found> settled(Course& course, const std::vector<std::string>& candi
   }
   while (true) {
     std::vector<Found> result = worth_their_place(course);
+    double strongest = 0.0;
+    for (const Found& found : result) {
+      strongest = std::max(strongest, found.gain);
+    }
     bool swapped = false;
     for (Found& found : result) {
-      if (found.gain < negligible * course.strongest) {
+      if (found.gain < negligible * strongest) {
         continue;
       }
       const std::optional<Fit> better = contested(course, found, candidates);

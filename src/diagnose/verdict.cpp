@@ -12,6 +12,10 @@ namespace {
 constexpr double least_gain_over_excess = 2.5;
 // ... this many times, where what stays tells that more is missing, which may be the cause of all ...
 constexpr double dominant = 10.0;
+// ... fewer where another damper law, fitted in place of the one asked for, needs the effect for at least this part of
+// the gain: then it does not make up for what the one law lacks.
+constexpr double dominant_behind_both = 4.0;
+constexpr double needed_share = 0.5;
 // ... and this part of all that stays: quantisation and rig leave traces of that size.
 constexpr double least_gain_over_noise = 0.05;
 // What stays tells that where the motion predicts this share of it, or where more than so many effects are needed:
@@ -111,6 +115,12 @@ bool is_told(const Finding& found, const Findings& findings, const Standard& sta
          *findings.further < most_further_part * found.evidence;
 }
 
+// Whether another damper law needs the effect as much.
+bool needed_behind_another_law(const Finding& found, const Findings& findings) {
+  return found.id == findings.tried && std::ranges::any_of(findings.trials, is_of_another_law) &&
+         std::ranges::all_of(findings.trials, [](const Trial& trial) { return trial.share > needed_share; });
+}
+
 // Whether the effect, found beside those named already, is more than a trace and more than the shape of another.
 bool deserves_a_name(const Finding& found, const Findings& findings, const Standard& standard,
                      const std::vector<Named>& named) {
@@ -133,8 +143,10 @@ bool deserves_a_name(const Finding& found, const Findings& findings, const Stand
   if (!confirmed(found, findings.augmented, told ? sure : 1e300)) {
     return false;
   }
-  return told ||
-         found.gain > std::max(standard.dominance * standard.excess, least_gain_over_noise * findings.misfit.squares);
+  const double dominance = needed_behind_another_law(found, findings)
+                               ? std::min(standard.dominance, dominant_behind_both)
+                               : standard.dominance;
+  return told || found.gain > std::max(dominance * standard.excess, least_gain_over_noise * findings.misfit.squares);
 }
 
 // How the contenders for an effect's place fare.

@@ -10,6 +10,7 @@ namespace {
 constexpr int rounds = 10;
 constexpr double comparable = 2.0;
 constexpr const char* skew = "sensor-delay";
+constexpr std::string_view behind = "behind ";
 
 Trial trial(const std::string& under, const Fit& with, const Fit& without, double gain, double effective) {
   return {under, (squared(without.cost) - squared(with.cost)) / gain,
@@ -19,6 +20,8 @@ Trial trial(const std::string& under, const Fit& with, const Fit& without, doubl
 
 }  // namespace
 
+bool is_of_another_law(const Trial& trial) { return trial.under.starts_with(behind); }
+
 std::vector<Trial> trials_of(const Workbench& bench, const std::string& effect, const Fit& augmented,
                              const Fit& without, const Fit& base, const std::vector<Fit>& other_laws,
                              double effective) {
@@ -27,7 +30,7 @@ std::vector<Trial> trials_of(const Workbench& bench, const std::string& effect, 
   const auto other = std::ranges::min_element(other_laws, {}, &Fit::cost);
   if (other != other_laws.end() && squared(other->cost) < comparable * squared(base.cost)) {
     const Fit with = bench.from_fit({other->what.model, {effect}, {}}, *other, rounds);
-    result.push_back(trial("behind " + other->what.model, with, *other, gain, effective));
+    result.push_back(trial(std::string(behind) + other->what.model, with, *other, gain, effective));
   }
   const auto holds_skew = [](const Fit& fit) {
     return std::ranges::find(fit.what.effects, skew) != fit.what.effects.end();

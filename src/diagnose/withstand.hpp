@@ -15,6 +15,9 @@ struct Trial {
   double evidence = 0.0;  // for the effect there
 };
 
+// Behind another damper law than the one asked for.
+bool is_of_another_law(const Trial& trial);
+
 // `augmented` holds the effect, `without` is the same less it, both refitted on `bench`; `other_laws` are of other
 // damper laws without effects. A law that leaves more than twice what `base` leaves says nothing. `effective` as in
 // evidence().

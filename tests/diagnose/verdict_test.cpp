@@ -243,6 +243,20 @@ TEST(Verdict, BesideWhatTheMotionPredictsOnlyADominantEffectIsNamed) {
   EXPECT_EQ(verdict_of(search, plain).effects.size(), 1U) << "kin of pinching";
 }
 
+TEST(Verdict, WhatAnotherLawNeedsTooDoesNotMakeUpForTheLawAskedFor) {
+  // What stays follows the motion: five times as much is no answer, unless the effect is no shape of the law's lack.
+  for (const auto& [under, share, gain, word] :
+       {std::tuple{"behind lugre", 0.9, 5.0, "missing-physics"}, std::tuple{"behind lugre", 0.9, 3.0, "unattributed"},
+        std::tuple{"behind lugre", 0.4, 5.0, "unattributed"}, std::tuple{"with a skew", 0.9, 5.0, "unattributed"}}) {
+    Search search = search_of("cavitation", 2.5 * floor_squares, gain * 1.5 * floor_squares, true);
+    search.tried = "cavitation";
+    search.trials = {{under, share, 500.0}};
+    EXPECT_EQ(verdict_of(search, plain).word, word) << under << " " << share << " " << gain;
+    search.tried = "inertia";
+    EXPECT_EQ(verdict_of(search, plain).word, "unattributed") << "another effect stood the trial";
+  }
+}
+
 TEST(Verdict, WhatTheLawHasOfItsOwnIsNoName) {
   Search search = search_of("linear-stiffness", 1.1 * floor_squares, 40.0 * floor_squares);
   for (const auto& [law, word] : {std::pair{"bingham", "missing-physics"}, std::pair{"bouc-wen", "unattributed"}}) {
