@@ -1,6 +1,8 @@
 // The sign of the sliding velocity as dry friction follows it: the contact bends over a length x_b before it slides,
 // from less than can be seen to tenths of a millimetre of a soft seal.
 //   z' = (v - |v| z) / (x_b + |v| t_b)
+// On a film of lubricant the friction is less than full below a speed v_t: z tanh(|v| / v_t). Where x_b is small this
+// is the smooth sign tanh(v / v_t) that stands for dry friction in many simulations.
 #pragma once
 
 #include "simulate/part.hpp"
@@ -11,12 +13,23 @@ namespace hysteron {
 inline constexpr double bristle_time = 5e-4;  // s
 
 inline constexpr Parameter bristle_length = {
-    "x_b", "x_b", "m", "length over which the contact bends", 1.0e-6, 2.0e-4, 2.0e-5, Scale::logarithmic, {0, 1, 0}};
+    "x_b", "x_b", "m", "length over which the contact bends", 1.0e-7, 2.0e-4, 2.0e-5, Scale::logarithmic, {0, 1, 0}};
+
+// At its lower end the film changes nothing.
+inline constexpr Parameter film_speed = {"v_t",    "v_t",  "m/s",  "speed below which the friction is less than full",
+                                         1.0e-5,   2.0e-2, 1.0e-4, Scale::logarithmic,
+                                         {0, 0, 1}};
 
 template <class T>
 T bristle_rate(const T& length, const T& v, const T& z) {
   const T speed = abs(v);
   return (v - speed * z) / (length + T(bristle_time) * speed);
+}
+
+// Part of the friction that a film leaves.
+template <class T>
+T on_film(const T& film, const T& v) {
+  return tanh(abs(v) / film);
 }
 
 // Bound of |dz'/dz| for speeds (m/s) up to `speed`.

@@ -1,8 +1,8 @@
 // Dry friction of constant size in parallel.
-//   F <- F + fc z,   z' = (v - |v| z) / (x_b + |v| t_b),   t_b = 0.5 ms
+//   F <- F + fc z tanh(|v| / v_t),   z' = (v - |v| z) / (x_b + |v| t_b),   t_b = 0.5 ms
 // z stands for sgn(v): the contact bends over x_b before it slides, as contacts do, and a noisy velocity about rest
-// does not make the force jump. At speed the turn takes t_b. Source: Dahl, Aerospace Corp. report TOR-0158(3107-18)-1,
-// 1968.
+// does not make the force jump. At speed the turn takes t_b. A film of lubricant carries a part of it below v_t.
+// Source: Dahl, Aerospace Corp. report TOR-0158(3107-18)-1, 1968.
 #include "models/bristle.hpp"
 #include "simulate/compile.hpp"
 
@@ -13,25 +13,27 @@ struct CoulombFriction {
   static constexpr std::string_view id = "coulomb-friction";
   static constexpr std::string_view title = "Coulomb friction";
   static constexpr std::string_view reference = "standard dry friction";
-  static constexpr std::string_view equations[] = {"F <- F + fc z", "z' = (v - |v| z) / (x_b + |v| t_b)"};
+  static constexpr std::string_view equations[] = {"F <- F + fc z tanh(|v| / v_t)",
+                                                   "z' = (v - |v| z) / (x_b + |v| t_b)"};
   static constexpr int states = 1;
   static constexpr Parameter parameters[] = {
       {"fc", "f_c", "N", "friction force", 0.0, 1.0e3, 0.0, Scale::linear, {1, 0, 0}, true},
       bristle_length,
+      film_speed,
   };
 
   template <class T>
-  static std::array<T, 1> rate(const std::array<T, 2>& p, const std::array<T, 1>& s, const Input<T>& in) {
+  static std::array<T, 1> rate(const std::array<T, 3>& p, const std::array<T, 1>& s, const Input<T>& in) {
     return {bristle_rate(p[1], in.v, s[0])};
   }
   static constexpr int settles = 0;
   template <class T>
-  static T stiffness(const std::array<T, 2>& p, double speed) {
+  static T stiffness(const std::array<T, 3>& p, double speed) {
     return bristle_stiffness(p[1], speed);
   }
   template <class T>
-  static T force(const std::array<T, 2>& p, const std::array<T, 1>& s, const Input<T>& /*in*/, const T& below) {
-    return below + p[0] * s[0];
+  static T force(const std::array<T, 3>& p, const std::array<T, 1>& s, const Input<T>& in, const T& below) {
+    return below + p[0] * s[0] * on_film(p[2], in.v);
   }
 };
 

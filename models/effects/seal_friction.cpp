@@ -1,7 +1,8 @@
 // Friction of seal and bearing: Coulomb friction with a Stribeck hump at low speed.
-//   F <- F + (fc + fb exp(-(v / v_st)^2)) z,   z' = (v - |v| z) / (x_b + |v| t_b)
-// z stands for sgn(v), as in coulomb-friction. fb is the excess of the static over the Coulomb friction.
-// Source: Armstrong-Helouvry, Dupont, Canudas de Wit, Automatica 30 (1994) 1083-1138, doi 10.1016/0005-1098(94)90209-7.
+//   F <- F + (fc + fb exp(-(v / v_st)^2)) z tanh(|v| / v_t),   z' = (v - |v| z) / (x_b + |v| t_b)
+// z stands for sgn(v), v_t for a film, as in coulomb-friction. fb is the excess of the static over the Coulomb
+// friction. Source: Armstrong-Helouvry, Dupont, Canudas de Wit, Automatica 30 (1994) 1083-1138,
+// doi 10.1016/0005-1098(94)90209-7.
 #include "models/bristle.hpp"
 #include "simulate/compile.hpp"
 
@@ -13,7 +14,7 @@ struct SealFriction {
   static constexpr std::string_view title = "Seal friction (Coulomb-Stribeck)";
   static constexpr std::string_view reference =
       "Armstrong-Helouvry, Dupont, Canudas de Wit, Automatica 30 (1994) 1083-1138, doi 10.1016/0005-1098(94)90209-7";
-  static constexpr std::string_view equations[] = {"F <- F + (fc + fb exp(-(v / v_st)^2)) z",
+  static constexpr std::string_view equations[] = {"F <- F + (fc + fb exp(-(v / v_st)^2)) z tanh(|v| / v_t)",
                                                    "z' = (v - |v| z) / (x_b + |v| t_b)"};
   static constexpr int states = 1;
   static constexpr Parameter parameters[] = {
@@ -30,24 +31,25 @@ struct SealFriction {
        true},
       {"v_st", "v_st", "m/s", "Stribeck speed", 3.0e-3, 1.0e-1, 1.5e-2, Scale::logarithmic, {0, 0, 1}},
       bristle_length,
+      film_speed,
   };
 
   template <class T>
-  static std::array<T, 1> rate(const std::array<T, 4>& p, const std::array<T, 1>& s, const Input<T>& in) {
+  static std::array<T, 1> rate(const std::array<T, 5>& p, const std::array<T, 1>& s, const Input<T>& in) {
     return {bristle_rate(p[3], in.v, s[0])};
   }
   static constexpr int settles = 0;
   template <class T>
-  static T stiffness(const std::array<T, 4>& p, double speed) {
+  static T stiffness(const std::array<T, 5>& p, double speed) {
     return bristle_stiffness(p[3], speed);
   }
   template <class T>
-  static T force(const std::array<T, 4>& p, const std::array<T, 1>& s, const Input<T>& in, const T& below) {
+  static T force(const std::array<T, 5>& p, const std::array<T, 1>& s, const Input<T>& in, const T& below) {
     const T& fc = p[0];
     const T& fb = p[1];
     const T& v_st = p[2];
     const T relative = in.v / v_st;
-    return below + (fc + fb * exp(-relative * relative)) * s[0];
+    return below + (fc + fb * exp(-relative * relative)) * s[0] * on_film(p[4], in.v);
   }
 };
 

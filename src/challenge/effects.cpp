@@ -30,6 +30,12 @@ constexpr Needs levels_and_frequencies{.levels = 3, .frequencies = 3};
 
 Truths none(const P&) { return {}; }
 
+// Dry friction turns over bristles or, as often, on a film.
+void turn(P& p, const D& d, Draws& shape) {
+  p.bristle = std::clamp(2e-3 * d.amplitude, 1e-5, 6e-5);
+  p.film_speed = shape.uniform(0.0, 1.0) < 0.5 ? 0.0 : d.speed * shape.log_uniform(4e-3, 4e-2);
+}
+
 std::vector<HiddenEffect> make() {
   std::vector<HiddenEffect> list;
   const auto add = [&](HiddenEffect effect) { list.push_back(std::move(effect)); };
@@ -91,9 +97,9 @@ std::vector<HiddenEffect> make() {
        {Law::bouc_wen, Law::modified_bouc_wen, Law::tanh_hysteresis},
        1e-4,
        1.0,
-       [](P& p, const D& d, double s, Draws) {
+       [](P& p, const D& d, double s, Draws shape) {
          p.coulomb = s * d.force;
-         p.bristle = std::clamp(2e-3 * d.amplitude, 1e-5, 6e-5);
+         turn(p, d, shape);
        },
        [](const P& p) -> Truths {
          return {{"fc", p.coulomb, "N"}};
@@ -113,7 +119,7 @@ std::vector<HiddenEffect> make() {
          p.seal_coulomb = s * d.force;
          p.seal_static = p.seal_coulomb * shape.uniform(1.5, 2.5);
          p.seal_speed = std::clamp(d.speed * shape.log_uniform(0.02, 0.12), 3e-3, 5e-2);
-         p.bristle = std::clamp(2e-3 * d.amplitude, 1e-5, 6e-5);
+         turn(p, d, shape);
        },
        [](const P& p) -> Truths {
          return {{"fb", p.seal_static - p.seal_coulomb, "N"}, {"v_st", p.seal_speed, "m/s"}};

@@ -270,6 +270,7 @@ class Plant {
   }
 
   [[nodiscard]] double seal_level(double v) const {
+    if (p_.seal_static == 0.0) return 0.0;
     return (p_.seal_coulomb +
             (p_.seal_static - p_.seal_coulomb) * std::exp(-(v / p_.seal_speed) * (v / p_.seal_speed))) /
            p_.seal_static;
@@ -291,8 +292,12 @@ class Plant {
       const double low = std::max(-x - p_.stop_low, 0.0) / p_.stop_depth;
       f += p_.stop_force * (std::pow(up, p_.stop_power) - std::pow(low, p_.stop_power));
     }
-    if (p_.seal_static > 0.0) f += p_.seal_static * s[seal] / p_.bristle;
-    if (p_.coulomb > 0.0) f += p_.coulomb * s[rub] / p_.bristle;
+    if (p_.film_speed > 0.0) {
+      f += (p_.coulomb + p_.seal_static * seal_level(v)) * std::tanh(v / p_.film_speed);
+    } else {
+      if (p_.seal_static > 0.0) f += p_.seal_static * s[seal] / p_.bristle;
+      if (p_.coulomb > 0.0) f += p_.coulomb * s[rub] / p_.bristle;
+    }
     if (p_.pre_force > 0.0) f += p_.pre_force * s[pre_slide];
     if (p_.place_friction != 0.0) {
       const double place = (x - p_.place_centre) / p_.place_length;

@@ -44,6 +44,7 @@ struct Physics {
   double stop_force = 0.0, stop_up = never, stop_low = never, stop_depth = 1e-3,
          stop_power = 1.5;                                                          // force at the depth
   double seal_coulomb = 0.0, seal_static = 0.0, seal_speed = 1e-2, bristle = 4e-5;  // LuGre bristles
+  double film_speed = 0.0;  // above zero friction on a film in place of bristles
   double coulomb = 0.0;
   double pre_force = 0.0, pre_length = 1e-3;  // sliding bristles with a long knee
 

@@ -17,6 +17,7 @@ std::vector<std::string> relatives(const std::string& id) {
       {"inertia", "sensor-delay", "velocity-lag"},
       {"coulomb-friction", "seal-friction", "pre-yield-hysteresis"},
       {"viscous-damping", "quadratic-damping", "shear-thinning"},
+      {"coulomb-friction", "shear-thinning"},
       {"self-heating", "degradation", "stiction"},
       {"coil-lag", "magnetic-remanence", "magnetic-saturation"},
       {"asymmetry", "cavitation"},
@@ -55,15 +56,17 @@ struct Limit {
   std::string_view parameter;
 };
 
-constexpr std::array<Limit, 6> limits = {{{"offset-force", "gas-spring", "g"},
+constexpr std::array<Limit, 7> limits = {{{"offset-force", "gas-spring", "g"},
                                           {"linear-stiffness", "gas-spring", ""},
                                           {"coulomb-friction", "seal-friction", "fb"},
+                                          {"coulomb-friction", "shear-thinning", "m"},
                                           {"compliance", "entrapped-gas", "d_a"},
                                           {"compliance", "clearance", "gap"},
                                           {"cubic-stiffness", "end-stop", "x_up"}}};
 
-// A gas that is compressed by next to no force is a play.
-constexpr std::array<Limit, 1> limits_at_bounds = {{{"clearance", "entrapped-gas", "f_a"}}};
+// A gas that is compressed by next to no force is a play; damping that thins out entirely is a friction.
+constexpr std::array<Limit, 2> limits_at_bounds = {
+    {{"clearance", "entrapped-gas", "f_a"}, {"coulomb-friction", "shear-thinning", "m"}}};
 
 const Limit* find_limit(const std::string& effect, const std::string& wider) {
   const auto* at =

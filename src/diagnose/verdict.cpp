@@ -40,6 +40,8 @@ constexpr double confirmed_part = 0.25;
 constexpr double least_margin = 0.04;
 constexpr double margin_of_excess = 0.5;
 constexpr double least_evidence = 10.0;
+// A descent that went astray still explains this part.
+constexpr double astray_share = 0.5;
 // None is good that leaves so many times the squared error on the judging recordings, with so much evidence of the
 // fitted ones against it.
 constexpr double refuting_factor = 1.2;
@@ -168,7 +170,8 @@ Contest contest_for(const Finding& found, const Findings& findings, const Standa
     const bool refuted = rival.evidence > refuting_evidence / standard.honest &&
                          squared(rival.heldout / findings.augmented.heldout) > refuting_factor;
     // Where structure stays, one that ends as the other at a bound may be a descent gone astray of the other.
-    const bool unsure = structured(findings.misfit) && !bound_parameter(found.id, rival.id).empty();
+    const bool unsure =
+        structured(findings.misfit) && !bound_parameter(found.id, rival.id).empty() && rival.share > astray_share;
     const bool close = unsure || (!refuted && (rival.share > 1.0 - margin || rival.evidence < ahead)) || rival.ended_as;
     // What holds the effect as a limit always explains as much; only more than its further parameters are worth counts.
     if (is_limit(found.id, rival.id) && (rival.evidence > 0.0 || (close && !rival.apart))) {

@@ -286,10 +286,12 @@ TEST(Verdict, AFormThatHoldsTheEffectAsItsLimitMustBeWorthItsParameters) {
 
 TEST(Verdict, WhereStructureStaysAGasIsNotToldFromAClearance) {
   const Circumstances told = knowing({{"d_a", "m", 3e-5, 2e-6}, {"f_a", "N", 128.0, 60.0}});
-  for (const auto& [structured, word] : {std::pair{true, "ambiguous"}, std::pair{false, "missing-physics"}}) {
+  for (const auto& [structured, share, word] :
+       {std::tuple{true, 0.7, "ambiguous"}, std::tuple{true, 0.4, "missing-physics"},
+        std::tuple{false, 0.7, "missing-physics"}}) {
     Search search = search_of("entrapped-gas", 1.5 * floor_squares, 30.0 * floor_squares, structured);
-    search.found[0].rivals = {rival("clearance", 0.7, 3000.0)};
-    EXPECT_EQ(verdict_of(search, told).word, word) << structured;
+    search.found[0].rivals = {rival("clearance", share, 3000.0)};
+    EXPECT_EQ(verdict_of(search, told).word, word) << structured << " " << share;
   }
 }
 

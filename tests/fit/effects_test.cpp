@@ -59,10 +59,12 @@ TEST_P(EffectFit, FindsTheSizeInNoisyForces) {
   EXPECT_NEAR(found->term.value, truth.value, truth.tolerance * truth.value);
 }
 
-// The gas is squeezed to a third of its volume.
+// The gas is squeezed to a third of its volume; the friction turns as softly as a film lets it.
 INSTANTIATE_TEST_SUITE_P(Effects, EffectFit,
                          ::testing::Values(Truth{"clearance", "gap", 1.2e-3, 0.1}, Truth{"compliance", "C", 3e-6, 0.2},
-                                           Truth{"gas-spring", "g", 33.0, 0.1, {{"gas-spring.f_g", 150.0}}}),
+                                           Truth{"gas-spring", "g", 33.0, 0.1, {{"gas-spring.f_g", 150.0}}},
+                                           Truth{
+                                               "coulomb-friction", "v_t", 5e-3, 0.2, {{"coulomb-friction.fc", 150.0}}}),
                          [](const auto& instance) {
                            std::string name = instance.param.effect;
                            std::ranges::replace(name, '-', '_');
