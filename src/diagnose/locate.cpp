@@ -22,6 +22,8 @@ constexpr int resamples = 200;
 constexpr double least_part = 0.2;
 constexpr double least_ratio = 1.25;
 constexpr double surely_above = 1.1;
+// Values of one level differ by less than this part of their range.
+constexpr double level_width = 5e-3;
 
 // One variable sampled over all recordings.
 struct Variable {
@@ -82,6 +84,31 @@ std::string sentence(const Variable& variable, double from, double to, bool lowe
 
 }  // namespace
 
+std::vector<double> bin_edges(std::vector<double> values) {
+  std::ranges::sort(values);
+  const double apart = level_width * (values.back() - values.front());
+  std::vector<double> edges;
+  std::vector<double> levels;
+  for (std::size_t b = 0; b <= bins; ++b) {
+    const double value = values[std::min(values.size() - 1, b * values.size() / bins)];
+    if (edges.empty() || value > edges.back()) {
+      edges.push_back(value);
+    }
+    if (levels.empty() || value > levels.back() + apart) {
+      levels.push_back(value);
+    }
+  }
+  if (levels.size() > bins / 2) {
+    return edges;
+  }
+  std::vector<double> between = {values.front()};
+  for (std::size_t k = 0; k + 1 < levels.size(); ++k) {
+    between.push_back(0.5 * (levels[k] + levels[k + 1]));
+  }
+  between.push_back(values.back());
+  return between;
+}
+
 std::vector<Location> locate(const Workbench& bench, const Fit& fit) {
   const std::vector<Recording>& recordings = bench.split().fit;
   std::vector<Features> features;
@@ -115,14 +142,9 @@ std::vector<Location> locate(const Workbench& bench, const Fit& fit) {
     if (values.size() < 100) {
       continue;
     }
-    std::ranges::sort(values);
-    std::vector<double> edges;
-    for (std::size_t b = 0; b <= bins; ++b) {
-      edges.push_back(values[std::min(values.size() - 1, b * values.size() / bins)]);
-    }
-    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+    const std::vector<double> edges = bin_edges(std::move(values));
     const std::size_t count = edges.size() - 1;
-    if (count < 3) {
+    if (count < 2) {
       continue;
     }
     // Sums by block (recording and stretch) and bin.

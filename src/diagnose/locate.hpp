@@ -21,8 +21,13 @@ struct Location {
   std::vector<std::string> recordings;  // those that hold most of it
 };
 
-// Concentrations of the squared residual (less the noise), strongest first: share of misfit at least a fifth and 1.5
-// times the share of samples also at the 5 % quantile of a block bootstrap over stretches of the recordings.
+// Concentrations of the squared residual (less the noise), strongest first: share of misfit at least a fifth and 1.25
+// times the share of samples, and more than that share at the 5 % quantile of a block bootstrap over stretches of the
+// recordings.
 std::vector<Location> locate(const Workbench& bench, const Fit& fit);
+
+// Ends of the bins of a variable with these values, one or more: sixteen bins that hold as many values each, or, where
+// the values are of few levels, noise on them or not, one for each level, which ends half way to the next.
+std::vector<double> bin_edges(std::vector<double> values);
 
 }  // namespace hysteron

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "diagnose/evidence.hpp"
+#include "diagnose/locate.hpp"
 #include "diagnose/record.hpp"
 #include "diagnose/relatives.hpp"
 #include "diagnose/thin.hpp"
@@ -281,6 +282,22 @@ TEST(Diagnosis, SameBytesForAnyNumberOfThreads) {
     }
     EXPECT_EQ(text, first) << threads << " threads";
   }
+}
+
+TEST(Locate, ABinForEachLevelOfANoisyDrive) {
+  const Stream stream = Stream(3).child("levels");
+  std::vector<double> drive;
+  std::vector<double> spread;
+  for (std::uint64_t n = 0; n < 3000; ++n) {
+    drive.push_back(0.5 * static_cast<double>(n % 3) + 1e-5 * stream.uniform(n));
+    spread.push_back(stream.uniform(n));
+  }
+  const std::vector<double> levels = bin_edges(drive);
+  ASSERT_EQ(levels.size(), 4U);
+  EXPECT_NEAR(levels[1], 0.25, 1e-4);
+  EXPECT_NEAR(levels[2], 0.75, 1e-4);
+  EXPECT_EQ(bin_edges(spread).size(), 17U);
+  EXPECT_EQ(bin_edges({1.0, 1.0, 1.0}).size(), 2U);
 }
 
 TEST(Thinned, KeepsTheMotionAndStaysNearTheTotal) {
