@@ -77,10 +77,10 @@ Misfit misfit_of(const Workbench& bench, const Fit& fit) {
     predictable += share * mean;
     const double passed = passed_on(bench, fit, recording, residual) / (norm * norm);
     const double noise = squared(floor.sigma / norm) + passed;
-    // Periods tell the noise whatever its colour; without them only what repeats with the motion is surely not noise.
-    // What rounding leaves repeats with the motion too.
-    const bool known = floor.method == "cycles" || floor.rounded;
-    structure += known ? std::max(0.0, mean - noise) : share * mean;
+    // Periods tell the noise whatever its colour, but what fades or grows over them looks like noise too; what repeats
+    // with the motion is surely none, unless it is what rounding leaves.
+    const double beyond = std::max(0.0, mean - noise);
+    structure += floor.rounded ? beyond : (floor.method == "cycles" ? std::max(beyond, share * mean) : share * mean);
     result.squares += mean;
     result.white += std::min(mean, squared(floor.white / norm) + passed);
     result.floor += std::min(mean, noise);

@@ -130,6 +130,10 @@ bool deserves_a_name(const Finding& found, const Findings& findings, const Stand
   if (is_part_of(found.id, findings.model)) {
     return false;
   }
+  // What stays is no doubt of a lag that the channels show without any model.
+  if (found.as_channels && found.evidence > telling_evidence) {
+    return true;
+  }
   const Finding& strongest = findings.found.front();
   const bool plain =
       is_borne_out(found, findings.augmented) && shares(found, findings.augmented).heldout > plain_heldout_gain;
