@@ -323,6 +323,10 @@ TEST(Verdict, TheChannelsTellALagOfTheVelocityFromADelayOfTheForce) {
   search.found[0].rivals = {rival("sensor-delay", 1.0, 1.0)};
   EXPECT_EQ(verdict_of(search, agreeing).word, "missing-physics");
   EXPECT_EQ(verdict_of(search, contradicting).word, "ambiguous");
+  // What stays is no doubt of what the channels show.
+  search = search_of("velocity-lag", 5.0 * floor_squares, 1.0 * floor_squares, true);
+  EXPECT_EQ(verdict_of(search, agreeing).word, "missing-physics");
+  EXPECT_EQ(verdict_of(search, contradicting).word, "unattributed");
 }
 
 TEST(Verdict, IsTheSameFromItsWrittenEvidence) {

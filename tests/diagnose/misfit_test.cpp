@@ -1,0 +1,42 @@
+#include "diagnose/misfit.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "diagnose/noise.hpp"
+#include "fit/synthetic.hpp"
+
+namespace hysteron {
+namespace {
+
+// What a viscous damper whose force fades leaves of such a force, of noise, and of a friction that it lacks.
+Misfit left_of(double fading, double friction) {
+  Recording recording = testing::motion("r.csv", {{0.01, 2.0}}, 6.0, 3000, 0.2);
+  recording.velocity_measured = true;
+  const Stream stream = Stream(17);
+  double travelled = 0.0;
+  for (std::size_t n = 0; n < recording.size(); ++n) {
+    const double v = recording.velocity[n];
+    travelled += n == 0 ? 0.0 : std::fabs(v) * (recording.time[n] - recording.time[n - 1]);
+    recording.force.push_back(2000.0 * v * (1.0 + fading * std::exp(-travelled / 0.1)) +
+                              friction * std::tanh(v / 0.005) + 3.0 * stream.normal(n));
+  }
+  EXPECT_EQ(noise_floor(recording).method, "cycles");
+  const Workbench bench(scale_of({recording}), {{recording}, {{recording, 0}}, "", false}, {}, {}, 1,
+                        [] { return false; });
+  return misfit_of(bench, bench.from_anywhere({"viscous", {"stiction"}, {}}, 2000));
+}
+
+TEST(Misfit, WhatFadesOverTheCyclesHidesNothingThatRepeats) {
+  // The estimate of the noise takes what fades for noise, whether the model has it or not.
+  const Misfit whole = left_of(0.5, 0.0);
+  EXPECT_FALSE(structured(whole));
+  EXPECT_LT(whole.predictable, 0.01);
+  const Misfit lacking = left_of(0.5, 10.0);
+  EXPECT_GT(lacking.floor, 0.9 * lacking.squares);
+  EXPECT_TRUE(structured(lacking));
+}
+
+}  // namespace
+}  // namespace hysteron
