@@ -31,6 +31,8 @@ constexpr double sure_evidence = 3.0;
 // Judging recordings on which the squared error falls by as large a share as on the fitted ones, and by this at least,
 // bear an effect out, however few samples of these are independent.
 constexpr double borne_out = 0.05;
+// Effects that only make up for each other take off more one by one than all together: at most so many times as much.
+constexpr double most_over_all = 3.0;
 // A gain below this share of the squared error must show in the judging recordings too, by this part of it.
 constexpr double plain_gain = 0.3;
 constexpr double confirmed_part = 0.25;
@@ -101,6 +103,11 @@ bool confirmed(const Finding& found, const Errors& augmented, double sure) {
   return share.fit > plain_gain ? share.heldout > -0.01 : share.heldout > confirmed_part * share.fit;
 }
 
+// Whether the effect only makes up for what the others do.
+bool makes_up(const Finding& found, const Findings& findings) {
+  return found.gain > most_over_all * (squared(findings.base.fit) - squared(findings.augmented.fit));
+}
+
 // Whether the judging recordings show the effect as plainly as the fitted ones.
 bool is_borne_out(const Finding& found, const Errors& augmented) {
   const Errors share = shares(found, augmented);
@@ -128,6 +135,9 @@ bool deserves_a_name(const Finding& found, const Findings& findings, const Stand
                      const std::vector<Named>& named) {
   // What the law has of its own is no name: it makes up for what another effect's form misses.
   if (is_part_of(found.id, findings.model)) {
+    return false;
+  }
+  if (makes_up(found, findings)) {
     return false;
   }
   // What stays is no doubt of a lag that the channels show without any model.
@@ -261,6 +271,9 @@ const OtherLaw* better_law(const Findings& findings) {
 bool something_shows(const Findings& findings, double honest) {
   double together = 0.0;
   for (const Finding& found : findings.found) {
+    if (makes_up(found, findings)) {
+      continue;
+    }
     together += found.evidence;
     const double enough = telling_evidence / honest;
     const bool much = found.evidence > enough ||

@@ -257,6 +257,16 @@ TEST(Verdict, WhatAnotherLawNeedsTooDoesNotMakeUpForTheLawAskedFor) {
   }
 }
 
+TEST(Verdict, EffectsThatOnlyMakeUpForEachOtherAreNoNames) {
+  for (const auto& [all, word] : {std::pair{0.001, "complete"}, std::pair{0.5, "missing-physics"}}) {
+    Search search = search_of("stiction", 1.01 * floor_squares, floor_squares);
+    search.found.resize(2, search.found.front());
+    search.found[1].id = "offset-force";
+    search.base.cost = search.base.heldout = std::sqrt((1.01 + all) * floor_squares);
+    EXPECT_EQ(verdict_of(search, plain).word, word) << all;
+  }
+}
+
 TEST(Verdict, WhatTheLawHasOfItsOwnIsNoName) {
   Search search = search_of("linear-stiffness", 1.1 * floor_squares, 40.0 * floor_squares);
   for (const auto& [law, word] : {std::pair{"bingham", "missing-physics"}, std::pair{"bouc-wen", "unattributed"}}) {
