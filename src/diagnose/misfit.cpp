@@ -79,8 +79,8 @@ Misfit misfit_of(const Workbench& bench, const Fit& fit) {
     const double noise = squared(floor.sigma / norm) + passed;
     // Periods tell the noise whatever its colour, but what fades or grows over them looks like noise too; what repeats
     // with the motion is surely none, unless it is what rounding leaves.
-    const double beyond = std::max(0.0, mean - noise);
-    structure += floor.rounded ? beyond : (floor.method == "cycles" ? std::max(beyond, share * mean) : share * mean);
+    const bool known = floor.method == "cycles" || floor.rounded;
+    structure += std::max(known ? mean - noise : 0.0, floor.rounded ? 0.0 : share * mean);
     result.squares += mean;
     result.white += std::min(mean, squared(floor.white / norm) + passed);
     result.floor += std::min(mean, noise);

@@ -250,13 +250,10 @@ std::vector<Found> settled(Course& course, const std::vector<std::string>& candi
   }
   while (true) {
     std::vector<Found> result = worth_their_place(course);
-    double strongest = 0.0;
-    for (const Found& found : result) {
-      strongest = std::max(strongest, found.gain);
-    }
+    const auto strongest = std::ranges::max_element(result, {}, &Found::gain);
     bool swapped = false;
     for (Found& found : result) {
-      if (found.gain < negligible * strongest) {
+      if (found.gain < negligible * strongest->gain) {
         continue;
       }
       const std::optional<Fit> better = contested(course, found, candidates);

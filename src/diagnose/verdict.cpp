@@ -124,7 +124,7 @@ bool is_told(const Finding& found, const Findings& findings, const Standard& sta
          *findings.further < most_further_part * found.evidence;
 }
 
-// Whether another damper law needs the effect as much.
+// Whether another damper law needs the effect as much, and all other trials leave it as much.
 bool needed_behind_another_law(const Finding& found, const Findings& findings) {
   return found.id == findings.tried && std::ranges::any_of(findings.trials, is_of_another_law) &&
          std::ranges::all_of(findings.trials, [](const Trial& trial) { return trial.share > needed_share; });

@@ -210,6 +210,7 @@ TEST_P(Contract, DerivativeIsThatOfTheForce) {
   const std::size_t count = model.parameter_count();
   const auto card = model.parameters();
   const Vector p = draw(model, 7, 0.15, true);
+  const double rounding = 8.0 * std::numeric_limits<double>::epsilon() * largest(simulate(model, motion, p));
   for (std::size_t first = 0; first < count; first += sweep_directions) {
     std::vector<LaneDual> dual(count), state(16), force(samples);
     for (std::size_t j = 0; j < count; ++j) {
@@ -241,9 +242,7 @@ TEST_P(Contract, DerivativeIsThatOfTheForce) {
         best = std::min(best, distance(difference, exact));
       }
       // A difference over the widest step is no better than the rounding of the forces.
-      const double rounding =
-          8.0 * std::numeric_limits<double>::epsilon() * largest(simulate(model, motion, p)) / (1e-3 * range);
-      EXPECT_LT(best, 1e-3 * largest(exact) + rounding + 1e-12) << model.parameter_names()[j];
+      EXPECT_LT(best, 1e-3 * largest(exact) + rounding / (1e-3 * range) + 1e-12) << model.parameter_names()[j];
     }
   }
 }
@@ -631,6 +630,7 @@ TEST(Effects, ForcesInClosedForm) {
   const Vector orifice = effect_alone("quadratic-damping", motion, {{"d2", 3000.0}});
   const Vector thin = effect_alone("shear-thinning", motion, {{"c_t", 700.0}, {"v_c", 0.05}, {"m", 0.4}});
   const Vector seal = effect_alone("seal-friction", motion, {{"fc", 60.0}, {"fb", 25.0}, {"v_st", 0.3}});
+  const Vector film = effect_alone("coulomb-friction", motion, {{"fc", 50.0}, {"v_t", 0.4}});
   const Vector drift = effect_alone("force-drift", motion, {{"r", 7.0}});
   for (std::size_t n = 0; n < motion.size(); ++n) {
     const double x = motion.x[n];
@@ -643,6 +643,7 @@ TEST(Effects, ForcesInClosedForm) {
     EXPECT_NEAR(thin[n], -700.0 * v * (1.0 - std::pow(1.0 + v * v / 0.0025, -0.3)), 1e-9);
     // Sliding long since the last turn: the sign is the velocity's.
     if (std::fabs(v) > 0.2 && n > motion.size() / 4) {
+      EXPECT_NEAR(film[n], 50.0 * std::tanh(v / 0.4), 1e-5);
       EXPECT_NEAR(seal[n], (60.0 + 25.0 * std::exp(-v * v / 0.09)) * std::copysign(1.0, v), 1e-5);
     }
     EXPECT_NEAR(drift[n], 7.0 * motion.time[n], 1e-9);
