@@ -31,9 +31,6 @@ struct Options {
   std::string out;
 };
 
-// Thrown by the progress callback to leave the work.
-struct Interrupted {};
-
 std::string explanation(const Diagnosis& diagnosis) {
   const std::string& word = diagnosis.verdict.word;
   if (word == "complete") {
@@ -140,10 +137,10 @@ void run(const Options& options) {
     diagnosis = diagnose(campaign, diagnose_with, [&](double share, const std::string& stage) {
       progress.show(stage, share, fmt::format("{:.0f} %", 100.0 * share));
       if (interrupted()) {
-        throw Interrupted{};
+        throw Stopped{};
       }
     });
-  } catch (const Interrupted&) {
+  } catch (const Stopped&) {
     progress.finish();
     throw WorkError("interrupted before the diagnosis was done: nothing was written");
   }

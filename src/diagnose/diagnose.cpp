@@ -345,6 +345,7 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const Split& split
   const DataScale scale = scale_of(campaign.recordings);
   ObjectiveOptions objective = options.objective;
   objective.skip_run_in = true;
+  objective.stopped = options.stopped;
   auto result = std::make_unique<Diagnosis>(Workbench(scale, split, layout, objective, options.seed, options.stopped),
                                             std::move(notes));
   Diagnosis& diagnosis = *result;

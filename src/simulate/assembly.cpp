@@ -14,6 +14,9 @@ namespace {
 constexpr std::size_t max_links = 9;
 // How much finer than their rate the steps of elements are: their knees are passed with a step on either side.
 constexpr double element_margin = 1.25;
+// Steps are this part of an interval at least: a shorter one at its end would be lost in rounding, and a step that gets
+// nowhere is repeated for ever. A reversal may lie that close to a sample.
+constexpr double least_progress = 1e-15;
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
 // What a step holds of its series links: a factor on the gain, and, for the root's first guess, dF/dv of the links
@@ -410,7 +413,7 @@ void march_segment(const Assembly<T>& system, const Motion& motion, std::size_t 
   const double coarse = detail::coarseness(motion, interval.length);
   const double finer = detail::near_reversal(motion, n) ? std::max(motion.finer_at_reversals, coarse) : coarse;
   const double limit = motion.step_limit / interval.length;
-  const Value shortest((to - from) / motion.most_substeps);
+  const Value shortest(std::max((to - from) / motion.most_substeps, least_progress));
   const Value little(1e-9 / (interval.length * (to - from)));
   Value theta(from);
   auto& start = room.start;

@@ -287,6 +287,27 @@ TEST(Series, ANeighbourWithNanDoesNotStopTheOthers) {
   }
 }
 
+// Velocities that pass zero within rounding of a sample leave an interval without room for a step.
+TEST(Series, AReversalWithinRoundingOfASampleIsPassed) {
+  Motion motion = sine(100.0, 0.3);
+  std::size_t placed = 0;
+  for (MotionInterval& interval : motion.intervals) {
+    if (interval.reversal) {
+      interval.reversal_at = std::nextafter(1.0, 0.0);
+      ++placed;
+    }
+  }
+  ASSERT_GT(placed, 0U);
+  for (const std::string& id : elements) {
+    const CompositeModel model = make_model("bouc-wen", {id});
+    Vector p = with(model, {{"alpha", 2000.0}, {"x_y", 1e-5}});
+    p[model.law->parameters.size()] = model.effects[0]->parameters[0].upper;
+    for (const Motion& one : {motion, comparing_motion(motion)}) {
+      EXPECT_EQ(simulate(model, one, p).size(), motion.time.size()) << id;
+    }
+  }
+}
+
 // What a linearisation at the bare law relies on: the size of every effect acts at first order where it vanishes.
 TEST(Effects, SizeActsAtFirstOrderWhereItVanishes) {
   const Motion motion = [] {
