@@ -79,19 +79,21 @@ json settings_of(const Campaign& campaign, const std::vector<std::string>& ids, 
           {"recordings", files}};
 }
 
-json diagnosis_in(const std::filesystem::path& out, const std::string& name) {
-  const std::filesystem::path path = out / "diagnoses" / name / "diagnosis.json";
+// What a diagnosis has written, null where there is none: `file` is diagnosis.json or model.json.
+json written_in(const std::filesystem::path& out, const std::string& name, const char* file) {
+  const std::filesystem::path path = out / "diagnoses" / name / file;
   if (!std::filesystem::exists(path)) return nullptr;
   try {
     return json::parse(read_file(path));
   } catch (const json::exception&) {
-    throw InputError(path.string(), 0, "not valid JSON, expected a diagnosis");
+    throw InputError(path.string(), 0, "not valid JSON, expected what a diagnosis writes");
   }
 }
 
 struct Claims {
   Names definite;
   Names candidates;  // of declared sets
+  Names modelled;    // of the augmented model, named or not
 };
 
 Claims claims_of(const json& diagnosis) {
@@ -101,6 +103,7 @@ Claims claims_of(const json& diagnosis) {
     const bool alone = effect.at("indistinguishable_from").empty() && diagnosis.at("verdict") == "missing-physics";
     (alone ? claims.definite : claims.candidates).insert(effect.at("id").get<std::string>());
   }
+  claims.modelled = diagnosis.at("augmented").at("effects").get<Names>();
   return claims;
 }
 
@@ -114,10 +117,12 @@ std::string outcome_of(const json& answer, const json& diagnosis, const Claims& 
   if (strange) return "wrong";
   if (placebo) return "refused";
   if (claims.definite.contains(hidden)) return "found";
-  return claims.candidates.contains(hidden) ? "in a set" : "not found";
+  if (claims.candidates.contains(hidden)) return "in a set";
+  return claims.modelled.contains(hidden) && !as_recorded.modelled.contains(hidden) ? "in the model" : "not found";
 }
 
-json parameters_of(const json& answer, const json& diagnosis) {
+// The hidden parameters beside those of the name, or of the augmented model where no name was given.
+json parameters_of(const json& answer, const json& diagnosis, const json& model) {
   json rows = json::array();
   for (const json& wanted : answer.at("parameters")) {
     json row = wanted;
@@ -129,6 +134,11 @@ json parameters_of(const json& answer, const json& diagnosis) {
           row["found"] = found.at("value");
           row["ci95"] = found.at("ci95");
         }
+      }
+    }
+    for (const json& found : row.at("found").is_null() && model.is_object() ? model.at("parameters") : json::array()) {
+      if (found.at("name") == answer.at("hidden").get<std::string>() + "." + wanted.at("name").get<std::string>()) {
+        row["found"] = found.at("value");
       }
     }
     rows.push_back(row);
@@ -184,11 +194,12 @@ std::string hide_all(const std::filesystem::path& out, const Campaign& campaign,
 
 json score_hidden(const std::filesystem::path& out, const std::string& hash) {
   const json answers = open_seal(out, hash);
-  const json plain = diagnosis_in(out, campaign_name(0));
+  const json plain = written_in(out, campaign_name(0), "diagnosis.json");
   const Claims as_recorded = claims_of(plain);
   json campaigns = json::array();
   for (const json& answer : answers.at("campaigns")) {
-    const json diagnosis = diagnosis_in(out, answer.at("campaign").get<std::string>());
+    const auto name = answer.at("campaign").get<std::string>();
+    const json diagnosis = written_in(out, name, "diagnosis.json");
     const Claims claims = claims_of(diagnosis);
     const bool there = diagnosis.is_object();
     campaigns.push_back(
@@ -200,7 +211,7 @@ json score_hidden(const std::filesystem::path& out, const std::string& hash) {
          {"named", claims.definite},
          {"candidates", claims.candidates},
          {"outcome", outcome_of(answer, diagnosis, claims, as_recorded)},
-         {"parameters", parameters_of(answer, diagnosis)},
+         {"parameters", parameters_of(answer, diagnosis, written_in(out, name, "model.json"))},
          {"nrmse_heldout_before", there ? diagnosis.at("baseline").at("nrmse_heldout") : json(nullptr)},
          {"nrmse_heldout_after", there ? diagnosis.at("augmented").at("nrmse_heldout") : json(nullptr)}});
   }

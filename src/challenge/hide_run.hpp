@@ -23,7 +23,8 @@ std::string hide_all(const std::filesystem::path& out, const Campaign& campaign,
 // Opens the seal, holding it against `hash` (empty: the one of seal.sha256), and scores:
 // {"schema","seed","seal","as_recorded":{"verdict","named"},"campaigns":[{"campaign","hidden","placebo","share",
 //  "verdict","named","outcome","parameters":[..],"nrmse_heldout_before","nrmse_heldout_after"}]}
-// Outcomes: found (named), in a set, not found; wrong: a name that neither was hidden nor stands as recorded; of
+// Outcomes: found (named), in a set, in the model (not named, but in the augmented model, and not in that of the
+// recordings as they are), not found; wrong: a name that neither was hidden nor stands as recorded; of
 // placebos refused or wrong; failed: no diagnosis.
 [[nodiscard]] nlohmann::json score_hidden(const std::filesystem::path& out, const std::string& hash);
 

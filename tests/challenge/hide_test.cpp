@@ -139,7 +139,7 @@ class HideRun : public ::testing::Test {
   void diagnosed(const std::string& name, const std::string& verdict, const std::vector<std::string>& effects) const {
     nlohmann::json diagnosis = {{"verdict", verdict},
                                 {"baseline", {{"nrmse_heldout", 0.1}}},
-                                {"augmented", {{"nrmse_heldout", 0.05}}},
+                                {"augmented", {{"nrmse_heldout", 0.05}, {"effects", effects}}},
                                 {"effects", nlohmann::json::array()}};
     for (const std::string& id : effects) {
       nlohmann::json others = nlohmann::json::array();
@@ -196,6 +196,19 @@ TEST_F(HideRun, WritesCampaignsThatDoNotTellAndScoresThem) {
     EXPECT_EQ(result.at("campaigns")[0].at("outcome"), one.outcome);
     EXPECT_EQ(result.at("campaigns")[1].at("outcome"), one.placebo_outcome);
   }
+  // In the augmented model without a name: told, with its parameter, unless the recordings as they are need it too.
+  diagnosed("campaign-0000", "unattributed", {});
+  diagnosed(inertia, "unattributed", {});
+  const std::filesystem::path folder = out_ / "diagnoses" / inertia;
+  nlohmann::json diagnosis = nlohmann::json::parse(read_file(folder / "diagnosis.json"));
+  diagnosis["augmented"]["effects"] = {"inertia"};
+  write_file_atomically(folder / "diagnosis.json", diagnosis.dump());
+  write_file_atomically(folder / "model.json", R"({"parameters": [{"name": "inertia.m", "value": 3.5}]})");
+  const nlohmann::json modelled = score_hidden(out_, hash).at("campaigns")[0];
+  EXPECT_EQ(modelled.at("outcome"), "in the model");
+  EXPECT_EQ(modelled.at("parameters")[0].at("found"), 3.5);
+  diagnosed("campaign-0000", "unattributed", {"inertia"});
+  EXPECT_EQ(score_hidden(out_, hash).at("campaigns")[0].at("outcome"), "not found");
   std::filesystem::remove_all(out_ / "diagnoses" / inertia);
   EXPECT_EQ(score_hidden(out_, hash).at("campaigns")[0].at("outcome"), "failed");
 }
