@@ -358,10 +358,15 @@ void add_fit(CLI::App& program) {
                    "two: also the laws through the values of conditions fitted freely, beside the joint fit")
       ->check(CLI::IsMember({"one", "two"}))
       ->capture_default_str();
-  command->add_option("--fix", options->fix, "PARAMETER=VALUE held, SI units; repeatable")->allow_extra_args(false);
-  command->add_option("--bounds", options->bounds, "PARAMETER=LOWER:UPPER instead of the default box; repeatable")
+  command->add_option("--fix", options->fix, "PARAMETER=VALUE held, SI units; repeatable")
+      ->delimiter(',')
       ->allow_extra_args(false);
-  command->add_option("--set", options->settings, "SETTING=NUMBER of the solver; repeatable")->allow_extra_args(false);
+  command->add_option("--bounds", options->bounds, "PARAMETER=LOWER:UPPER instead of the default box; repeatable")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  command->add_option("--set", options->settings, "SETTING=NUMBER of the solver; repeatable")
+      ->delimiter(',')
+      ->allow_extra_args(false);
   command->add_option("--out", options->out, "folder for model.json, fit.json, report.html")->required();
   add_common_options(*command, options->common);
   command->footer(

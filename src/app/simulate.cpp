@@ -134,6 +134,7 @@ void add_simulate(CLI::App& program) {
       ->expected(1, 2);
   command->add_option("--preset", options->preset, "published parameter set, see `hysteron describe MODEL`");
   command->add_option("--set", options->set, "QUANTITY=NUMBER of the preset, in its printed unit; repeatable")
+      ->delimiter(',')
       ->allow_extra_args(false);
   command->add_option("--drive", options->drive,
                       "constant current or voltage for the preset, instead of the recording's");
