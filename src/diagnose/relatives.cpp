@@ -48,6 +48,11 @@ bool is_of_place(const std::string& effect) {
   return std::ranges::find(ids, effect) != ids.end();
 }
 
+bool has_one_form(const std::string& effect) {
+  constexpr std::array<std::string_view, 4> ids = {"offset-force", "linear-stiffness", "viscous-damping", "inertia"};
+  return std::ranges::find(ids, effect) != ids.end();
+}
+
 namespace {
 
 struct Limit {

@@ -97,7 +97,7 @@ struct Course {
   const Fit& quick_base;
   Fit current;
   double effective = 0.0;                       // samples worth of independent information
-  double strongest = 0.0;                       // the largest gain of a stage
+  double strongest = 0.0;                       // the largest gain of a stage whose form may be missed in part
   std::vector<std::vector<Tried>> stages = {};  // in the order tried
   std::vector<Hypothesis> behind = {};          // what each was tried behind
   std::vector<Fit> seen = {};                   // all fits so far
@@ -128,7 +128,9 @@ void grow(Course& course, const std::vector<std::string>& candidates, int most_e
       return;
     }
     course.current = chosen->fit;
-    course.strongest = std::max(course.strongest, chosen->gain);
+    if (!has_one_form(chosen->id)) {
+      course.strongest = std::max(course.strongest, chosen->gain);
+    }
     if (chosen->gain < negligible * course.strongest) {
       return;  // what is left could not be named beside what was found
     }
@@ -250,10 +252,15 @@ std::vector<Found> settled(Course& course, const std::vector<std::string>& candi
   }
   while (true) {
     std::vector<Found> result = worth_their_place(course);
-    const auto strongest = std::ranges::max_element(result, {}, &Found::gain);
+    double strongest = 0.0;
+    for (const Found& found : result) {
+      if (!has_one_form(found.id)) {
+        strongest = std::max(strongest, found.gain);
+      }
+    }
     bool swapped = false;
     for (Found& found : result) {
-      if (found.gain < negligible * strongest->gain) {
+      if (found.gain < negligible * strongest) {
         continue;
       }
       const std::optional<Fit> better = contested(course, found, candidates);

@@ -49,8 +49,8 @@ constexpr double astray_share = 0.5;
 constexpr double refuting_factor = 1.2;
 constexpr double refuting_evidence = 100.0;
 // A further effect is named only where nothing but noise or at most this many times the noise stays, and not beside its
-// own kin: what the form of the first one misses looks like another. It explains this part of what the strongest does,
-// or less, if it takes this share off the squared error of the judging recordings.
+// own kin: what the form of the first one misses looks like another. It explains this part of what the strongest whose
+// form may be missed does, or less, if it takes this share off the squared error of the judging recordings.
 constexpr double near_noise = 1.5;
 constexpr double least_share_of_strongest = 0.08;
 constexpr double plain_heldout_gain = 0.2;
@@ -145,9 +145,10 @@ bool deserves_a_name(const Finding& found, const Findings& findings, const Stand
     return true;
   }
   const Finding& strongest = findings.found.front();
+  const auto formed = std::ranges::find_if(findings.found, [](const Finding& one) { return !has_one_form(one.id); });
   const bool plain =
       is_borne_out(found, findings.augmented) && shares(found, findings.augmented).heldout > plain_heldout_gain;
-  if (found.gain < least_share_of_strongest * strongest.gain && !plain) {
+  if (formed != findings.found.end() && found.gain < least_share_of_strongest * formed->gain && !plain) {
     return false;
   }
   if (!named.empty() && (!(standard.close || standard.settled) || is_kin(found.id, named.front().id) ||
