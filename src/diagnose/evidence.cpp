@@ -52,6 +52,16 @@ Contender contender_from(const json& row) {
           row.at("apart"), row.at("ended_as"),      row.at("as_channels_show"), row.at("follows_drive")};
 }
 
+json locality_json(const std::optional<Locality>& locality) {
+  if (!locality) {
+    return nullptr;
+  }
+  return {{"share_of_samples", locality->share},
+          {"squares_without", locality->before},
+          {"squares", locality->after},
+          {"floor", locality->noise}};
+}
+
 json finding_json(const Finding& one) {
   json rivals = json::array();
   for (const Contender& row : one.contenders) {
@@ -64,6 +74,7 @@ json finding_json(const Finding& one) {
           {"nrmse_heldout_without", one.without.heldout},
           {"share_of_misfit", one.share_of_misfit},
           {"as_channels_show", one.as_channels},
+          {"where_it_acts", locality_json(one.locality)},
           {"rivals", rivals}};
 }
 
@@ -75,6 +86,9 @@ Finding finding_from(const json& row) {
   one.without = {row.at("nrmse_fit_without"), row.at("nrmse_heldout_without")};
   one.share_of_misfit = row.at("share_of_misfit");
   one.as_channels = row.at("as_channels_show");
+  if (const json where = row.value("where_it_acts", json()); where.is_object()) {
+    one.locality = {where.at("share_of_samples"), where.at("squares_without"), where.at("squares"), where.at("floor")};
+  }
   for (const json& rival : row.at("rivals")) {
     one.contenders.push_back(contender_from(rival));
   }

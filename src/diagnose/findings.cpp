@@ -91,6 +91,7 @@ Findings findings_of(const Search& search, const Circumstances& known) {
     one.evidence = found.evidence;
     one.without = {found.without.cost, found.without.heldout};
     one.share_of_misfit = found.share_of_misfit;
+    one.locality = found.locality;
     one.as_channels = found.id == channel_lag && as_channels_show(search.augmented, known);
     for (const Rival& rival : found.rivals) {
       one.contenders.push_back(contender_of(rival, found, search, known));

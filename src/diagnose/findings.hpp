@@ -55,6 +55,7 @@ struct Finding {
   Errors without;         // of the final hypothesis less this effect, refitted
   double share_of_misfit = 0.0;
   bool as_channels = false;           // as of a contender
+  std::optional<Locality> locality;   // of an effect that acts in a part of the stroke
   std::vector<Contender> contenders;  // best first
 };
 

@@ -48,6 +48,8 @@ bool is_of_place(const std::string& effect) {
   return std::ranges::find(ids, effect) != ids.end();
 }
 
+bool acts_in_a_part(const std::string& effect) { return effect == "end-stop"; }
+
 bool has_one_form(const std::string& effect) {
   constexpr std::array<std::string_view, 4> ids = {"offset-force", "linear-stiffness", "viscous-damping", "inertia"};
   return std::ranges::find(ids, effect) != ids.end();

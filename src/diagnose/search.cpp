@@ -356,6 +356,11 @@ Search search(const Workbench& bench, const Workbench& fine, const Hypothesis& b
   progress(0.8, "fitting the augmented model to more samples");
   result.effective = course.effective;
   result.quick_augmented = current;
+  for (Found& found : result.found) {
+    if (acts_in_a_part(found.id)) {
+      found.locality = locality_of(bench, current, found.without, found.id);
+    }
+  }
   result.augmented = current.what == base ? result.base : fine.polished(current, screening_rounds);
   result.misfit = misfit_of(fine, result.augmented);
   for (Found& found : result.found) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "diagnose/locality.hpp"
 #include "diagnose/misfit.hpp"
 #include "diagnose/stage.hpp"
 #include "diagnose/withstand.hpp"
@@ -25,9 +26,10 @@ struct Found {
   Fit without;        // the final hypothesis less this effect, refitted
   double gain = 0.0;  // squares without - squares with
   double evidence = 0.0;
-  double share_of_misfit = 0.0;  // of the base's structure
-  std::vector<Rival> rivals;     // all that were refitted in its place, best first
-  std::string by_law = {};       // the parameter whose richer law in the drive shows the effect, where one does
+  double share_of_misfit = 0.0;           // of the base's structure
+  std::vector<Rival> rivals;              // all that were refitted in its place, best first
+  std::optional<Locality> locality = {};  // of an effect that acts in a part of the stroke
+  std::string by_law = {};  // the parameter whose richer law in the drive shows the effect, where one does
 };
 
 struct Search {

@@ -16,6 +16,9 @@ constexpr double dominant = 10.0;
 // the gain: then it does not make up for what the one law lacks.
 constexpr double dominant_behind_both = 4.0;
 constexpr double needed_share = 0.5;
+// ... or where it acts, if that is at most this part of the samples and it was set against rivals: the rest of the
+// stroke says nothing of an effect that does nothing there ...
+constexpr double most_of_the_samples = 0.25;
 // ... and this part of all that stays: quantisation and rig leave traces of that size.
 constexpr double least_gain_over_noise = 0.05;
 // What stays tells that where the motion predicts this share of it, or where more than so many effects are needed:
@@ -97,7 +100,7 @@ Errors shares(const Finding& found, const Errors& augmented) {
 // they do not excite.
 bool confirmed(const Finding& found, const Errors& augmented, double sure) {
   const Errors share = shares(found, augmented);
-  if (found.evidence > sure && share.heldout > -0.002) {
+  if (found.evidence > sure && share.heldout > -std::max(0.002, 0.05 * share.fit)) {
     return true;
   }
   return share.fit > plain_gain ? share.heldout > -0.01 : share.heldout > confirmed_part * share.fit;
@@ -128,6 +131,15 @@ bool is_told(const Finding& found, const Findings& findings, const Standard& sta
 bool needed_behind_another_law(const Finding& found, const Findings& findings) {
   return found.id == findings.tried && std::ranges::any_of(findings.trials, is_of_another_law) &&
          std::ranges::all_of(findings.trials, [](const Trial& trial) { return trial.share > needed_share; });
+}
+
+// Whether the effect dominates where it acts.
+bool dominates_its_part(const Finding& found) {
+  if (!found.locality || found.contenders.empty() || found.locality->share > most_of_the_samples) {
+    return false;
+  }
+  const Locality& part = *found.locality;
+  return part.before - part.after > dominant * std::max(part.after - part.noise, 0.0);
 }
 
 // Whether the effect, found beside those named already, is more than a trace and more than the shape of another.
@@ -163,7 +175,8 @@ bool deserves_a_name(const Finding& found, const Findings& findings, const Stand
   const double dominance = needed_behind_another_law(found, findings)
                                ? std::min(standard.dominance, dominant_behind_both)
                                : standard.dominance;
-  return told || found.gain > std::max(dominance * standard.excess, least_gain_over_noise * findings.misfit.squares);
+  const bool dominates = found.gain > dominance * standard.excess || dominates_its_part(found);
+  return told || (dominates && found.gain > least_gain_over_noise * findings.misfit.squares);
 }
 
 // How the contenders for an effect's place fare.

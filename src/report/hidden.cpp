@@ -54,8 +54,8 @@ std::string hidden_markdown(const json& result) {
     text +=
         "## Hidden effects\n\nShare: RMS of the change over RMS of the force; for compliance and clearance, deflection "
         "over the smallest amplitude.\nA name is wrong when it neither was hidden nor stands for the recordings as "
-        "they are; an effect in the model was not named, as what stays\nunexplained may be its cause, but is in the "
-        "augmented model, and not in that of the recordings as they are.\n\n";
+        "they are. In the model: without a name, as what stays\nunexplained may be its cause, but in the augmented "
+        "model, and not in that of the recordings as they are.\n\n";
     text += markdown_table(
         {"hidden", "share", "verdict", "named", "candidates", "outcome", "held out before", "held out after"}, hidden);
     text += "\n## Their parameters\n\n";

@@ -61,6 +61,23 @@ TEST(Verdict, FarFromTheNoiseOnlyADominantEffectIsNamed) {
   EXPECT_EQ(verdict_of(search_of("inertia", left, 20.0 * 15.0 * floor_squares, true), plain).word, "missing-physics");
 }
 
+TEST(Verdict, AnEffectOfTheEndsOfTheStrokeIsJudgedByWhatStaysThere) {
+  // On the whole it takes off twice what stays.
+  const double left = 16.0 * floor_squares;
+  Search search = search_of("end-stop", left, 2.0 * 15.0 * floor_squares, true);
+  const auto word = [&](double share, double before, std::vector<Rival> rivals) {
+    search.found[0].locality = Locality{share, before, 2.0, 1.0};
+    search.found[0].rivals = std::move(rivals);
+    return verdict_of(search, plain).word;
+  };
+  const std::vector<Rival> beaten = {rival("cubic-stiffness", 0.2, 500.0)};
+  EXPECT_EQ(word(0.1, 30.0, beaten), "missing-physics");
+  EXPECT_EQ(word(0.1, 10.0, beaten), "unattributed") << "much stays where it acts";
+  EXPECT_EQ(word(0.5, 30.0, beaten), "unattributed") << "it acts nearly everywhere";
+  EXPECT_EQ(word(0.1, 30.0, {}), "unattributed") << "it was set against nothing";
+  EXPECT_EQ(word(0.1, 30.0, {rival("cubic-stiffness", 0.9, 500.0)}), "ambiguous");
+}
+
 TEST(Verdict, ARivalIsExcludedByWhatItLeavesUnexplained) {
   for (const auto& [share, left, word] :
        {std::tuple{0.99, 1.2, "ambiguous"}, std::tuple{0.95, 1.2, "missing-physics"},
@@ -342,6 +359,7 @@ TEST(Verdict, TheChannelsTellALagOfTheVelocityFromADelayOfTheForce) {
 TEST(Verdict, IsTheSameFromItsWrittenEvidence) {
   Search search = search_of("gas-spring", 1.1 * floor_squares, 50.0 * floor_squares);
   search.found[0].rivals = {rival("offset-force", 1.0, 8.0), rival("linear-stiffness", 0.3, 3000.0)};
+  search.found[0].locality = Locality{0.1, 30.0, 2.0, 1.0};
   search.further = 4.0;
   search.misfit.evenness = {0.01, 0.02};
   search.tried = "gas-spring";
