@@ -181,7 +181,7 @@ std::vector<Tried> rivals_of(const Course& course, const Found& found, const std
     }
   }
   std::vector<Tried> rivals = stage(course.bench, found.without, others, course.effective, &course.current);
-  if (without(course.current.what, found.id) == course.base && !course.stages.empty()) {
+  if (same_parts(found.without.what, course.base) && !course.stages.empty()) {
     for (const Tried& tried : course.stages.front()) {
       const auto again = std::ranges::find(rivals, tried.id, &Tried::id);
       if (again == rivals.end()) {
@@ -218,17 +218,42 @@ std::optional<Fit> contested(Course& course, Found& found, const std::vector<std
   return better;
 }
 
+// The effects of a hypothesis, and its richer laws, each once however many orders it has more.
+std::vector<std::string> parts_of(const Hypothesis& what) {
+  std::vector<std::string> parts = what.effects;
+  for (const std::string& name : what.richer) {
+    if (std::ranges::find(parts, "law:" + name) == parts.end()) {
+      parts.push_back("law:" + name);
+    }
+  }
+  return parts;
+}
+
+// A richer law taken out with all its orders, of which the highest may add little to the others; any other part as it
+// was.
+Found taken_out_wholly(const Course& course, Found found) {
+  if (!is_law(found.id)) {
+    return found;
+  }
+  const std::string name = found.id.substr(4);
+  std::string orders = found.id;
+  for (auto k = std::ranges::count(course.current.what.richer, name); k > 1; --k) {
+    orders += "," + name;
+  }
+  if (orders != found.id) {
+    found = taken_out(course, orders);
+    found.id = "law:" + name;
+  }
+  return found;
+}
+
 // Every part of the current model taken out in turn, until none is found that stopped helping; such a one is dropped.
 std::vector<Found> worth_their_place(Course& course) {
   std::vector<Found> result;
   for (bool dropped = true; dropped;) {
     dropped = false;
     result.clear();
-    std::vector<std::string> parts = course.current.what.effects;
-    for (const std::string& name : course.current.what.richer) {
-      parts.push_back("law:" + name);
-    }
-    for (const std::string& id : parts) {
+    for (const std::string& id : parts_of(course.current.what)) {
       Found found = taken_out(course, id);
       if (found.evidence < least_evidence_of_a_place ||
           found.gain < least_gain_of_a_place * squared(found.without.cost)) {
@@ -236,7 +261,7 @@ std::vector<Found> worth_their_place(Course& course) {
         dropped = true;
         break;
       }
-      result.push_back(std::move(found));
+      result.push_back(taken_out_wholly(course, std::move(found)));
     }
   }
   return result;

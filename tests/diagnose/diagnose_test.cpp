@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 #include "diagnose/evidence.hpp"
@@ -211,16 +212,17 @@ TEST(Diagnosis, DoesNotCallAForceCompleteThatASupplyScales) {
   EXPECT_TRUE(diagnosis->verdict.effects.empty());
 }
 
-TEST(Diagnosis, WithoutANameTheModelStillLearnsTheCurveOfTheDrive) {
-  // Yield force and damping rise with the current by one curve, steep in the middle, that no effect is.
+// Two sines at each of five currents from 0 to 1 A of a Bouc-Wen damper whose yield force and damping follow curves of
+// the current.
+std::unique_ptr<Diagnosis> diagnosis_of_curves(const std::function<double(double)>& yield_force,
+                                               const std::function<double(double)>& damping) {
   Campaign campaign;
   for (int level = 0; level < 5; ++level) {
     const double current = 0.25 * level;
-    const double curve = 0.2 + current * current * (3.0 - 2.0 * current);
     for (const double frequency : {0.7, 2.2}) {
       LayoutOptions made;
-      made.fix = {{"alpha", 600.0 * curve},
-                  {"c0", 1500.0 * curve},
+      made.fix = {{"alpha", yield_force(current)},
+                  {"c0", damping(current)},
                   {"k0", 0.0},
                   {"f0", 0.0},
                   {"x_y", 8e-4},
@@ -242,7 +244,14 @@ TEST(Diagnosis, WithoutANameTheModelStillLearnsTheCurveOfTheDrive) {
   options.seed = seed;
   options.candidates = {"inertia", "force-drift"};
   options.layout.by_current = {{"alpha", 1}, {"c0", 1}};
-  const auto diagnosis = diagnose(campaign, options, [](double, const std::string&) {});
+  return diagnose(campaign, options, [](double, const std::string&) {});
+}
+
+TEST(Diagnosis, WithoutANameTheModelStillLearnsTheCurveOfTheDrive) {
+  // One curve, steep in the middle, that no effect is.
+  const auto curve = [](double current) { return 0.2 + current * current * (3.0 - 2.0 * current); };
+  const auto diagnosis = diagnosis_of_curves([&](double current) { return 600.0 * curve(current); },
+                                             [&](double current) { return 1500.0 * curve(current); });
   EXPECT_EQ(diagnosis->verdict.word, "unattributed");
   EXPECT_TRUE(diagnosis->verdict.effects.empty());
   const std::vector<std::string>& richer = diagnosis->search.augmented.what.richer;
@@ -250,6 +259,21 @@ TEST(Diagnosis, WithoutANameTheModelStillLearnsTheCurveOfTheDrive) {
   EXPECT_EQ(std::ranges::count(richer, "c0"), 2);
   EXPECT_LT(diagnosis->search.augmented.heldout, 1.2 * diagnosis->noise_floor_heldout);
   EXPECT_GT(diagnosis->search.base.heldout, 4.0 * diagnosis->noise_floor_heldout);
+}
+
+TEST(Diagnosis, ALawThatNeedsTwoMoreOrdersIsOneFinding) {
+  // A yield force that saturates early, beyond what one more order follows.
+  const auto diagnosis = diagnosis_of_curves([](double current) { return 100.0 + 700.0 * std::tanh(current / 0.35); },
+                                             [](double current) { return 1000.0 + 500.0 * current; });
+  const std::vector<std::string>& richer = diagnosis->search.augmented.what.richer;
+  ASSERT_EQ(std::ranges::count(richer, "alpha"), 2);
+  ASSERT_EQ(diagnosis->search.found.size(), 1U);
+  const Search& search = diagnosis->search;
+  EXPECT_EQ(search.found[0].id, saturation);
+  // Without any of its orders the law is that of the base.
+  EXPECT_NEAR(search.found[0].gain, squared(search.quick_base.cost) - squared(search.quick_augmented.cost),
+              1e-3 * search.found[0].gain);
+  EXPECT_EQ(diagnosis->verdict.word, "missing-physics");
 }
 
 TEST(Diagnosis, RecordHoldsWhatTheContractNames) {
