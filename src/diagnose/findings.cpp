@@ -39,6 +39,11 @@ bool stands_apart(const Fit& fit, const std::string& wider, const std::string& p
 // Whether the effect ends as the other one: the parameter that tells them apart has no interval, or one that reaches
 // the end of its box where they are the same.
 bool ends_as(const Fit& fit, const std::string& effect, const std::string& other, const Circumstances& known) {
+  if (const std::string parameter = upper_bound_parameter(effect, other); !parameter.empty()) {
+    return std::ranges::any_of(known.intervals(fit, effect), [&](const ParameterInterval& row) {
+      return row.name == parameter && row.bound == "upper";
+    });
+  }
   const std::string parameter = bound_parameter(effect, other);
   if (parameter.empty()) {
     return false;

@@ -28,8 +28,10 @@ bool is_limit(const std::string& effect, const std::string& wider);
 // The parameter of `wider` that is zero at that limit; empty where none is, or where it is no limit.
 std::string limit_parameter(const std::string& effect, const std::string& wider);
 
-// The parameter of `effect` with which, at an end of its box, the effect is `other`; empty where there is none.
+// The parameter of `effect` with which, at the lower or at the upper end of its box, the effect is `other`; empty where
+// there is none.
 std::string bound_parameter(const std::string& effect, const std::string& other);
+std::string upper_bound_parameter(const std::string& effect, const std::string& other);
 
 // Whether the law has the effect as a linear parameter of its own, as a stiffness or an offset.
 bool is_part_of(const std::string& effect, const std::string& law);

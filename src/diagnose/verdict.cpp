@@ -202,7 +202,7 @@ Contest contest_for(const Finding& found, const Findings& findings, const Standa
         structured(findings.misfit) && !bound_parameter(found.id, rival.id).empty() && rival.share > astray_share;
     const bool close = unsure || (!refuted && (rival.share > 1.0 - margin || rival.evidence < ahead)) || rival.ended_as;
     // What holds the effect as a limit always explains as much; only more than its further parameters are worth counts.
-    if (is_limit(found.id, rival.id) && (rival.evidence > 0.0 || (close && !rival.apart))) {
+    if (is_limit(found.id, rival.id) && !rival.ended_as && (rival.evidence > 0.0 || (close && !rival.apart))) {
       continue;
     }
     if (!close) {

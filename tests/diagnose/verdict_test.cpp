@@ -335,6 +335,18 @@ TEST(Verdict, AnEffectThatEndsAsAnotherIsNotToldFromIt) {
   EXPECT_EQ(verdict.effects[0].indistinguishable_from, std::vector<std::string>{"clearance"});
 }
 
+TEST(Verdict, AFrictionThatTurnsOverAsSlowlyAsItCanIsNotToldFromShearThinning) {
+  Search search = search_of("coulomb-friction", 1.1 * floor_squares, 20.0 * floor_squares);
+  search.found[0].rivals = {rival("shear-thinning", 1.03, 4.0)};
+  const auto film = [](const std::string& bound) {
+    return knowing({{"fc", "N", 20.0, 2.0}, {"v_t", "m/s", 0.03, {}, bound}});
+  };
+  EXPECT_EQ(verdict_of(search, film("lower")).word, "missing-physics");
+  const Verdict verdict = verdict_of(search, film("upper"));
+  ASSERT_EQ(verdict.word, "ambiguous");
+  EXPECT_EQ(verdict.effects[0].indistinguishable_from, std::vector<std::string>{"shear-thinning"});
+}
+
 TEST(Verdict, TheChannelsTellALagOfTheVelocityFromADelayOfTheForce) {
   // The recorded velocity comes 5 ms late.
   const ChannelLag channel{5e-3, 1e-5};
