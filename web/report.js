@@ -750,7 +750,7 @@ function diagnosisSection() {
   if (isNumber(base.noise_floor_nrmse)) nrmse.push(["Noise floor of the recordings", base.noise_floor_nrmse, base.noise_floor_heldout_nrmse ?? null]);
   parts.push(plainTable("NRMSE before and after", [{ title: "", head: true }, { title: "Fitted recordings", num: true }, { title: "Held-out recordings", num: true }],
     nrmse.map(([name, a, b]) => [name, fmt(a, 3), fmt(b, 3)])));
-  if (d.augmented && d.augmented.remaining_structure) parts.push(el("p", {}, d.effects.length ? "The residual still holds structure: the effects named are not the whole story." : "The residual still holds structure."));
+  if (d.augmented && d.augmented.remaining_structure) parts.push(el("p", {}, list(d.effects).length ? "The residual still holds structure: the effects named are not the whole story." : "The residual still holds structure."));
   for (const e of list(d.effects)) {
     const before = isNumber(e.nrmse_heldout_before) && isNumber(e.nrmse_heldout_after)
       ? `Held-out NRMSE ${fmt(e.nrmse_heldout_before, 3)} → ${fmt(e.nrmse_heldout_after, 3)}. ` : "";
