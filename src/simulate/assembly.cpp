@@ -120,7 +120,7 @@ class Assembly {
     auto result = little < Value(0.0);
     for (const Link& link : links_) {
       if (link.operations->settles < 0) continue;
-      const auto k = static_cast<std::size_t>(link.state + link.operations->settles);
+      const auto k = static_cast<std::size_t>(link.state) + static_cast<std::size_t>(link.operations->settles);
       result = result | (detail::rests(value_of(before[k])) & (abs(value_of(now[k])) > little));
     }
     return result;
@@ -379,7 +379,12 @@ void advance(const Assembly<T>& system, const value_t<T>& h, const Input<T>& mid
              const States<T>& state, Room<T>& room) {
   using Value = value_t<T>;
   const auto count = static_cast<std::size_t>(system.states());
-  auto& [start, k2, k3, k4, trial, next] = room;
+  typename Assembly<T>::Start& start = room.start;
+  States<T>& k2 = room.k2;
+  States<T>& k3 = room.k3;
+  States<T>& k4 = room.k4;
+  States<T>& trial = room.trial;
+  States<T>& next = room.next;
   const auto shift = [&](const Value& step, const States<T>& k) {
     for (std::size_t i = 0; i < count; ++i) {
       trial[i] = detail::scaled_sum(step, k[i], state[i]);
