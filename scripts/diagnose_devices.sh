@@ -21,8 +21,7 @@ diagnose() {
   printf '\n## %s\n\n    hysteron diagnose %s %s --out out\n\n```\n' "$title" "${data/$folder/RECORDINGS}" "$*"
   "$program" diagnose "$data" "$@" --out "$folder/out" --quiet | sed '/^report:/d'
   printf '```\n'
-  if command -v chromium > /dev/null; then
-    scripts/make_picture.py "$folder/out/report.html" "$(dirname "$page")/$picture" > /dev/null
+  if scripts/make_picture.py "$folder/out/report.html" "$(dirname "$page")/$picture" > /dev/null; then
     printf '\n![Places of the misfit, before and after](%s)\n' "$picture"
   fi
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnose/misfit.hpp"
 #include "diagnose/noise.hpp"
 
 namespace hysteron {
@@ -44,8 +45,8 @@ Locality locality_of(const Workbench& bench, const Fit& with, const Fit& without
       counted += 1.0;
       if (std::fabs(neutral.force[n] - after.force[n]) > acting * norm) {
         acted += 1.0;
-        result.after += std::pow(after.force[n] / norm, 2);
-        result.before += std::pow(before.force[n] / norm, 2);
+        result.after += squared(after.force[n] / norm);
+        result.before += squared(before.force[n] / norm);
         result.noise += noise * noise;
       }
     }

@@ -36,6 +36,11 @@ constexpr double sure_evidence = 3.0;
 constexpr double borne_out = 0.05;
 // Effects that only make up for each other take off more one by one than all together: at most so many times as much.
 constexpr double most_over_all = 3.0;
+// What judging recordings may lose to an effect that they do not excite: this share of the squared error, or this part
+// of the share that it takes off the fitted ones; and beside a plain gain this share.
+constexpr double harmless = 0.002;
+constexpr double harmless_part = 0.05;
+constexpr double harmless_beside_much = 0.01;
 // A gain below this share of the squared error must show in the judging recordings too, by this part of it.
 constexpr double plain_gain = 0.3;
 constexpr double confirmed_part = 0.25;
@@ -100,10 +105,10 @@ Errors shares(const Finding& found, const Errors& augmented) {
 // they do not excite.
 bool confirmed(const Finding& found, const Errors& augmented, double sure) {
   const Errors share = shares(found, augmented);
-  if (found.evidence > sure && share.heldout > -std::max(0.002, 0.05 * share.fit)) {
+  if (found.evidence > sure && share.heldout > -std::max(harmless, harmless_part * share.fit)) {
     return true;
   }
-  return share.fit > plain_gain ? share.heldout > -0.01 : share.heldout > confirmed_part * share.fit;
+  return share.fit > plain_gain ? share.heldout > -harmless_beside_much : share.heldout > confirmed_part * share.fit;
 }
 
 // Whether the effect only makes up for what the others do.

@@ -287,9 +287,10 @@ TEST(Series, ANeighbourWithNanDoesNotStopTheOthers) {
   }
 }
 
-// Velocities that pass zero within rounding of a sample leave an interval without room for a step.
+// Velocities that pass zero within rounding of a sample leave an interval without room for the shortest step, which is
+// taken where a candidate is too stiff to be followed.
 TEST(Series, AReversalWithinRoundingOfASampleIsPassed) {
-  Motion motion = sine(100.0, 0.3);
+  Motion motion = comparing_motion(sine(100.0, 0.3));
   std::size_t placed = 0;
   for (MotionInterval& interval : motion.intervals) {
     if (interval.reversal) {
@@ -300,11 +301,9 @@ TEST(Series, AReversalWithinRoundingOfASampleIsPassed) {
   ASSERT_GT(placed, 0U);
   for (const std::string& id : elements) {
     const CompositeModel model = make_model("bouc-wen", {id});
-    Vector p = with(model, {{"alpha", 2000.0}, {"x_y", 1e-5}});
+    Vector p = with(model, {{"alpha", 2000.0}, {"x_y", 1e-25}});
     p[model.law->parameters.size()] = model.effects[0]->parameters[0].upper;
-    for (const Motion& one : {motion, comparing_motion(motion)}) {
-      EXPECT_EQ(simulate(model, one, p).size(), motion.time.size()) << id;
-    }
+    EXPECT_EQ(simulate(model, motion, p).size(), motion.time.size()) << id;
   }
 }
 
