@@ -733,7 +733,7 @@ function stagesSection() {
 // ------------------------------------------------------------------------------------------------------------- diagnosis
 
 const verdictWords = {
-  complete: "Complete: what is left of the residual is noise.",
+  complete: "Complete: what is left cannot be told from noise.",
   "missing-physics": "Physics is missing from the base model.",
   ambiguous: "Ambiguous: something is missing, and these data cannot tell the candidates apart.",
   unattributed: "Unattributed: something is missing that no known effect explains.",

@@ -9,6 +9,7 @@
 #include "app/model_file.hpp"
 #include "app/page.hpp"
 #include "core/error.hpp"
+#include "diagnose/account.hpp"
 #include "diagnose/record.hpp"
 #include "io/output.hpp"
 #include "report/html.hpp"
@@ -34,7 +35,9 @@ struct Options {
 std::string explanation(const Diagnosis& diagnosis) {
   const std::string& word = diagnosis.verdict.word;
   if (word == "complete") {
-    return "Nothing but noise is left: the base model is complete for these recordings.";
+    return above_noise_floor(diagnosis)
+               ? "What is left cannot be told from noise: the base model is complete as far as these recordings tell."
+               : "Nothing but noise is left: the base model is complete for these recordings.";
   }
   if (word == "missing-physics") {
     return diagnosis.verdict.remaining_structure ? "Physics is missing; what is named below is not the whole story."

@@ -14,6 +14,8 @@ namespace {
 
 // The held-out recordings show an effect that takes this much off their error.
 constexpr double shown_by_judges = 0.98;
+// Times the noise floor above which more is left than an estimate of the noise is wrong by.
+constexpr double clear_of_floor = 1.2;
 
 std::string title_of(const std::string& effect) {
   const Part* part = find_effect(effect);
@@ -198,9 +200,23 @@ std::string experiment_after(const Verdict& verdict) {
   return "none is needed for this model; effects listed as not observable need their own recordings";
 }
 
+bool above_noise_floor(const Diagnosis& diagnosis) {
+  const Fit& left = diagnosis.search.augmented;
+  return left.cost > clear_of_floor * diagnosis.noise_floor ||
+         left.heldout > clear_of_floor * diagnosis.noise_floor_heldout;
+}
+
 void note_verdict(Diagnosis& diagnosis) {
   if (!diagnosis.verdict.reason.empty()) {
     diagnosis.notes.push_back(diagnosis.verdict.reason);
+  }
+  if (diagnosis.verdict.word == "complete" && above_noise_floor(diagnosis)) {
+    diagnosis.notes.push_back(
+        fmt::format("what is left is {:.2f} times the noise floor, {:.2f} times on the held-out recordings; too little "
+                    "of it is seen "
+                    "to follow the motion to tell it from slow noise, of which the floor misses a part",
+                    diagnosis.search.augmented.cost / diagnosis.noise_floor,
+                    diagnosis.search.augmented.heldout / diagnosis.noise_floor_heldout));
   }
   if (diagnosis.verdict.word == "unattributed" && !diagnosis.search.augmented.what.effects.empty()) {
     diagnosis.notes.push_back("the augmented model uses " + joined(diagnosis.search.augmented.what.effects, " and ") +

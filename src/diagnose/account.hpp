@@ -21,6 +21,8 @@ bool is_named(const Verdict& verdict, const std::string& effect);
 std::vector<Rejected> rejected_of(const Diagnosis& diagnosis);
 // A recording that would decide or confirm.
 std::string experiment_after(const Verdict& verdict);
+// Whether the augmented model leaves clearly more than the noise floor, fitted or held out.
+bool above_noise_floor(const Diagnosis& diagnosis);
 // Adds why the verdict is what it is, and what the augmented model holds without being offered as a cause.
 void note_verdict(Diagnosis& diagnosis);
 

@@ -116,6 +116,10 @@ json findings_json(const Findings& findings) {
           {"nrmse_augmented", {findings.augmented.fit, findings.augmented.heldout}},
           {"base", misfit_json(findings.base_misfit)},
           {"augmented", misfit_json(findings.misfit)},
+          {"recurrence",
+           {{"share", findings.recurrence.share},
+            {"mean_by_chance", findings.recurrence.mean_by_chance},
+            {"most_by_chance", findings.recurrence.most_by_chance}}},
           {"squares_compared", {findings.quick_base, findings.quick_augmented}},
           {"richer_laws", findings.richer},
           {"found", found},
@@ -133,6 +137,8 @@ Findings findings_from(const json& row) {
   result.augmented = {row.at("nrmse_augmented").at(0), row.at("nrmse_augmented").at(1)};
   result.base_misfit = misfit_from(row.at("base"));
   result.misfit = misfit_from(row.at("augmented"));
+  const json& recurrence = row.at("recurrence");
+  result.recurrence = {recurrence.at("share"), recurrence.at("mean_by_chance"), recurrence.at("most_by_chance")};
   result.quick_base = row.at("squares_compared").at(0);
   result.quick_augmented = row.at("squares_compared").at(1);
   result.richer = row.at("richer_laws");

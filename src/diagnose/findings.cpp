@@ -36,21 +36,20 @@ bool stands_apart(const Fit& fit, const std::string& wider, const std::string& p
   return at != intervals.end() && at->half_width && std::fabs(at->value) > *at->half_width;
 }
 
-// Whether the effect ends as the other one: the parameter that tells them apart has no interval, or one that reaches
-// the end of its box where they are the same.
+// Whether the effect ends as the other one: the parameter that tells them apart sits on the end of its box where they
+// are the same, or, at the lower end, has no interval or one that reaches it.
 bool ends_as(const Fit& fit, const std::string& effect, const std::string& other, const Circumstances& known) {
-  if (const std::string parameter = upper_bound_parameter(effect, other); !parameter.empty()) {
-    return std::ranges::any_of(known.intervals(fit, effect), [&](const ParameterInterval& row) {
-      return row.name == parameter && row.bound == "upper";
-    });
-  }
-  const std::string parameter = bound_parameter(effect, other);
-  if (parameter.empty()) {
+  const BoxLimit* limit = box_limit(effect, other);
+  if (limit == nullptr) {
     return false;
   }
   const std::vector<ParameterInterval> intervals = known.intervals(fit, effect);
-  const auto at = std::ranges::find(intervals, parameter, &ParameterInterval::name);
-  return at != intervals.end() && (!at->half_width || at->value - *at->half_width <= at->lower);
+  const auto at = std::ranges::find(intervals, limit->parameter, &ParameterInterval::name);
+  if (at == intervals.end()) {
+    return false;
+  }
+  return limit->end == BoxEnd::upper ? at->bound == "upper"
+                                     : !at->half_width || at->value - *at->half_width <= at->lower;
 }
 
 // A parameter that follows the drive in the base model.
@@ -73,7 +72,7 @@ Contender contender_of(const Rival& rival, const Found& found, const Search& sea
   }
   row.ended_as = ends_as(search.augmented, found.id, rival.id, known);
   row.as_channels = rival.id == channel_lag && as_channels_show(rival.fit, known);
-  row.follows_drive = is_law(rival.id) && follows_drive(search.base, rival.id.substr(4));
+  row.follows_drive = is_law(rival.id) && follows_drive(search.base, parameter_of_law(rival.id));
   return row;
 }
 
@@ -86,6 +85,7 @@ Findings findings_of(const Search& search, const Circumstances& known) {
   result.augmented = {search.augmented.cost, search.augmented.heldout};
   result.base_misfit = search.base_misfit;
   result.misfit = search.misfit;
+  result.recurrence = search.recurrence;
   result.quick_base = squared(search.quick_base.cost);
   result.quick_augmented = squared(search.quick_augmented.cost);
   result.richer = !search.richer.empty();

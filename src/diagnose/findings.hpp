@@ -73,6 +73,7 @@ struct Findings {
   Errors augmented;
   Misfit base_misfit;
   Misfit misfit;
+  Recurrence recurrence;    // of what the augmented model leaves; looked at only where something was found
   double quick_base = 0.0;  // squares, as the comparison saw them
   double quick_augmented = 0.0;
   bool richer = false;            // the augmented model has a richer law

@@ -71,24 +71,17 @@ constexpr std::array<Limit, 7> limits = {{{"offset-force", "gas-spring", "g"},
                                           {"compliance", "clearance", "gap"},
                                           {"cubic-stiffness", "end-stop", "x_up"}}};
 
-// At the lower end of its box a parameter makes `wider` the effect: a gas that is compressed by next to no force is a
-// play, damping that thins out entirely is a friction.
-constexpr std::array<Limit, 2> limits_at_bounds = {
-    {{"clearance", "entrapped-gas", "f_a"}, {"coulomb-friction", "shear-thinning", "m"}}};
-// At the upper end: a friction that turns over as slowly as it can is a damping that thins out.
-constexpr std::array<Limit, 2> limits_at_upper_bounds = {
-    {{"shear-thinning", "coulomb-friction", "v_t"}, {"shear-thinning", "seal-friction", "v_t"}}};
+// A gas that is compressed by next to no force is a play, damping that thins out entirely is a friction, and a friction
+// that turns over as slowly as it can is a damping that thins out.
+constexpr std::array<BoxLimit, 4> box_limits = {{{"entrapped-gas", "clearance", "f_a", BoxEnd::lower},
+                                                 {"shear-thinning", "coulomb-friction", "m", BoxEnd::lower},
+                                                 {"coulomb-friction", "shear-thinning", "v_t", BoxEnd::upper},
+                                                 {"seal-friction", "shear-thinning", "v_t", BoxEnd::upper}}};
 
 const Limit* find_limit(const std::string& effect, const std::string& wider) {
   const auto* at =
       std::ranges::find_if(limits, [&](const Limit& row) { return row.effect == effect && row.wider == wider; });
   return at == limits.end() ? nullptr : at;
-}
-
-std::string parameter_of(std::span<const Limit> rows, const std::string& effect, const std::string& other) {
-  const auto at =
-      std::ranges::find_if(rows, [&](const Limit& row) { return row.effect == other && row.wider == effect; });
-  return at == rows.end() ? std::string{} : std::string(at->parameter);
 }
 
 constexpr std::array<Kindred, 8> kindred_parameters = {{{"entrapped-gas.d_a", "clearance.gap", 2.0},
@@ -123,12 +116,10 @@ std::string limit_parameter(const std::string& effect, const std::string& wider)
   return limit == nullptr ? std::string{} : std::string(limit->parameter);
 }
 
-std::string bound_parameter(const std::string& effect, const std::string& other) {
-  return parameter_of(limits_at_bounds, effect, other);
-}
-
-std::string upper_bound_parameter(const std::string& effect, const std::string& other) {
-  return parameter_of(limits_at_upper_bounds, effect, other);
+const BoxLimit* box_limit(const std::string& effect, const std::string& other) {
+  const auto* at =
+      std::ranges::find_if(box_limits, [&](const BoxLimit& row) { return row.effect == effect && row.other == other; });
+  return at == box_limits.end() ? nullptr : at;
 }
 
 }  // namespace hysteron

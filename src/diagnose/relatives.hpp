@@ -28,10 +28,16 @@ bool is_limit(const std::string& effect, const std::string& wider);
 // The parameter of `wider` that is zero at that limit; empty where none is, or where it is no limit.
 std::string limit_parameter(const std::string& effect, const std::string& wider);
 
-// The parameter of `effect` with which, at the lower or at the upper end of its box, the effect is `other`; empty where
-// there is none.
-std::string bound_parameter(const std::string& effect, const std::string& other);
-std::string upper_bound_parameter(const std::string& effect, const std::string& other);
+// A parameter with which, at one end of its box, `effect` is `other`.
+enum class BoxEnd { lower, upper };
+struct BoxLimit {
+  std::string_view effect;
+  std::string_view other;
+  std::string_view parameter;
+  BoxEnd end;
+};
+// Null where there is none.
+const BoxLimit* box_limit(const std::string& effect, const std::string& other);
 
 // Whether the law has the effect as a linear parameter of its own, as a stiffness or an offset.
 bool is_part_of(const std::string& effect, const std::string& law);

@@ -222,8 +222,8 @@ std::optional<Fit> contested(Course& course, Found& found, const std::vector<std
 std::vector<std::string> parts_of(const Hypothesis& what) {
   std::vector<std::string> parts = what.effects;
   for (const std::string& name : what.richer) {
-    if (std::ranges::find(parts, "law:" + name) == parts.end()) {
-      parts.push_back("law:" + name);
+    if (const std::string id = law_of_parameter(name); std::ranges::find(parts, id) == parts.end()) {
+      parts.push_back(id);
     }
   }
   return parts;
@@ -235,14 +235,15 @@ Found taken_out_wholly(const Course& course, Found found) {
   if (!is_law(found.id)) {
     return found;
   }
-  const std::string name = found.id.substr(4);
-  std::string orders = found.id;
+  const std::string id = found.id;
+  const std::string name = parameter_of_law(id);
+  std::string orders = id;
   for (auto k = std::ranges::count(course.current.what.richer, name); k > 1; --k) {
     orders += "," + name;
   }
-  if (orders != found.id) {
+  if (orders != id) {
     found = taken_out(course, orders);
-    found.id = "law:" + name;
+    found.id = id;
   }
   return found;
 }
@@ -318,7 +319,7 @@ void name_laws(Search& result) {
     if (!is_law(found.id)) {
       return false;
     }
-    result.richer.push_back(found.id.substr(4));
+    result.richer.push_back(parameter_of_law(found.id));
     if (!saturates(result.base, result.augmented, result.richer.back())) {
       return true;
     }
@@ -388,6 +389,9 @@ Search search(const Workbench& bench, const Workbench& fine, const Hypothesis& b
   }
   result.augmented = current.what == base ? result.base : fine.polished(current, screening_rounds);
   result.misfit = misfit_of(fine, result.augmented);
+  if (!result.found.empty()) {
+    result.recurrence = recurrence_of(fine, result.augmented);
+  }
   for (Found& found : result.found) {
     if (found.without.what == base) {
       found.without = result.base;

@@ -9,6 +9,7 @@
 
 #include "diagnose/locality.hpp"
 #include "diagnose/misfit.hpp"
+#include "diagnose/recurrence.hpp"
 #include "diagnose/stage.hpp"
 #include "diagnose/withstand.hpp"
 
@@ -37,6 +38,7 @@ struct Search {
   Misfit base_misfit;
   Fit augmented;  // the base itself when nothing was found
   Misfit misfit;
+  Recurrence recurrence;            // of what the augmented model leaves
   std::vector<Found> found;         // effects of the augmented model, strongest first
   std::vector<std::string> richer;  // parameter laws that were made richer
   // As the comparison saw them, on the quick workbench.

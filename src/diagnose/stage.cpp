@@ -53,6 +53,10 @@ int highest_order(const std::vector<Recording>& recordings) {
 
 bool is_law(const std::string& id) { return id.starts_with(law_prefix); }
 
+std::string law_of_parameter(const std::string& parameter) { return std::string(law_prefix) + parameter; }
+
+std::string parameter_of_law(const std::string& id) { return parameters_of(id).front(); }
+
 Hypothesis with(const Hypothesis& what, const std::string& id) {
   Hypothesis result = what;
   if (is_law(id)) {
@@ -92,7 +96,7 @@ std::vector<std::string> law_candidates(const Workbench& bench, const Hypothesis
   const Layout layout = bench.layout(what);
   for (const ParameterLaw& law : layout.laws()) {
     if (static_cast<int>(law.drive_nodes.size()) <= highest) {
-      result.push_back(std::string(law_prefix) + layout.names()[law.parameter]);
+      result.push_back(law_of_parameter(layout.names()[law.parameter]));
     }
   }
   return result;

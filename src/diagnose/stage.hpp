@@ -29,6 +29,9 @@ struct Tried {
 // Whether an id of Tried, Rival or Found is of richer parameter laws: "law:PARAMETER,...", one order more for each time
 // a parameter is listed.
 bool is_law(const std::string& id);
+// The id of one order more for one parameter, and the first parameter of an id of laws.
+std::string law_of_parameter(const std::string& parameter);
+std::string parameter_of_law(const std::string& id);
 
 Hypothesis with(const Hypothesis& what, const std::string& id);
 Hypothesis without(const Hypothesis& what, const std::string& id);

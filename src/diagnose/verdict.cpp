@@ -87,7 +87,7 @@ Standard standard_of(const Findings& findings) {
   const Misfit& left = findings.misfit;
   Standard result{};
   result.excess = left.squares - left.floor;
-  result.settled = noise_like(left) && findings.found.size() <= most_effects;
+  result.settled = noise_like(left) && !recurs(findings.recurrence) && findings.found.size() <= most_effects;
   result.close = left.squares < near_noise * left.floor;
   const bool more_is_missing =
       left.predictable > predicted_share || (findings.found.size() > most_effects && !result.close);
@@ -203,8 +203,9 @@ Contest contest_for(const Finding& found, const Findings& findings, const Standa
     const bool refuted = rival.evidence > refuting_evidence / standard.honest &&
                          squared(rival.heldout / findings.augmented.heldout) > refuting_factor;
     // Where structure stays, one that ends as the other at a bound may be a descent gone astray of the other.
+    const BoxLimit* end = box_limit(found.id, rival.id);
     const bool unsure =
-        structured(findings.misfit) && !bound_parameter(found.id, rival.id).empty() && rival.share > astray_share;
+        structured(findings.misfit) && end != nullptr && end->end == BoxEnd::lower && rival.share > astray_share;
     const bool close = unsure || (!refuted && (rival.share > 1.0 - margin || rival.evidence < ahead)) || rival.ended_as;
     // What holds the effect as a limit always explains as much; only more than its further parameters are worth counts.
     if (is_limit(found.id, rival.id) && !rival.ended_as && (rival.evidence > 0.0 || (close && !rival.apart))) {
@@ -222,7 +223,7 @@ Contest contest_for(const Finding& found, const Findings& findings, const Standa
     } else if (!is_law(rival.id)) {
       result.as_good.push_back(k);
     } else if (found.id != saturation || !rival.follows_drive) {
-      result.laws_as_good.push_back(rival.id.substr(4));
+      result.laws_as_good.push_back(parameter_of_law(rival.id));
     }
   }
   result.lead = (1.0 - best_share) / margin;

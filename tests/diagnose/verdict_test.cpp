@@ -112,6 +112,11 @@ TEST(Verdict, WhatIsLikeNoiseInAllIsTheNoise) {
   Search shapes = search;
   shapes.found.resize(3, shapes.found.front());
   EXPECT_EQ(verdict_of(shapes, plain).word, "unattributed") << "three effects are the shape of something else";
+  for (const auto& [share, word] : {std::pair{0.012, "missing-physics"}, std::pair{0.016, "unattributed"}}) {
+    search.recurrence = {share, 0.006, 0.012};
+    EXPECT_EQ(verdict_of(search, plain).word, word) << "all recordings together show that it follows the motion";
+  }
+  search.recurrence = {};
   search.misfit.evenness = {0.04, 0.02};
   EXPECT_EQ(verdict_of(search, plain).word, "unattributed");
   // Where what further would help was not looked at, a twentieth of the noise is asked for in any case.
