@@ -781,8 +781,37 @@ function diagnosisSection() {
     parts.push(el("h3", {}, "Not observable in these data"), plainTable("Effects these recordings could not have shown", [{ title: "Effect", head: true }, { title: "Why, or the smallest size that would show" }],
       d.not_observable.map((x) => [x.id, prose(x.reason || x.detection_limit || "")])));
   }
+  parts.push(aliasMap(d.alias_map));
   if (d.next_experiment) parts.push(el("h3", {}, "Next experiment"), el("p", {}, d.next_experiment));
   return section("diagnosis", "Diagnosis", ...parts);
+}
+
+// Which effects look alike in these recordings: |cosine| of what they add to the force, in order of likeness so that
+// what is mistaken for one another stands together.
+function aliasMap(map) {
+  const names = list(map && map.effects);
+  if (names.length < 2) return null;
+  const order = [0];
+  while (order.length < names.length) {
+    // The one most like any of those placed follows, beside the rest of its group.
+    const last = order[order.length - 1];
+    const free = names.map((_, i) => i).filter((i) => !order.includes(i));
+    const near = (i) => Math.max(map.cosine[i][last], 0.8 * Math.max(...order.slice(-4).map((j) => map.cosine[i][j])));
+    order.push(free.reduce((a, b) => (near(b) > near(a) ? b : a)));
+  }
+  const [cell, left, top] = [18, 150, 140];
+  const size = names.length * cell;
+  const at = (k) => k * cell;
+  const marks = order.flatMap((i, row) => [
+    `<text x="${left - 6}" y="${top + at(row) + 13}" text-anchor="end">${esc(names[i])}</text>`,
+    `<text transform="translate(${left + at(row) + 13},${top - 6}) rotate(-90)">${esc(names[i])}</text>`,
+    ...order.map((j, column) => `<rect x="${left + at(column)}" y="${top + at(row)}" width="${cell - 1}" height="${cell - 1}" class="cell above" fill-opacity="${(map.cosine[i][j] ** 2).toFixed(3)}"><title>${esc(names[i])} and ${esc(names[j])}: ${fmt(map.cosine[i][j], 3)}</title></rect>`),
+  ]);
+  return [
+    el("h3", {}, "Which effects look alike in these recordings"),
+    el("p", { class: "muted" }, "What each effect adds to the force, less what the base model's parameters imitate of it, against what the others add: full colour where one is a multiple of the other (cosine 1; point at a field for its value), none where they have nothing in common. Recordings of another kind part what looks alike here."),
+    el("figure", { class: "plot wide" }, svgNode(`<svg viewBox="0 0 ${left + size} ${top + size}" style="max-width:${left + size}px" role="img" aria-label="Likeness of effects">${marks.join("")}</svg>`)),
+  ];
 }
 
 // What is left, of the base model and with the effects found: over displacement and velocity, and since reversal.

@@ -20,6 +20,8 @@ namespace {
 
 using nlohmann::json;
 
+constexpr std::size_t most_pairs_printed = 8;
+
 struct Options {
   DataOptions data;
   CommonOptions common;
@@ -100,6 +102,17 @@ void print_summary(const Diagnosis& diagnosis, const std::filesystem::path& out)
   }
   if (!hidden.empty()) {
     fmt::print("\nnot observable in these recordings:\n{}", hidden);
+  }
+  const std::vector<AlikePair> pairs = alike_pairs(diagnosis.alias);
+  if (!pairs.empty()) {
+    fmt::print("\nlook alike in these recordings, beside what {} imitates (cosine; all in the report):\n",
+               diagnosis.search.base.what.model);
+    for (std::size_t k = 0; k < std::min(pairs.size(), most_pairs_printed); ++k) {
+      fmt::print("- {} and {}: {:.3f}\n", pairs[k].effect, pairs[k].other, pairs[k].cosine);
+    }
+    if (pairs.size() > most_pairs_printed) {
+      fmt::print("- and {} more pairs above {}\n", pairs.size() - most_pairs_printed, alike_from);
+    }
   }
   fmt::print("\nnext experiment: {}\n", diagnosis.next_experiment);
   for (const std::string& note : diagnosis.notes) {

@@ -397,6 +397,7 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const Split& split
   for (Unobservable& row : detection_limits(fine, diagnosis.search.augmented, diagnosis.search.misfit, absent)) {
     diagnosis.not_observable.push_back(std::move(row));
   }
+  diagnosis.alias = alias_map(quick, diagnosis.search.base, searching.candidates);
   diagnosis.rejected = rejected_of(diagnosis);
   diagnosis.next_experiment = experiment_after(diagnosis.verdict);
   note_verdict(diagnosis);

@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 
+#include "diagnose/alias.hpp"
 #include "diagnose/drift.hpp"
 #include "diagnose/locate.hpp"
 #include "diagnose/observe.hpp"
@@ -45,6 +46,7 @@ struct Diagnosis {
   std::vector<std::string> sentences;                      // likewise
   std::vector<Rejected> rejected;
   std::vector<Unobservable> not_observable;
+  AliasMap alias;  // of the effects considered, beside the base model
   std::string next_experiment;
   std::vector<std::string> surprises;  // held-out recordings that miss by far more than every fitted one
   Fit final;                           // the augmented model fitted to everything that may be fitted

@@ -154,31 +154,19 @@ std::vector<Unobservable> detection_limits(const Workbench& bench, const Fit& fi
   for (std::size_t k = 0; k < effects.size(); ++k) {
     const std::string& id = effects[k];
     result[k].id = id;
-    Hypothesis what = fit.what;
-    what.effects.push_back(id);
-    const Layout layout = bench.layout(what);
-    // The fit's values, the effect at its neutral size but, where that hides its response, a little off it.
-    std::vector<double> point = layout.initial();
-    std::size_t size_at = layout.dimension();
-    for (std::size_t c = 0; c < layout.dimension(); ++c) {
-      const std::string& name = layout.names()[layout.coordinates()[c].parameter];
-      const bool fresh = name.starts_with(id + ".");
-      if (fresh && size_at == layout.dimension()) {
-        size_at = c;
-      }
-      if (!fresh) {
-        for (std::size_t f = 0; f < fit.layout->dimension(); ++f) {
-          const Coordinate& known = fit.layout->coordinates()[f];
-          if (fit.layout->names()[known.parameter] == name && known.node == layout.coordinates()[c].node) {
-            point[c] = fit.point[f];
-          }
-        }
-      }
+    const Fit with = bench.with_neutral(fit, id);
+    const Layout& layout = *with.layout;
+    std::vector<double> point = with.point;
+    std::size_t size_at = 0;
+    while (size_at < layout.dimension() &&
+           !layout.names()[layout.coordinates()[size_at].parameter].starts_with(id + ".")) {
+      ++size_at;
     }
     if (size_at == layout.dimension()) {
       result[k].reason = "its parameters are all held";
       continue;
     }
+    // The neutral size may hide the response: a little off it.
     point[size_at] = std::clamp(point[size_at] + (point[size_at] > 0.9 ? -0.02 : 0.02), 0.0, 1.0);
     const Response response = Objective(layout, bench.split().fit, bench.options()).evaluate({point, true});
     const auto d = static_cast<Eigen::Index>(layout.dimension());

@@ -93,6 +93,7 @@ json diagnosis_json(const Diagnosis& diagnosis) {
           {"locations", locations},
           {"rejected", rejected},
           {"not_observable", hidden},
+          {"alias_map", {{"effects", diagnosis.alias.effects}, {"cosine", diagnosis.alias.cosine}}},
           {"augmented",
            {{"model", search.augmented.what.model},
             {"effects", search.augmented.what.effects},

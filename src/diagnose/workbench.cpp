@@ -145,6 +145,16 @@ Layout Workbench::layout(const Hypothesis& what) const {
   return Layout(model, scale_, options);
 }
 
+Fit Workbench::with_neutral(const Fit& fit, const std::string& effect) const {
+  Fit result = fit;
+  result.what.effects.push_back(effect);
+  result.layout = std::make_shared<const Layout>(layout(result.what));
+  result.point = result.layout->initial();
+  take_over(fit, *result.layout, result.point);
+  result.terms = result.layout->terms(result.point);
+  return result;
+}
+
 Fit Workbench::finished(const Hypothesis& what, const Layout& layout, std::vector<double> point, double cost) const {
   Fit fit;
   fit.what = what;

@@ -62,6 +62,9 @@ class Workbench {
   [[nodiscard]] Fit on_all(const Fit& fit, const std::vector<Recording>& all, int rounds) const;
   // Costs of a fit as they are on this workbench, nothing refitted.
   [[nodiscard]] Fit scored(const Fit& fit) const;
+  // The fit with one effect more, which stands at its initial values: mostly where it does nothing. Nothing is refitted
+  // and the costs are those of `fit`.
+  [[nodiscard]] Fit with_neutral(const Fit& fit, const std::string& effect) const;
   // Several at once, in parallel; results in order.
   [[nodiscard]] std::vector<Fit> from_fit(const std::vector<Hypothesis>& what, const Fit& warm, int rounds,
                                           const Fit* also = nullptr) const;
