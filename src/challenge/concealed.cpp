@@ -131,6 +131,14 @@ Forces difference(const Forces& a, const Forces& b) {
   return result;
 }
 
+Forces sum(const Forces& a, const Forces& b) {
+  Forces result = a;
+  for (std::size_t r = 0; r < a.size(); ++r) {
+    for (std::size_t k = 0; k < a[r].size(); ++k) result[r][k] += b[r][k];
+  }
+  return result;
+}
+
 // Root mean square of the change in the recording that changes most.
 double largest_change(const Forces& change) {
   double largest = 0.0;
@@ -268,6 +276,7 @@ Concealed make_concealed(const Task& task, std::uint64_t seed) {
   const Forces without = clean_forces(base, c.excitation.tests, rate, c.decimation);
   std::vector<double> peaks;
   for (const auto& force : without) peaks.push_back(peak_of(force));
+  c.peaks = peaks;
   Device sized = device;
   sized.force = *std::ranges::max_element(peaks);
 
@@ -302,6 +311,7 @@ Concealed make_concealed(const Task& task, std::uint64_t seed) {
       effect.put(c.physics, at, found.strength, Draws(shape));
       truth.change_nrmse = nrmse(found.change, peaks);
       const Forces left = left_over(found.change, derivatives, peaks, false);
+      c.left = c.left.empty() ? left : sum(c.left, left);
       truth.left_nrmse = nrmse(left, peaks);
       truth.left_nrmse_single = nrmse(left_over(found.change, derivatives, peaks, true), peaks);
       // Independent samples fewer by (1 + r) / (1 - r) for the coloured part of the noise.

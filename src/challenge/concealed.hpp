@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "challenge/absorption.hpp"
 #include "challenge/chain.hpp"
 #include "challenge/effects.hpp"
 #include "challenge/levels.hpp"
@@ -35,6 +36,8 @@ struct Concealed {
   std::vector<std::string> told_by_current;
   std::vector<std::string> acceptable;  // names that are no mistake beside the true ones
   std::vector<HiddenTruth> truths;
+  Forces left;                // change of force by all truths that a re-fit of the law does not take up, N
+  std::vector<double> peaks;  // of the recordings' forces without the truths, N
   Excitation excitation;
   Chain chain;
   std::string disturbance;  // of a negative control

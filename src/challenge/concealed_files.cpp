@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "challenge/concealed.hpp"
+#include "challenge/place.hpp"
 #include "io/output.hpp"
 #include "io/units.hpp"
 
@@ -123,6 +124,10 @@ nlohmann::json answer_of(const Concealed& concealed) {
                                  {"left_nrmse", truth.left_nrmse},
                                  {"left_nrmse_single", truth.left_nrmse_single},
                                  {"detectability", truth.detectability}});
+  }
+  // What the told law lacks of the true one sits somewhere too.
+  if (!concealed.left.empty() && concealed.task.level != Level::wrong_base) {
+    answer["places"] = places_of(concealed.recordings, concealed.left, concealed.peaks);
   }
   answer["noise"] = {
       {"share_of_peak", concealed.chain.noise},     {"coloured_share", concealed.chain.coloured_share},

@@ -5,6 +5,8 @@
 #include <set>
 #include <vector>
 
+#include "challenge/place.hpp"
+
 namespace hysteron::challenge {
 namespace {
 
@@ -139,6 +141,22 @@ json parameter_errors(const json& answer, const json& diagnosis) {
   return result;
 }
 
+// Places that the diagnosis states, in its order, with the concentration of the true change there.
+json places(const json& answer, const json& diagnosis) {
+  json result = json::array();
+  if (!answer.contains("places")) return result;
+  for (const json& place : diagnosis.at("locations")) {
+    const double samples = place.at("share_of_samples").get<double>();
+    const double found = concentration(answer.at("places"), place.at("variable").get<std::string>(),
+                                       place.at("from").get<double>(), place.at("to").get<double>());
+    result.push_back({{"where", place.at("where")},
+                      {"stated", samples > 0.0 ? place.at("share_of_misfit").get<double>() / samples : 0.0},
+                      {"true", found},
+                      {"right", found > place_from}});
+  }
+  return result;
+}
+
 }  // namespace
 
 std::string_view name_of(Outcome outcome) {
@@ -175,6 +193,7 @@ json score_campaign(const json& answer, const json& diagnosis) {
                  {"named", json::array()},
                  {"wrong_names", json::array()},
                  {"candidates", json::array()},
+                 {"places", json::array()},
                  {"parameters", json::array()}};
   for (const json& effect : answer.at("effects")) result["truth"].push_back(effect.at("id"));
   if (!diagnosis.is_object()) {
@@ -192,6 +211,7 @@ json score_campaign(const json& answer, const json& diagnosis) {
   result["verdict"] = diagnosis.at("verdict");
   result["detected"] = diagnosis.at("verdict") != "complete";
   result["wrong_names"] = claims.wrong;
+  result["places"] = places(answer, diagnosis);
   for (const json& effect : diagnosis.at("effects")) {
     const auto id = effect.at("id").get<std::string>();
     if (claims.definite.contains(id)) {

@@ -22,9 +22,13 @@ enum class Outcome {
 // sample, could have been seen.
 inline constexpr double detectable_from = 100.0;
 
+// A stated place is right where the true change, less what the law takes up of it, is this much denser than on the
+// whole: the least density at which a place is stated.
+inline constexpr double place_from = 1.25;
+
 // One campaign: an answer as answer_of() writes it and a diagnosis as the contract has it (null: none).
 // {"campaign","level","truth":[ids],"detectable","outcome","detected","verdict","named":[{"id","confidence","right"}],
-//  "wrong_names":[ids],"parameters":[{"effect","name","true","found","relative_error","inside_ci95"}],
+//  "wrong_names":[ids],"places":[{"where","stated","true","right"}],"parameters":[{"effect","name","true","found","relative_error","inside_ci95"}],
 //  "nrmse_heldout_before","nrmse_heldout_after","floor","share_of_peak","left_over_noise"}
 [[nodiscard]] nlohmann::json score_campaign(const nlohmann::json& answer, const nlohmann::json& diagnosis);
 

@@ -181,6 +181,24 @@ json heldout(const json& campaigns) {
   return result;
 }
 
+// Stated places of causes that can be seen.
+json places(const json& campaigns) {
+  int all = 0;
+  int all_right = 0;
+  int first = 0;
+  int first_right = 0;
+  for (const json& c : campaigns) {
+    if (!c.at("detectable").get<bool>() || c.at("places").empty()) continue;
+    ++first;
+    first_right += c.at("places").at(0).at("right").get<bool>() ? 1 : 0;
+    for (const json& place : c.at("places")) {
+      ++all;
+      all_right += place.at("right").get<bool>() ? 1 : 0;
+    }
+  }
+  return {{"first", rate(first_right, first)}, {"all", rate(all_right, all)}};
+}
+
 }  // namespace
 
 json summarise(const json& campaigns) {
@@ -234,6 +252,7 @@ json summarise(const json& campaigns) {
   result["by_left_over_noise"] = by_size(campaigns, "left_over_noise", {0.0, 0.1, 0.3, 1.0, 3.0, 1e9});
   result["parameters"] = parameters(campaigns);
   result["heldout"] = heldout(campaigns);
+  result["places"] = places(campaigns);
   return result;
 }
 

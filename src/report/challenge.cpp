@@ -88,6 +88,8 @@ std::vector<Table> tables_of(const json& result) {
   add("negative controls: definite name", s.at("negative_controls").at("definite_name"));
   add("negative controls: any name, also as candidate", s.at("negative_controls").at("any_name"));
   add("named rightly: held-out error within 10 % of the floor", s.at("heldout").at("within_10_percent_of_floor"));
+  add("cause that can be seen: the first place stated for the misfit is right", s.at("places").at("first"));
+  add("cause that can be seen: places stated for the misfit that are right", s.at("places").at("all"));
   tables.push_back(std::move(key));
 
   tables.push_back(outcome_table(s.at("levels"), "Levels", "", "level"));
