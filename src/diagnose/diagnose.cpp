@@ -375,7 +375,9 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const Split& split
   estimate_noise_floor(diagnosis, options.objective.normalisation);
 
   progress(0.95, "locating the misfit");
-  if (structured(diagnosis.search.base_misfit) || !diagnosis.search.found.empty()) {
+  // Where nothing but noise is left, places of it would be those of chance.
+  if (diagnosis.verdict.word != "complete" &&
+      (structured(diagnosis.search.base_misfit) || !diagnosis.search.found.empty())) {
     diagnosis.locations = locate(diagnosis.bench, diagnosis.search.base);
   }
   diagnosis.drift_of_base = drift_of(fine, diagnosis.search.base);
