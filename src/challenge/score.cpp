@@ -145,7 +145,7 @@ json parameter_errors(const json& answer, const json& diagnosis) {
 json places(const json& answer, const json& diagnosis) {
   json result = json::array();
   if (!answer.contains("places")) return result;
-  for (const json& place : diagnosis.at("locations")) {
+  for (const json& place : diagnosis.value("locations", json::array())) {
     const double samples = place.at("share_of_samples").get<double>();
     const double found = concentration(answer.at("places"), place.at("variable").get<std::string>(),
                                        place.at("from").get<double>(), place.at("to").get<double>());

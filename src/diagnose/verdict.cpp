@@ -50,6 +50,7 @@ constexpr double confirmed_part = 0.25;
 constexpr double least_margin = 0.04;
 constexpr double margin_of_excess = 0.5;
 constexpr double least_evidence = 10.0;
+constexpr double margin_of_kin = 0.1;
 // A descent that went astray still explains this part.
 constexpr double astray_share = 0.5;
 // None is good that leaves so many times the squared error on the judging recordings, with so much evidence of the
@@ -206,9 +207,15 @@ Contest contest_for(const Finding& found, const Findings& findings, const Standa
     const BoxLimit* end = box_limit(found.id, rival.id);
     const bool unsure =
         structured(findings.misfit) && end != nullptr && end->end == BoxEnd::lower && rival.share > astray_share;
-    const bool close = unsure || (!refuted && (rival.share > 1.0 - margin || rival.evidence < ahead)) || rival.ended_as;
+    // The catalogue's form is not that of the damper where much of what stays repeats: then kin that come near may be
+    // it.
+    const bool near_kin = findings.misfit.predictable > predicted_share && is_kin(found.id, rival.id) &&
+                          rival.share > 1.0 - margin_of_kin;
+    const bool close =
+        unsure || near_kin || (!refuted && (rival.share > 1.0 - margin || rival.evidence < ahead)) || rival.ended_as;
     // What holds the effect as a limit always explains as much; only more than its further parameters are worth counts.
-    if (is_limit(found.id, rival.id) && !rival.ended_as && (rival.evidence > 0.0 || (close && !rival.apart))) {
+    if (is_limit(found.id, rival.id) && !rival.ended_as &&
+        (rival.evidence > 0.0 || (close && !rival.apart && !standard.settled))) {
       continue;
     }
     if (!close) {

@@ -306,6 +306,10 @@ TEST(Verdict, AFormThatHoldsTheEffectAsItsLimitMustBeWorthItsParameters) {
   search.found[0].rivals = {rival("gas-spring", 1.0, -1.0)};
   EXPECT_EQ(verdict_of(search, curved).word, "ambiguous");
   EXPECT_EQ(verdict_of(search, straight).word, "missing-physics");
+  // Where what stays is like noise the evidence tells, whatever the interval.
+  search.misfit.evenness = {0.01, 0.02};
+  search.further = 1.0;
+  EXPECT_EQ(verdict_of(search, straight).word, "ambiguous");
   search = search_of("gas-spring", 1.1 * floor_squares, 50.0 * floor_squares);
   search.found[0].rivals = {rival("offset-force", 1.0, 30.0)};
   EXPECT_EQ(verdict_of(search, curved).word, "ambiguous");
@@ -314,6 +318,18 @@ TEST(Verdict, AFormThatHoldsTheEffectAsItsLimitMustBeWorthItsParameters) {
   const Verdict verdict = verdict_of(search, straight);
   ASSERT_EQ(verdict.word, "missing-physics");
   EXPECT_EQ(verdict.effects[0].id, "offset-force");
+}
+
+TEST(Verdict, WhereStructureStaysKinThatComeNearAreNotExcluded) {
+  for (const auto& [other, share, predictable, word] :
+       {std::tuple{"degradation", 0.93, 0.3, "ambiguous"}, std::tuple{"degradation", 0.93, 0.1, "missing-physics"},
+        std::tuple{"degradation", 0.85, 0.3, "missing-physics"},
+        std::tuple{"clearance", 0.93, 0.3, "missing-physics"}}) {
+    Search search = search_of("self-heating", 1.5 * floor_squares, 30.0 * floor_squares, true);
+    search.misfit.predictable = predictable;
+    search.found[0].rivals = {rival(other, share, 1500.0)};
+    EXPECT_EQ(verdict_of(search, plain).word, word) << other << " " << share << " " << predictable;
+  }
 }
 
 TEST(Verdict, WhereStructureStaysAGasIsNotToldFromAClearance) {
