@@ -103,7 +103,7 @@ Workbench::Workbench(const DataScale& scale, Split split, LayoutOptions layout, 
     : scale_(scale),
       split_(std::move(split)),
       layout_(std::move(layout)),
-      options_(objective),
+      options_(std::move(objective)),
       seed_(seed),
       stopped_(std::move(stopped)) {}
 
