@@ -147,7 +147,10 @@ Recurrence recurrence(const std::vector<Recording>& recordings, const std::vecto
     take_off(motion, force);
     take_off(left, force);
     half.selfadjointView<Eigen::Lower>().rankUpdate(motion.transpose());
-    with += motion.transpose() * left;
+    // Column by column: Eigen would part a product of matrices of this size among threads of its own.
+    for (Eigen::Index s = 0; s <= shifts; ++s) {
+      with.col(s) += motion.transpose() * left.col(s);
+    }
     squares += left.colwise().squaredNorm();
   }
   if (!(squares[0] > 0.0)) {
