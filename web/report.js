@@ -786,18 +786,16 @@ function diagnosisSection() {
   return section("diagnosis", "Diagnosis", ...parts);
 }
 
-// Which effects look alike in these recordings: |cosine| of what they add to the force, in order of likeness so that
-// what is mistaken for one another stands together.
+// Which effects look alike in these recordings: |cosine| of what they add to the force. Each stands beside the one of
+// those left that it is most like, so that what is mistaken for one another stands together.
 function aliasMap(map) {
   const names = list(map && map.effects);
   if (names.length < 2) return null;
   const order = [0];
   while (order.length < names.length) {
-    // The one most like any of those placed follows, beside the rest of its group.
-    const last = order[order.length - 1];
+    const likeLast = map.cosine[order[order.length - 1]];
     const free = names.map((_, i) => i).filter((i) => !order.includes(i));
-    const near = (i) => Math.max(map.cosine[i][last], 0.8 * Math.max(...order.slice(-4).map((j) => map.cosine[i][j])));
-    order.push(free.reduce((a, b) => (near(b) > near(a) ? b : a)));
+    order.push(free.reduce((a, b) => (likeLast[b] > likeLast[a] ? b : a)));
   }
   const [cell, left, top] = [18, 150, 140];
   const size = names.length * cell;

@@ -123,21 +123,16 @@ double peak_of(const std::vector<double>& values) {
   return peak;
 }
 
-Forces difference(const Forces& a, const Forces& b) {
+// a + factor b
+Forces combined(const Forces& a, double factor, const Forces& b) {
   Forces result = a;
   for (std::size_t r = 0; r < a.size(); ++r) {
-    for (std::size_t k = 0; k < a[r].size(); ++k) result[r][k] -= b[r][k];
+    for (std::size_t k = 0; k < a[r].size(); ++k) result[r][k] += factor * b[r][k];
   }
   return result;
 }
 
-Forces sum(const Forces& a, const Forces& b) {
-  Forces result = a;
-  for (std::size_t r = 0; r < a.size(); ++r) {
-    for (std::size_t k = 0; k < a[r].size(); ++k) result[r][k] += b[r][k];
-  }
-  return result;
-}
+Forces difference(const Forces& a, const Forces& b) { return combined(a, -1.0, b); }
 
 // Root mean square of the change in the recording that changes most.
 double largest_change(const Forces& change) {
@@ -311,7 +306,7 @@ Concealed make_concealed(const Task& task, std::uint64_t seed) {
       effect.put(c.physics, at, found.strength, Draws(shape));
       truth.change_nrmse = nrmse(found.change, peaks);
       const Forces left = left_over(found.change, derivatives, peaks, false);
-      c.left = c.left.empty() ? left : sum(c.left, left);
+      c.left = c.left.empty() ? left : combined(c.left, 1.0, left);
       truth.left_nrmse = nrmse(left, peaks);
       truth.left_nrmse_single = nrmse(left_over(found.change, derivatives, peaks, true), peaks);
       // Independent samples fewer by (1 + r) / (1 - r) for the coloured part of the noise.

@@ -1,4 +1,6 @@
 // Where a hidden change of force sits: how its energy spreads over the variables in which places of a misfit are told.
+// What since a reversal or a step of the drive means is written here once more, as all of a challenge is: a mistake of
+// the diagnosis must not judge itself.
 #pragma once
 
 #include <nlohmann/json.hpp>

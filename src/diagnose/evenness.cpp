@@ -6,6 +6,7 @@
 
 #include "diagnose/features.hpp"
 #include "diagnose/noise.hpp"
+#include "diagnose/shift.hpp"
 
 namespace hysteron {
 namespace {
@@ -29,12 +30,6 @@ std::vector<std::size_t> classes_of(const std::vector<double>& values, std::size
     result.push_back(static_cast<std::size_t>(std::ranges::upper_bound(edges, value) - edges.begin()));
   }
   return result;
-}
-
-// 0, then shifts that stay away from none at all and, by the golden section, from the multiples of a period.
-std::size_t shift_of(std::size_t s, std::size_t size) {
-  const double part = std::fmod(0.6180339887498949 * static_cast<double>(s), 1.0);
-  return s == 0 ? 0 : static_cast<std::size_t>((0.08 + 0.84 * part) * static_cast<double>(size));
 }
 
 }  // namespace

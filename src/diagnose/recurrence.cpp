@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "diagnose/features.hpp"
+#include "diagnose/shift.hpp"
 
 namespace hysteron {
 namespace {
@@ -19,6 +20,8 @@ constexpr double ridge = 1e-4;
 // Stretch of a reversal, of half the stroke.
 constexpr double reversal = 0.2;
 constexpr std::size_t states = 21;
+// Of the shifts from one recording to the next, so that what recurs within each does not add up.
+constexpr double phase_step = 0.4142135623730951;
 
 // The sizes of the motion over all recordings.
 struct Scales {
@@ -97,14 +100,6 @@ Eigen::MatrixXd functions(const Recording& recording, std::size_t from, const Ei
   return result;
 }
 
-// 0, then shifts that differ from recording to recording and, by the golden section, stay away from the multiples of a
-// period and from none at all.
-Eigen::Index shift_of(Eigen::Index shift, std::size_t recording, Eigen::Index size) {
-  const double part = std::fmod(
-      0.6180339887498949 * static_cast<double>(shift) + 0.4142135623730951 * static_cast<double>(recording), 1.0);
-  return shift == 0 ? 0 : static_cast<Eigen::Index>((0.08 + 0.84 * part) * static_cast<double>(size));
-}
-
 // The residual and its shifted ones, a column each.
 Eigen::MatrixXd shifted(const Residual& residual, double norm, std::size_t recording) {
   const Eigen::Map<const Eigen::VectorXd> all(residual.force.data(), static_cast<Eigen::Index>(residual.force.size()));
@@ -113,7 +108,9 @@ Eigen::MatrixXd shifted(const Residual& residual, double norm, std::size_t recor
   values = values.cwiseMax(-limit).cwiseMin(limit);
   Eigen::MatrixXd result(values.size(), 1 + shifts);
   for (Eigen::Index s = 0; s <= shifts; ++s) {
-    const Eigen::Index by = shift_of(s, recording, values.size());
+    const auto by =
+        static_cast<Eigen::Index>(shift_of(static_cast<std::size_t>(s), static_cast<std::size_t>(values.size()),
+                                           phase_step * static_cast<double>(recording)));
     result.col(s) << values.tail(values.size() - by), values.head(by);
   }
   return result;

@@ -50,6 +50,7 @@ constexpr double confirmed_part = 0.25;
 constexpr double least_margin = 0.04;
 constexpr double margin_of_excess = 0.5;
 constexpr double least_evidence = 10.0;
+// Kin need only explain all but this share where much of what stays repeats with the motion.
 constexpr double margin_of_kin = 0.1;
 // A descent that went astray still explains this part.
 constexpr double astray_share = 0.5;
