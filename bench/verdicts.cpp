@@ -18,8 +18,8 @@
 
 #include "challenge/score.hpp"
 #include "challenge/seal.hpp"
-#include "diagnose/evidence.hpp"
-#include "diagnose/verdict.hpp"
+#include "diagnose/judge/evidence.hpp"
+#include "diagnose/judge/verdict.hpp"
 #include "io/file.hpp"
 
 namespace {

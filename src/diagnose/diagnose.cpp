@@ -9,11 +9,11 @@
 
 #include "core/drive.hpp"
 #include "diagnose/account.hpp"
-#include "diagnose/extend.hpp"
-#include "diagnose/noise.hpp"
-#include "diagnose/outliers.hpp"
-#include "diagnose/thin.hpp"
-#include "diagnose/wander.hpp"
+#include "diagnose/residual/wander.hpp"
+#include "diagnose/search/extend.hpp"
+#include "diagnose/signal/noise.hpp"
+#include "diagnose/signal/outliers.hpp"
+#include "diagnose/signal/thin.hpp"
 #include "fit/identify.hpp"
 #include "io/velocity.hpp"
 

@@ -4,11 +4,11 @@
 #include <functional>
 #include <memory>
 
-#include "diagnose/alias.hpp"
-#include "diagnose/drift.hpp"
-#include "diagnose/locate.hpp"
-#include "diagnose/observe.hpp"
-#include "diagnose/verdict.hpp"
+#include "diagnose/judge/verdict.hpp"
+#include "diagnose/residual/drift.hpp"
+#include "diagnose/residual/locate.hpp"
+#include "diagnose/search/alias.hpp"
+#include "diagnose/search/observe.hpp"
 
 namespace hysteron {
 

@@ -1,6 +1,6 @@
 #include "diagnose/record.hpp"
 
-#include "diagnose/evidence.hpp"
+#include "diagnose/judge/evidence.hpp"
 
 namespace hysteron {
 

@@ -1,5 +1,5 @@
 // What looks alike by theory looks alike in the map, and what the base model has of its own is not in it.
-#include "diagnose/alias.hpp"
+#include "diagnose/search/alias.hpp"
 
 #include <gtest/gtest.h>
 

@@ -7,11 +7,11 @@
 #include <functional>
 #include <numbers>
 
-#include "diagnose/evidence.hpp"
-#include "diagnose/locate.hpp"
+#include "diagnose/judge/evidence.hpp"
 #include "diagnose/record.hpp"
-#include "diagnose/relatives.hpp"
-#include "diagnose/thin.hpp"
+#include "diagnose/residual/locate.hpp"
+#include "diagnose/search/relatives.hpp"
+#include "diagnose/signal/thin.hpp"
 #include "fit/synthetic.hpp"
 
 namespace hysteron {

@@ -1,5 +1,5 @@
 // What recordings one by one would have a parameter be, of dampers whose law lacks what depends on the amplitude.
-#include "diagnose/drift.hpp"
+#include "diagnose/residual/drift.hpp"
 
 #include <gtest/gtest.h>
 

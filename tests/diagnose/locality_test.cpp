@@ -1,4 +1,4 @@
-#include "diagnose/locality.hpp"
+#include "diagnose/residual/locality.hpp"
 
 #include <gtest/gtest.h>
 

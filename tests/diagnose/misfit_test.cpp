@@ -1,10 +1,10 @@
-#include "diagnose/misfit.hpp"
+#include "diagnose/residual/misfit.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "diagnose/noise.hpp"
+#include "diagnose/signal/noise.hpp"
 #include "fit/synthetic.hpp"
 
 namespace hysteron {

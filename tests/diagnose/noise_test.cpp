@@ -1,10 +1,10 @@
-#include "diagnose/noise.hpp"
+#include "diagnose/signal/noise.hpp"
 
 #include <gtest/gtest.h>
 
-#include "diagnose/evenness.hpp"
-#include "diagnose/outliers.hpp"
-#include "diagnose/structure.hpp"
+#include "diagnose/residual/evenness.hpp"
+#include "diagnose/residual/structure.hpp"
+#include "diagnose/signal/outliers.hpp"
 #include "fit/synthetic.hpp"
 
 namespace hysteron {

@@ -1,12 +1,12 @@
 // What recurs with the motion is told from noise of any colour and from recordings that differ by chance.
-#include "diagnose/recurrence.hpp"
+#include "diagnose/residual/recurrence.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <functional>
 
-#include "diagnose/structure.hpp"
+#include "diagnose/residual/structure.hpp"
 #include "fit/synthetic.hpp"
 
 namespace hysteron {

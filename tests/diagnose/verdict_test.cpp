@@ -1,11 +1,11 @@
-#include "diagnose/verdict.hpp"
+#include "diagnose/judge/verdict.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <tuple>
 
-#include "diagnose/evidence.hpp"
+#include "diagnose/judge/evidence.hpp"
 
 namespace hysteron {
 namespace {

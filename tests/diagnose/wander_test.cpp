@@ -1,5 +1,5 @@
 // A factor of the force that changes with time is told from noise of any colour, and from what a delay leaves.
-#include "diagnose/wander.hpp"
+#include "diagnose/residual/wander.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,36 @@
+// What each recording alone would have a parameter be, the others held: where that follows amplitude, frequency, drive
+// or order, the law lacks something that depends on it.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "diagnose/search/workbench.hpp"
+
+namespace hysteron {
+
+// Of a recording: half stroke in m, frequency in Hz, mean drive in A or V, and its place in the order of recording.
+constexpr std::array<const char*, 4> drift_variables = {"amplitude", "frequency", "drive", "order"};
+using DriftConditions = std::array<double, drift_variables.size()>;
+
+struct DriftOfParameter {
+  std::string name;
+  // By recording: the relative change that makes its squared error least to first order, and its standard error. Both
+  // zero where the recording does not depend on the parameter.
+  std::vector<double> change;
+  std::vector<double> std_error;
+  // Of drift_variables, the one it follows so closely that chance does not explain it; empty where none.
+  std::string follows = {};
+  double rank_correlation = 0.0;  // Spearman's, with that
+};
+
+struct Drift {
+  std::vector<std::string> recordings;  // file names, the fitted ones
+  std::vector<DriftConditions> conditions;
+  std::vector<DriftOfParameter> parameters;  // of the damper law that cannot be zero, without those of effects
+};
+
+Drift drift_of(const Workbench& bench, const Fit& fit);
+
+}  // namespace hysteron

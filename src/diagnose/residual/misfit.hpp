@@ -1,0 +1,40 @@
+// What a fit leaves, parted into noise and structure.
+#pragma once
+
+#include "diagnose/residual/evenness.hpp"
+#include "diagnose/search/workbench.hpp"
+
+namespace hysteron {
+
+// Sums of squares are of NRMSE: cost^2 over the fitted recordings.
+struct Misfit {
+  double squares = 0.0;    // cost^2
+  double structure = 0.0;  // the part that is not noise
+  double noise = 0.0;      // squares - structure
+  // Squares of the noise by fourth differences, a lower bound of the noise, and as noise_floor estimates it; both with
+  // what the noise of the motion makes of the model's force.
+  double white = 0.0;
+  double floor = 0.0;
+  double motion = 0.0;       // the part of the floor that comes from the motion's noise
+  double predictable = 0.0;  // share that repeats with the motion (structure.hpp)
+  Evenness evenness;
+  double correlation = 0.0;  // lag-one correlation of the residual
+  double effective = 0.0;    // samples worth of independent information, were the residual's memory one of lag one
+  double independent = 0.0;  // likewise from all lags: fewer where a slow noise hides under a white one
+};
+
+// Over the fitted recordings of the workbench.
+Misfit misfit_of(const Workbench& bench, const Fit& fit);
+
+// Structure beyond what noise and its estimate explain.
+bool structured(const Misfit& misfit);
+// Nothing of it follows the motion, neither its values nor their size: noise, whatever its colour.
+bool noise_like(const Misfit& misfit);
+
+// Gain of the Bayesian information criterion from squares `before` to `after` for `more` parameters, by `effective`
+// independent samples.
+double evidence(double before, double after, double more, double effective);
+
+inline double squared(double value) { return value * value; }
+
+}  // namespace hysteron

@@ -1,0 +1,33 @@
+// Whether what a fit leaves recurs with the motion: how much of it one smooth function of displacement, velocity,
+// acceleration, simulated force, stroke and drive takes off all recordings together. Noise of any colour knows nothing
+// of the motion, and the function takes no more off it than off the same noise shifted against the motion. Pooled over
+// the recordings a far smaller part is seen than within each (structure.hpp). A constant and a multiple of the force
+// are taken off each recording first: by these, recordings may differ by chance.
+#pragma once
+
+#include <vector>
+
+#include "diagnose/search/workbench.hpp"
+
+namespace hysteron {
+
+struct Recurrence {
+  double share = 0.0;  // of the squared residual that the function takes off
+  double mean_by_chance =
+      0.0;  // of nineteen residuals that are shifted against the motion, in each recording otherwise
+  double most_by_chance = 0.0;  // likewise, the largest
+};
+
+// Residuals, one for each recording, in units of `norms` in N. Recordings of fewer than 200 samples are left out.
+Recurrence recurrence(const std::vector<Recording>& recordings, const std::vector<Residual>& residuals,
+                      const std::vector<double>& norms);
+
+// Of what the fit leaves of the fitted recordings.
+Recurrence recurrence_of(const Workbench& bench, const Fit& fit);
+
+// Whether chance does not explain the share. False where nothing is known.
+inline bool recurs(const Recurrence& recurrence) {
+  return recurrence.share - recurrence.mean_by_chance > 1.5 * (recurrence.most_by_chance - recurrence.mean_by_chance);
+}
+
+}  // namespace hysteron

@@ -1,0 +1,36 @@
+// What these recordings could have shown, before anything is named.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "diagnose/search/search.hpp"
+
+namespace hysteron {
+
+// An effect these recordings cannot show, or only above a size.
+struct Unobservable {
+  std::string id;
+  std::string reason;           // why not at all; empty when there is a limit
+  std::string detection_limit;  // "... of the peak force"; empty when not at all
+};
+
+// Reasons that lie in the inputs alone: constant drive, one drive level, a velocity that was not measured, ...
+std::optional<std::string> excluded_by_inputs(const std::string& effect, const std::vector<Recording>& recordings);
+
+// Detection limits of the effects that `fit` does not hold: the size at which the criterion would have asked for the
+// effect, from its sensitivity less what the parameters of the fit can imitate, as force in % of the peak force (root
+// mean square over the fitted recordings).
+std::vector<Unobservable> detection_limits(const Workbench& bench, const Fit& fit, const Misfit& misfit,
+                                           const std::vector<std::string>& effects);
+
+// Lag in s of the recorded velocity behind the slope of the recorded displacement, with its standard error; empty when
+// no velocity was measured.
+struct ChannelLag {
+  double lag = 0.0;
+  double std_error = 0.0;
+};
+std::optional<ChannelLag> velocity_channel_lag(const std::vector<Recording>& recordings);
+
+}  // namespace hysteron

@@ -1,0 +1,348 @@
+#include "diagnose/search/workbench.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "diagnose/search/relatives.hpp"
+#include "fit/driver.hpp"
+#include "fit/identify.hpp"
+#include "fit/parallel.hpp"
+
+namespace hysteron {
+namespace {
+
+constexpr std::size_t start_count = 8;
+constexpr std::string_view damping_unit = "N s/m";
+constexpr std::string_view yield_unit = "N";
+// Rounds after which only the best starts go on.
+constexpr int race_rounds = 2;
+
+// As many as fill a pack with all their derivatives, two at least.
+std::size_t survivors_of(std::size_t dimension) {
+  const std::size_t sweeps = (dimension + sweep_directions - 1) / sweep_directions;
+  return std::max<std::size_t>(2, static_cast<std::size_t>(lane_count) / sweeps);
+}
+
+std::size_t node_drive(const ParameterLaw& law, std::size_t node) { return node % law.drive_nodes.size(); }
+std::size_t node_frequency(const ParameterLaw& law, std::size_t node) { return node / law.drive_nodes.size(); }
+
+// Values of a fit at the nodes of another layout, in unit coordinates; what the fit does not know stays as in `point`.
+// Returns which coordinates are new.
+std::vector<bool> take_over(const Fit& from, const Layout& to, std::vector<double>& point) {
+  std::vector<bool> fresh(to.dimension(), true);
+  const std::vector<std::string>& known = from.layout->names();
+  for (const ParameterLaw& law : to.laws()) {
+    const auto found = std::ranges::find(known, to.names()[law.parameter]);
+    if (found == known.end()) {
+      continue;
+    }
+    const auto index = static_cast<std::size_t>(found - known.begin());
+    const std::size_t count = law.drive_nodes.size() * law.frequency_nodes.size();
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::vector<double> values =
+          parameters_at(from.layout->held(), from.terms, law.drive_nodes[node_drive(law, k)],
+                        law.frequency_nodes[node_frequency(law, k)]);
+      point[law.first + k] = std::clamp(to.unit(law.first + k, values[index]), 0.0, 1.0);
+      fresh[law.first + k] = false;
+    }
+  }
+  return fresh;
+}
+
+// Values for the parameters of an effect that a fit does not have, from a kindred effect that it has; whether there are
+// any.
+bool take_over_kindred(const Fit& from, const Layout& to, std::vector<double>& point) {
+  bool any = false;
+  const std::vector<std::string>& known = from.layout->names();
+  for (const ParameterLaw& law : to.laws()) {
+    const std::string& name = to.names()[law.parameter];
+    if (std::ranges::find(known, name) != known.end()) {
+      continue;
+    }
+    for (const Kindred& row : kindred()) {
+      const auto found = row.to == name ? std::ranges::find(known, row.from) : known.end();
+      if (found == known.end()) {
+        continue;
+      }
+      const double value = parameters_at(from.layout->held(), from.terms, law.drive_nodes.front(),
+                                         law.frequency_nodes.front())[static_cast<std::size_t>(found - known.begin())];
+      const std::size_t count = law.drive_nodes.size() * law.frequency_nodes.size();
+      for (std::size_t k = 0; k < count; ++k) {
+        point[law.first + k] = std::clamp(to.unit(law.first + k, row.factor * value), 0.0, 1.0);
+      }
+      any = true;
+    }
+  }
+  return any;
+}
+
+// Radical inverse: evenly spread numbers in (0, 1).
+double halton(std::size_t index, std::size_t base) {
+  double result = 0.0;
+  double part = 1.0 / static_cast<double>(base);
+  for (std::size_t i = index + 1; i > 0; i /= base) {
+    result += part * static_cast<double>(i % base);
+    part /= static_cast<double>(base);
+  }
+  return result;
+}
+
+}  // namespace
+
+double Residual::mean_square(std::size_t first) const {
+  double sum = 0.0;
+  for (std::size_t n = std::max(first, from); n < force.size(); ++n) {
+    sum += force[n] * force[n];
+  }
+  return sum / static_cast<double>(force.size() - std::max(first, from));
+}
+
+Workbench::Workbench(const DataScale& scale, Split split, LayoutOptions layout, ObjectiveOptions objective,
+                     std::uint64_t seed, std::function<bool()> stopped)
+    : scale_(scale),
+      split_(std::move(split)),
+      layout_(std::move(layout)),
+      options_(std::move(objective)),
+      seed_(seed),
+      stopped_(std::move(stopped)) {}
+
+Layout Workbench::layout(const Hypothesis& what) const {
+  LayoutOptions options = layout_;
+  const CompositeModel model = make_model(what.model, what.effects);
+  const std::vector<std::string> names = model.parameter_names();
+  // Another base law need not have the parameters of the first. Its yield force then follows the drive as theirs.
+  int lost = 0;
+  std::erase_if(options.by_current, [&](const auto& law) {
+    const bool absent = std::ranges::find(names, law.first) == names.end();
+    lost = absent ? std::max(lost, law.second) : lost;
+    return absent;
+  });
+  for (const Parameter& parameter : model.law->parameters) {
+    if (lost > 0 && parameter.unit == yield_unit && parameter.lower >= 0.0 && !parameter.fixed) {
+      options.by_current.try_emplace(std::string(parameter.name), lost);
+    }
+  }
+  std::erase_if(options.by_frequency,
+                [&](const auto& law) { return std::ranges::find(names, law.first) == names.end(); });
+  std::erase_if(options.fix, [&](const auto& law) { return std::ranges::find(names, law.first) == names.end(); });
+  std::erase_if(options.bounds, [&](const auto& law) { return std::ranges::find(names, law.first) == names.end(); });
+  // A damping that an effect takes away or adds follows the drive as the law's own does.
+  const std::vector<Parameter> cards = model.parameters();
+  int order = 0;
+  for (const auto& [name, power] : options.by_current) {
+    const auto at = static_cast<std::size_t>(std::ranges::find(names, name) - names.begin());
+    order = cards[at].unit == damping_unit ? std::max(order, power) : order;
+  }
+  for (std::size_t k = model.law->parameters.size(); k < names.size() && order > 0; ++k) {
+    if (cards[k].unit == damping_unit && !cards[k].fixed) {
+      options.by_current[names[k]] = order;
+    }
+  }
+  for (const std::string& name : what.richer) {
+    options.by_current[name] += 1;
+  }
+  return Layout(model, scale_, options);
+}
+
+Fit Workbench::with_neutral(const Fit& fit, const std::string& effect) const {
+  Fit result = fit;
+  result.what.effects.push_back(effect);
+  result.layout = std::make_shared<const Layout>(layout(result.what));
+  result.point = result.layout->initial();
+  take_over(fit, *result.layout, result.point);
+  result.terms = result.layout->terms(result.point);
+  return result;
+}
+
+Fit Workbench::finished(const Hypothesis& what, const Layout& layout, std::vector<double> point, double cost) const {
+  Fit fit;
+  fit.what = what;
+  fit.layout = std::make_shared<const Layout>(layout);
+  fit.terms = layout.terms(point);
+  fit.point = std::move(point);
+  fit.cost = cost;
+  double sum = 0.0;
+  for (const Judged& judged : split_.judge) {
+    const double norm = normaliser(judged.recording, options_.normalisation);
+    sum += residual(fit, judged.recording).mean_square(judged.from) / (norm * norm);
+  }
+  fit.heldout = std::sqrt(sum / static_cast<double>(split_.judge.size()));
+  if (!std::isfinite(fit.heldout)) {
+    fit.heldout = diverged_cost;
+  }
+  return fit;
+}
+
+// Independent descents in step, so that their points share packs.
+Fit Workbench::descended(const Hypothesis& what, const Layout& layout, const Objective& objective,
+                         const std::vector<std::vector<double>>& starts, int rounds) const {
+  const SolverEntry* entry = find_solver("lm");
+  struct Run {
+    std::unique_ptr<Solver> solver;
+    std::vector<double> best;
+    double cost = diverged_cost;
+  };
+  std::vector<Run> runs;
+  for (const std::vector<double>& start : starts) {
+    Problem problem;
+    problem.dimension = layout.dimension();
+    problem.budget = static_cast<std::size_t>(rounds + 1) * (layout.dimension() + 1);
+    problem.stream = Stream(seed_);
+    problem.linear = layout.linear();
+    problem.start = start;
+    runs.push_back({entry->make(problem), start, diverged_cost});
+  }
+  for (int round = 0; round < rounds; ++round) {
+    if (const std::size_t survivors = survivors_of(layout.dimension());
+        round == race_rounds && runs.size() > survivors) {
+      std::ranges::stable_sort(runs, {}, &Run::cost);
+      runs.resize(survivors);
+    }
+    Request batch;
+    batch.derivatives = true;
+    std::vector<std::size_t> asked;
+    std::vector<Request> requests(runs.size());
+    for (std::size_t k = 0; k < runs.size(); ++k) {
+      requests[k] = runs[k].solver->ask();
+      if (!requests[k].points.empty()) {
+        asked.push_back(k);
+        batch.points.insert(batch.points.end(), requests[k].points.begin(), requests[k].points.end());
+      }
+    }
+    if (asked.empty() || stopped_()) {
+      break;
+    }
+    const Response answer = objective.evaluate(batch);
+    const std::size_t d = layout.dimension();
+    for (std::size_t i = 0; i < asked.size(); ++i) {
+      Run& run = runs[asked[i]];
+      const auto slice = [&](const std::vector<double>& values, std::size_t width) {
+        return std::vector<double>(values.begin() + static_cast<std::ptrdiff_t>(i * width),
+                                   values.begin() + static_cast<std::ptrdiff_t>((i + 1) * width));
+      };
+      if (answer.cost[i] < run.cost) {
+        run.cost = answer.cost[i];
+        run.best = requests[asked[i]].points;
+      }
+      run.solver->tell(requests[asked[i]],
+                       {{answer.cost[i]}, slice(answer.gradient, d), slice(answer.gauss_newton, d * d), {}, {}});
+    }
+  }
+  const auto best = std::ranges::min_element(runs, {}, &Run::cost);
+  return finished(what, layout, best->best, best->cost);
+}
+
+Fit Workbench::from_anywhere(const Hypothesis& what, std::size_t budget) const {
+  const Layout layout = this->layout(what);
+  const Objective objective(layout, split_.fit, options_);
+  Problem problem;
+  problem.dimension = layout.dimension();
+  problem.budget = budget;
+  problem.stream = Stream(seed_).child("base").child(what.model);
+  problem.linear = layout.linear();
+  problem.start = layout.initial();
+  problem.screening = true;
+  const RunResult run = run_solver(
+      *find_solver("multistart-lm"), problem, [&](const Request& request) { return objective.evaluate(request); },
+      [&](const RunResult&) { return !stopped_(); });
+  return finished(what, layout, run.best, run.cost);
+}
+
+Fit Workbench::from_fit(const Hypothesis& what, const Fit& warm, int rounds, const Fit* also) const {
+  const Layout layout = this->layout(what);
+  const Objective objective(layout, split_.fit, options_);
+  std::vector<double> known = layout.initial();
+  const std::vector<bool> fresh = take_over(warm, layout, known);
+  std::vector<double> known_also = layout.initial();
+  if (also != nullptr) {
+    take_over(*also, layout, known_also);
+  }
+  std::vector<std::vector<double>> starts;
+  std::array<double, start_count> pushes = {0.01, -0.02, 0.05, -0.1, 0.003, -0.005, 0.3, -0.3};
+  // The effect that is new, if it is one and not a richer law.
+  const bool known_before =
+      what.effects.empty() || std::ranges::find(warm.what.effects, what.effects.back()) != warm.what.effects.end();
+  const Part* added_effect = known_before ? nullptr : find_effect(what.effects.back());
+  if (added_effect != nullptr && !added_effect->starts.empty()) {
+    std::ranges::copy(added_effect->starts, pushes.begin());
+  }
+  constexpr std::array<std::size_t, 4> bases = {2, 3, 5, 7};
+  for (std::size_t k = 0; k < start_count; ++k) {
+    std::vector<double> start = also != nullptr && k >= start_count / 2 ? known_also : known;
+    std::size_t part = 0;
+    for (std::size_t c = 0; c < start.size(); ++c) {
+      if (!fresh[c]) {
+        continue;
+      }
+      const bool first_of_part = part == 0;
+      ++part;
+      const double neutral = start[c];
+      if (first_of_part || layout.coordinates()[c].linear) {
+        // The size of the effect: away from nothing, to either side where there is one.
+        const double push =
+            neutral < 0.02 ? std::fabs(pushes[k]) : (neutral > 0.98 ? -std::fabs(pushes[k]) : pushes[k]);
+        start[c] = std::clamp(neutral + push, 0.0, 1.0);
+      } else if (k > 1) {
+        start[c] = 0.05 + 0.9 * halton(k, bases[std::min<std::size_t>(part - 1, bases.size() - 1)]);
+      }
+    }
+    starts.push_back(std::move(start));
+  }
+  const auto added = static_cast<std::size_t>(std::ranges::count(fresh, true));
+  if (added == 0) {
+    starts.resize(1);
+  } else if (added == 1 && also == nullptr && added_effect != nullptr && added_effect->starts.empty()) {
+    starts.resize(survivors_of(layout.dimension()));  // one size: where it starts from matters little
+  }
+  if (also != nullptr && take_over_kindred(*also, layout, known_also)) {
+    starts.push_back(known_also);
+  }
+  return descended(what, layout, objective, starts, rounds);
+}
+
+Fit Workbench::polished(const Fit& fit, int rounds) const {
+  const Objective objective(*fit.layout, split_.fit, options_);
+  return descended(fit.what, *fit.layout, objective, {fit.point}, rounds);
+}
+
+Fit Workbench::on_all(const Fit& fit, const std::vector<Recording>& all, int rounds) const {
+  const Objective objective(*fit.layout, all, options_);
+  Fit result = descended(fit.what, *fit.layout, objective, {fit.point}, rounds);
+  result.heldout = fit.heldout;
+  return result;
+}
+
+Fit Workbench::scored(const Fit& fit) const {
+  const Objective objective(*fit.layout, split_.fit, options_);
+  return finished(fit.what, *fit.layout, fit.point, objective.evaluate({fit.point, false}).cost[0]);
+}
+
+std::vector<Fit> Workbench::from_fit(const std::vector<Hypothesis>& what, const Fit& warm, int rounds,
+                                     const Fit* also) const {
+  std::vector<Fit> fits(what.size());
+  Workbench single = *this;
+  single.options_.threads = 1;
+  parallel_for(what.size(), options_.threads,
+               [&](std::size_t k) { fits[k] = single.from_fit(what[k], warm, rounds, also); });
+  return fits;
+}
+
+std::vector<Fit> Workbench::polished(const std::vector<Fit>& fits, int rounds) const {
+  std::vector<Fit> result(fits.size());
+  Workbench single = *this;
+  single.options_.threads = 1;
+  parallel_for(fits.size(), options_.threads, [&](std::size_t k) { result[k] = single.polished(fits[k], rounds); });
+  return result;
+}
+
+Residual Workbench::residual(const Fit& fit, const Recording& recording) const {
+  const Target target = make_target(recording, options_);
+  Residual result{predict(fit.layout->model(), fit.layout->held(), fit.terms, target), target.run_in};
+  for (std::size_t n = 0; n < result.force.size(); ++n) {
+    result.force[n] = n < result.from ? 0.0 : result.force[n] - recording.force[n];
+  }
+  return result;
+}
+
+}  // namespace hysteron

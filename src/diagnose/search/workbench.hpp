@@ -1,0 +1,91 @@
+// Fits hypotheses: a damper law, the effects behind it, and parameter laws made one order richer.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "diagnose/signal/split.hpp"
+#include "fit/objective.hpp"
+
+namespace hysteron {
+
+struct Hypothesis {
+  std::string model;
+  std::vector<std::string> effects;
+  std::vector<std::string> richer;  // parameters of the model whose polynomial in the drive has one more order
+
+  bool operator==(const Hypothesis&) const = default;
+};
+
+// A hypothesis with its best parameters.
+struct Fit {
+  Hypothesis what;
+  std::shared_ptr<const Layout> layout;
+  std::vector<double> point;  // unit coordinates
+  std::vector<Term> terms;
+  double cost = 0.0;     // NRMSE over the fitted recordings
+  double heldout = 0.0;  // NRMSE over the judged recordings
+
+  [[nodiscard]] std::size_t dimension() const { return point.size(); }
+};
+
+// Simulated - measured force in N at every sample; those before `from`, the run-in, are zero and do not count.
+struct Residual {
+  std::vector<double> force;
+  std::size_t from = 0;
+
+  // Mean square over the samples from `first` on that count.
+  [[nodiscard]] double mean_square(std::size_t first = 0) const;
+};
+
+class Workbench {
+ public:
+  // `scale` of the whole campaign, so that every workbench of it searches one box.
+  // Once `stopped` is true fits end where they are: what they return is then of no use but for ending soon.
+  Workbench(const DataScale& scale, Split split, LayoutOptions layout, ObjectiveOptions objective, std::uint64_t seed,
+            std::function<bool()> stopped);
+
+  [[nodiscard]] const Split& split() const { return split_; }
+  [[nodiscard]] const ObjectiveOptions& options() const { return options_; }
+
+  // Many starts over the whole box.
+  [[nodiscard]] Fit from_anywhere(const Hypothesis& what, std::size_t budget) const;
+  // Descents from a fit of a smaller or equal hypothesis, half of them from `also` when given: its values, and a spread
+  // of starts for what is new. `rounds` derivative evaluations of the best starts, fewer of the others.
+  [[nodiscard]] Fit from_fit(const Hypothesis& what, const Fit& warm, int rounds, const Fit* also = nullptr) const;
+  // Continues the best of a fit itself.
+  [[nodiscard]] Fit polished(const Fit& fit, int rounds) const;
+  // The same hypothesis fitted to all recordings, judged ones too.
+  [[nodiscard]] Fit on_all(const Fit& fit, const std::vector<Recording>& all, int rounds) const;
+  // Costs of a fit as they are on this workbench, nothing refitted.
+  [[nodiscard]] Fit scored(const Fit& fit) const;
+  // The fit with one effect more, which stands at its initial values: mostly where it does nothing. Nothing is refitted
+  // and the costs are those of `fit`.
+  [[nodiscard]] Fit with_neutral(const Fit& fit, const std::string& effect) const;
+  // Several at once, in parallel; results in order.
+  [[nodiscard]] std::vector<Fit> from_fit(const std::vector<Hypothesis>& what, const Fit& warm, int rounds,
+                                          const Fit* also = nullptr) const;
+  [[nodiscard]] std::vector<Fit> polished(const std::vector<Fit>& fits, int rounds) const;
+
+  // Of a fit on a recording.
+  [[nodiscard]] Residual residual(const Fit& fit, const Recording& recording) const;
+  [[nodiscard]] Layout layout(const Hypothesis& what) const;
+
+ private:
+  [[nodiscard]] Fit finished(const Hypothesis& what, const Layout& layout, std::vector<double> point,
+                             double cost) const;
+  [[nodiscard]] Fit descended(const Hypothesis& what, const Layout& layout, const Objective& objective,
+                              const std::vector<std::vector<double>>& starts, int rounds) const;
+
+  DataScale scale_;
+  Split split_;
+  LayoutOptions layout_;
+  ObjectiveOptions options_;
+  std::uint64_t seed_;
+  std::function<bool()> stopped_;
+};
+
+}  // namespace hysteron

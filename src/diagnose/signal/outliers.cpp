@@ -1,0 +1,102 @@
+#include "diagnose/signal/outliers.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "io/velocity.hpp"
+
+namespace hysteron {
+namespace {
+
+// An outlier is further from its neighbours than this many standard deviations of the noise ...
+constexpr double deviations = 8.0;
+// ... and this many times as far as they are from each other.
+constexpr double apart = 2.0;
+constexpr std::size_t fewest_samples_each = 50;
+
+// The four samples nearest to n on both sides but for `partner` (n itself: none), and what they say of n.
+struct Neighbours {
+  std::array<std::size_t, 4> at;
+  double told = 0.0;    // cubic interpolation
+  double spread = 0.0;  // the most that one is from the next
+};
+
+Neighbours neighbours_of(const std::vector<double>& f, std::size_t n, std::size_t partner) {
+  Neighbours result{};
+  std::size_t before = n;
+  std::size_t after = n;
+  for (const std::size_t k : {1U, 0U}) {
+    before -= before - 1 == partner ? 2 : 1;
+    result.at[k] = before;
+  }
+  for (const std::size_t k : {2U, 3U}) {
+    after += after + 1 == partner ? 2 : 1;
+    result.at[k] = after;
+  }
+  const auto place = [&](std::size_t k) { return static_cast<double>(result.at[k]) - static_cast<double>(n); };
+  for (std::size_t k = 0; k < 4; ++k) {
+    double weight = 1.0;
+    for (std::size_t other = 0; other < 4; ++other) {
+      weight *= other == k ? 1.0 : place(other) / (place(other) - place(k));
+    }
+    result.told += weight * f[result.at[k]];
+    result.spread = k == 0 ? 0.0 : std::max(result.spread, std::fabs(f[result.at[k]] - f[result.at[k - 1]]));
+  }
+  return result;
+}
+
+// How far the sample is from what its neighbours say, with its sign; 0 where that is not far.
+double stands_out(const std::vector<double>& f, std::size_t n, std::size_t partner, double limit) {
+  const Neighbours around = neighbours_of(f, n, partner);
+  const double off = f[n] - around.told;
+  return std::fabs(off) > std::max(limit, apart * around.spread) ? off : 0.0;
+}
+
+// Another outlier one or two samples away hides one. Two that lie side by side on the same side are a peak.
+std::size_t partner_of(const std::vector<double>& f, std::size_t n, double limit) {
+  for (const std::size_t partner : {n - 2, n - 1, n + 1, n + 2}) {
+    if (partner < 3 || partner + 3 >= f.size()) {
+      continue;
+    }
+    const double off = stands_out(f, n, partner, limit) * stands_out(f, partner, n, limit);
+    const bool adjacent = partner + 1 == n || n + 1 == partner;
+    if (off < 0.0 || (off > 0.0 && !adjacent)) {
+      return partner;
+    }
+  }
+  return n;
+}
+
+}  // namespace
+
+std::size_t replace_outliers(Recording& recording) {
+  std::vector<double>& f = recording.force;
+  if (f.size() < 8) {
+    return 0;
+  }
+  const double limit = deviations * channel_noise(recording.time, f);
+  std::vector<std::pair<std::size_t, double>> found;
+  for (std::size_t n = 2; n + 2 < f.size() && limit > 0.0; ++n) {
+    std::size_t partner = n;
+    bool out = stands_out(f, n, n, limit) != 0.0;
+    if (!out && n >= 3 && n + 3 < f.size()) {
+      partner = partner_of(f, n, limit);
+      out = partner != n;
+    }
+    if (out) {
+      found.emplace_back(n, neighbours_of(f, n, partner).told);
+    }
+  }
+  if (found.size() * fewest_samples_each > f.size()) {
+    return 0;
+  }
+  for (const auto& [n, told] : found) {
+    f[n] = told;
+  }
+  return found.size();
+}
+
+}  // namespace hysteron
