@@ -145,7 +145,7 @@ Recording load_recording(const fs::path& path, const ReadOptions& options) {
                      "unknown kind of file " + in_quotes(extension) +
                          ", expected .csv, .txt, .tsv, .dat or .mat, or a folder of recordings");
   }
-  Recording recording = is_mat ? read_mat(path, options) : parse_csv(bytes, path.string(), options);
+  Recording recording = is_mat ? parse_mat(bytes, path.string(), options) : parse_csv(bytes, path.string(), options);
   recording.file = path.filename().string();
   recording.sha256 = sha256_hex(bytes);
   return recording;

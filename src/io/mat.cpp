@@ -1,109 +1,21 @@
 #include "io/mat.hpp"
 
-#include <matio.h>
-
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
-#include <cstdint>
 #include <map>
-#include <memory>
 #include <utility>
 #include <vector>
 
 #include "core/error.hpp"
+#include "io/file.hpp"
+#include "io/mat5.hpp"
+#include "io/mat73.hpp"
 #include "io/text.hpp"
 
 namespace hysteron {
 namespace {
 
-struct CloseMat {
-  void operator()(mat_t* file) const { Mat_Close(file); }
-};
-struct FreeVariable {
-  void operator()(matvar_t* variable) const { Mat_VarFree(variable); }
-};
-using MatFile = std::unique_ptr<mat_t, CloseMat>;
-using Variable = std::unique_ptr<matvar_t, FreeVariable>;
-
-// matio reports to standard error by default; here every failure becomes one InputError.
-void discard_message(int /*level*/, char* /*message*/) {}
-
-bool is_numeric(const matvar_t& variable) {
-  return variable.class_type >= MAT_C_DOUBLE && variable.class_type <= MAT_C_UINT64 && variable.rank == 2;
-}
-
-template <typename T>
-void copy_values(const matvar_t& variable, std::size_t first, std::vector<double>& values) {
-  const auto* data = static_cast<const T*>(variable.data) + first;
-  for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<double>(data[i]);
-}
-
-// `count` values from `first` on, in MATLAB's column-major order; empty when the type is not a real number.
-std::vector<double> values_of(const matvar_t& variable, std::size_t first, std::size_t count) {
-  std::vector<double> values(count);
-  switch (variable.data_type) {
-    case MAT_T_DOUBLE:
-      copy_values<double>(variable, first, values);
-      break;
-    case MAT_T_SINGLE:
-      copy_values<float>(variable, first, values);
-      break;
-    case MAT_T_INT8:
-      copy_values<std::int8_t>(variable, first, values);
-      break;
-    case MAT_T_UINT8:
-      copy_values<std::uint8_t>(variable, first, values);
-      break;
-    case MAT_T_INT16:
-      copy_values<std::int16_t>(variable, first, values);
-      break;
-    case MAT_T_UINT16:
-      copy_values<std::uint16_t>(variable, first, values);
-      break;
-    case MAT_T_INT32:
-      copy_values<std::int32_t>(variable, first, values);
-      break;
-    case MAT_T_UINT32:
-      copy_values<std::uint32_t>(variable, first, values);
-      break;
-    case MAT_T_INT64:
-      copy_values<std::int64_t>(variable, first, values);
-      break;
-    case MAT_T_UINT64:
-      copy_values<std::uint64_t>(variable, first, values);
-      break;
-    default:
-      values.clear();
-  }
-  return values;
-}
-
-// Text of a char array as UTF-8; MATLAB stores bytes or UTF-16 (units need no surrogate pairs).
-std::string text_of(const matvar_t& variable) {
-  if (variable.class_type != MAT_C_CHAR || variable.data == nullptr || variable.data_size <= 0) return {};
-  const std::size_t count = variable.nbytes / static_cast<std::size_t>(variable.data_size);
-  std::string text;
-  for (std::size_t i = 0; i < count; ++i) {
-    if (variable.data_size == 1) {
-      text += static_cast<const char*>(variable.data)[i];
-      continue;
-    }
-    const unsigned code = static_cast<const std::uint16_t*>(variable.data)[i];
-    if (code < 0x80) {
-      text += static_cast<char>(code);
-    } else if (code < 0x800) {
-      text += static_cast<char>(0xC0U | (code >> 6));
-      text += static_cast<char>(0x80U | (code & 0x3FU));
-    } else {
-      text += static_cast<char>(0xE0U | (code >> 12));
-      text += static_cast<char>(0x80U | ((code >> 6) & 0x3FU));
-      text += static_cast<char>(0x80U | (code & 0x3FU));
-    }
-  }
-  return std::string(trimmed(text.substr(0, text.find('\0'))));
-}
+bool is_numeric(const MatVariable& variable) { return variable.damaged || variable.kind == MatVariable::Kind::numbers; }
 
 // A vector variable or one column of a matrix.
 struct Slice {
@@ -114,8 +26,8 @@ struct Slice {
 
 class MatReader {
  public:
-  MatReader(const std::filesystem::path& path, const ReadOptions& options)
-      : path_(path), file_(path.string()), options_(options) {}
+  MatReader(std::string_view bytes, const std::string& file, const ReadOptions& options)
+      : bytes_(bytes), file_(file), options_(options) {}
 
   Recording run() {
     read_variables();
@@ -133,12 +45,14 @@ class MatReader {
   [[noreturn]] void fail(const std::string& message) const { throw InputError(file_, 0, message); }
 
   void read_variables() {
-    Mat_LogInitFunc("hysteron", discard_message);
-    std::error_code code;
-    if (!std::filesystem::exists(path_, code)) fail("there is no such file, expected a readable file");
-    const MatFile mat(Mat_Open(file_.c_str(), MAT_ACC_RDONLY));
-    if (!mat) fail("not a readable MAT file, expected MATLAB level 5 or 7.3");
-    while (Variable variable{Mat_VarReadNext(mat.get())}) variables_.push_back(std::move(variable));
+    const bool level_5 = bytes_.size() >= 128 && (bytes_.substr(126, 2) == "IM" || bytes_.substr(126, 2) == "MI");
+    const bool level_73 = is_mat73(bytes_);
+    if (!level_5 && !level_73) fail("not a readable MAT file, expected MATLAB level 5 or 7.3");
+    try {
+      variables_ = level_73 ? read_mat73(bytes_) : read_mat5(bytes_);
+    } catch (const MatDamage& damage) {
+      fail(std::string(damage.what()) + ", expected a complete MAT file");
+    }
     if (variables_.empty()) fail("no variables, the file is empty or damaged, expected one per channel or a matrix");
   }
 
@@ -146,16 +60,14 @@ class MatReader {
   [[nodiscard]] std::map<std::string, std::string> read_units() const {
     std::map<std::string, std::string> units;
     for (const auto& variable : variables_) {
-      if (variable->name == nullptr || lower_case(variable->name) != "units") continue;
-      if (variable->class_type != MAT_C_STRUCT) fail("variable 'units' is not a struct, expected one text per channel");
-      const unsigned count = Mat_VarGetNumberOfFields(variable.get());
-      char* const* names = Mat_VarGetStructFieldnames(variable.get());
-      for (unsigned i = 0; i < count; ++i) {
-        const matvar_t* field = Mat_VarGetStructFieldByIndex(variable.get(), i, 0);
-        if (field == nullptr || field->class_type != MAT_C_CHAR) {
-          fail("field " + in_quotes(names[i]) + " of 'units' is not text, expected a unit such as 'mm'");
-        }
-        units[lower_case(names[i])] = text_of(*field);
+      if (lower_case(variable.name) != "units") continue;
+      if (variable.damaged) fail("variable 'units' cannot be read, the file is damaged, expected a complete MAT file");
+      if (variable.kind != MatVariable::Kind::texts) {
+        fail("variable 'units' is not a struct, expected one text per channel");
+      }
+      for (const auto& [name, text] : variable.fields) {
+        if (!text) fail("field " + in_quotes(name) + " of 'units' is not text, expected a unit such as 'mm'");
+        units[lower_case(name)] = *text;
       }
     }
     return units;
@@ -163,24 +75,23 @@ class MatReader {
 
   void list_columns() {
     const auto units = read_units();
-    const auto is_matrix = [](const Variable& variable) {
-      return is_numeric(*variable) && variable->dims[0] > 1 && variable->dims[1] > 1;
+    const auto is_matrix = [](const MatVariable& variable) {
+      return is_numeric(variable) && variable.rows > 1 && variable.columns > 1;
     };
     const bool one_matrix = std::ranges::count_if(variables_, is_matrix) == 1;
     for (std::size_t i = 0; i < variables_.size(); ++i) {
-      const auto& variable = *variables_[i];
-      if (variable.name == nullptr || !is_numeric(variable)) continue;
-      const std::string name = variable.name;
-      const std::size_t rows = variable.dims[0];
-      const std::size_t columns = variable.dims[1];
-      if (!is_matrix(variables_[i])) {
-        const auto unit = units.find(lower_case(name));
-        add(name, {}, unit == units.end() ? std::string{} : unit->second, {i, 0, rows * columns});
+      const auto& variable = variables_[i];
+      if (variable.name.empty() || !is_numeric(variable)) continue;
+      const std::size_t rows = variable.rows;
+      const std::size_t columns = variable.columns;
+      if (!is_matrix(variable)) {
+        const auto unit = units.find(lower_case(variable.name));
+        add(variable.name, {}, unit == units.end() ? std::string{} : unit->second, {i, 0, rows * columns});
         continue;
       }
       for (std::size_t k = 0; k < columns; ++k) {
         const std::string number = std::to_string(k + 1);
-        add(name + ":" + number, one_matrix ? number : std::string{}, {}, {i, k * rows, rows});
+        add(variable.name + ":" + number, one_matrix ? number : std::string{}, {}, {i, k * rows, rows});
       }
     }
     if (columns_.empty()) fail("no numeric variables, expected one vector per channel or a matrix");
@@ -194,15 +105,15 @@ class MatReader {
   [[nodiscard]] std::vector<double> read(const Source& source) const {
     const auto index = static_cast<std::size_t>(source.column);
     const auto& slice = slices_[index];
-    const auto& variable = *variables_[slice.variable];
+    const auto& variable = variables_[slice.variable];
     const std::string name = in_quotes(columns_[index].text);
-    if (variable.isComplex != 0) fail("variable " + name + " is complex, expected real numbers");
+    if (variable.damaged) {
+      fail("variable " + name + " cannot be read, the file is damaged, expected a complete MAT file");
+    }
+    if (variable.complex) fail("variable " + name + " is complex, expected real numbers");
     if (slice.count == 0) fail("variable " + name + " is empty, expected numbers");
-    const bool whole = variable.data != nullptr && variable.data_size > 0 &&
-                       variable.nbytes / static_cast<std::size_t>(variable.data_size) >= slice.first + slice.count;
-    if (!whole) fail("variable " + name + " cannot be read, the file is damaged, expected a complete MAT file");
-    auto values = values_of(variable, slice.first, slice.count);
-    if (values.empty()) fail("variable " + name + " has an unknown type, expected real numbers");
+    const auto first = variable.values.begin() + static_cast<std::ptrdiff_t>(slice.first);
+    std::vector<double> values(first, first + static_cast<std::ptrdiff_t>(slice.count));
     for (std::size_t i = 0; i < values.size(); ++i) {
       if (!std::isfinite(values[i])) {
         fail("value " + std::to_string(i + 1) + " of " + name + " is " + (std::isnan(values[i]) ? "NaN" : "infinite") +
@@ -232,18 +143,22 @@ class MatReader {
     }
   }
 
-  const std::filesystem::path& path_;
-  std::string file_;
+  std::string_view bytes_;
+  const std::string& file_;
   const ReadOptions& options_;
-  std::vector<Variable> variables_;
+  std::vector<MatVariable> variables_;
   std::vector<Column> columns_;
   std::vector<Slice> slices_;
 };
 
 }  // namespace
 
+Recording parse_mat(std::string_view bytes, const std::string& file, const ReadOptions& options) {
+  return MatReader(bytes, file, options).run();
+}
+
 Recording read_mat(const std::filesystem::path& path, const ReadOptions& options) {
-  return MatReader(path, options).run();
+  return parse_mat(read_file(path), path.string(), options);
 }
 
 }  // namespace hysteron

@@ -1,15 +1,23 @@
 #include "io/mat.hpp"
 
 #include <gtest/gtest.h>
+#include <hdf5.h>
+#include <malloc.h>
 #include <matio.h>
+#include <zlib.h>
 
+#include <bit>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <string>
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/random.hpp"
 #include "io/campaign.hpp"
+#include "io/fence.hpp"
+#include "io/file.hpp"
 #include "io/temporary_folder.hpp"
 
 namespace hysteron {
@@ -21,7 +29,8 @@ using testing::TemporaryFolder;
 // Writes a MAT file variable by variable.
 class MatWriter {
  public:
-  MatWriter(const std::filesystem::path& path, mat_ft version) : mat_(Mat_CreateVer(path.c_str(), nullptr, version)) {}
+  MatWriter(const std::filesystem::path& path, mat_ft version, matio_compression compression = MAT_COMPRESSION_NONE)
+      : mat_(Mat_CreateVer(path.c_str(), nullptr, version)), compression_(compression) {}
   ~MatWriter() { Mat_Close(mat_); }
   MatWriter(const MatWriter&) = delete;
   MatWriter& operator=(const MatWriter&) = delete;
@@ -50,10 +59,11 @@ class MatWriter {
 
  private:
   void put(matvar_t* variable) {
-    EXPECT_EQ(Mat_VarWrite(mat_, variable, MAT_COMPRESSION_NONE), 0);
+    EXPECT_EQ(Mat_VarWrite(mat_, variable, compression_), 0);
     Mat_VarFree(variable);
   }
   mat_t* mat_;
+  matio_compression compression_;
 };
 
 std::vector<double> ramp(std::size_t n, double step) {
@@ -167,6 +177,238 @@ TEST_P(MatVersions, DamagedFilesAreRefused) {
 
 INSTANTIATE_TEST_SUITE_P(Mat, MatVersions, ::testing::Values(MAT_FT_MAT5, MAT_FT_MAT73),
                          [](const auto& version) { return version.param == MAT_FT_MAT5 ? "Level5" : "Level73"; });
+
+// ---- Damaged files ----
+
+struct Written {
+  const char* name;
+  mat_ft version;
+  matio_compression compression;
+};
+const Written kinds[] = {{"level 5", MAT_FT_MAT5, MAT_COMPRESSION_NONE},
+                         {"level 5, compressed", MAT_FT_MAT5, MAT_COMPRESSION_ZLIB},
+                         {"7.3", MAT_FT_MAT73, MAT_COMPRESSION_NONE},
+                         {"7.3, compressed", MAT_FT_MAT73, MAT_COMPRESSION_ZLIB}};
+
+std::string recording_bytes(const Written& kind) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "a.mat";
+  {
+    MatWriter mat(path, kind.version, kind.compression);
+    mat.column("time", ramp(60, 0.1));
+    mat.singles("x", std::vector<float>(60, 1.5F));
+    mat.column("f", ramp(60, 2.0));
+    mat.units({{"x", "mm"}, {"f", "kN"}});
+  }
+  return read_file(path);
+}
+
+// The message, or every bit of what was read.
+std::string outcome_of(const std::string& bytes) {
+  try {
+    const auto r = parse_mat(bytes, "a.mat");
+    std::string all;
+    for (const auto* channel : {&r.time, &r.displacement, &r.force}) {
+      all.append(reinterpret_cast<const char*>(channel->data()), channel->size() * sizeof(double));
+    }
+    return all;
+  } catch (const InputError& error) {
+    return error.what();
+  }
+}
+
+// Fresh and freed memory reads so from here on.
+void fill_heap(int value) { mallopt(M_PERTURB, value); }
+
+TEST(DamagedMat, CutAnywhereIsRefused) {
+  for (const auto& kind : kinds) {
+    const std::string whole = recording_bytes(kind);
+    ASSERT_EQ(outcome_of(whole).size(), 3 * 60 * sizeof(double)) << kind.name;
+    const std::size_t step = kind.version == MAT_FT_MAT5 ? 1 : whole.size() / 40;
+    std::size_t accepted = 0;
+    for (std::size_t size = 0; size < whole.size(); size += step) {
+      accepted += outcome_of(whole.substr(0, size)).starts_with("a.mat: ") ? 0 : 1;
+    }
+    // Level 5 is a chain of variables: cut between the last two it is a whole file without the last, the units.
+    EXPECT_LE(accepted, kind.version == MAT_FT_MAT5 ? 1U : 0U) << kind.name;
+  }
+}
+
+TEST(DamagedMat, OutcomeIsTheSameWhateverTheHeapHolds) {
+  for (std::size_t k = 0; k < std::size(kinds); ++k) {
+    const std::string whole = recording_bytes(kinds[k]);
+    const Stream stream = Stream(7).child(kinds[k].name);
+    for (std::uint64_t round = 0; round < 75; ++round) {
+      const Stream draw = stream.child(round);
+      std::string bytes = whole;
+      for (std::uint64_t change = 0; change < 1 + round % 4; ++change) {
+        const auto at = static_cast<std::size_t>(draw.uniform(3 * change) * static_cast<double>(bytes.size()));
+        bytes[at] = static_cast<char>(256.0 * draw.uniform(3 * change + 1));
+      }
+      if (round % 3 == 0) bytes.resize(static_cast<std::size_t>(draw.uniform(99) * static_cast<double>(bytes.size())));
+      fill_heap(0xFF);
+      const std::string first = outcome_of(bytes);
+      fill_heap(0xA5);
+      const std::string second = outcome_of(bytes);
+      fill_heap(0);
+      EXPECT_EQ(first, second) << kinds[k].name << ", round " << round;
+    }
+  }
+}
+
+// A variable of level 5, as the format says.
+std::string mat5_with(std::uint32_t stored_type, std::uint32_t rows, const std::string& data) {
+  const auto word = [](std::uint32_t value) { return std::string(reinterpret_cast<const char*>(&value), 4); };
+  std::string body = word(6) + word(8) + word(6) + word(0) + word(5) + word(8) + word(rows) + word(1);
+  body += word(1U | (1U << 16U)) + std::string("f\0\0\0", 4) + word(stored_type) +
+          word(static_cast<std::uint32_t>(data.size()));
+  body += data + std::string((8 - data.size() % 8) % 8, '\0');
+  std::string file(124, ' ');
+  file += std::string("\x00\x01IM", 4);
+  return file + word(14) + word(static_cast<std::uint32_t>(body.size())) + body;
+}
+
+TEST(DamagedMat, SizesAreHeldAgainstTheBytes) {
+  EXPECT_NE(outcome_of(mat5_with(2, 9, "123456789")).find("no time column"), std::string::npos);
+  EXPECT_NE(outcome_of(mat5_with(2, 10, "123456789")).find("'f' holds 9 values and its size says 10"),
+            std::string::npos);
+  EXPECT_NE(outcome_of(mat5_with(9, 1, "123456789")).find("'f' holds 1 values"), std::string::npos);
+  EXPECT_NE(outcome_of(mat5_with(33, 9, "123456789")).find("'f' holds no numbers"), std::string::npos);
+  EXPECT_NE(outcome_of(mat5_with(2, 0xFFFFFFFF, "123456789")).find("impossible dimensions"), std::string::npos);
+}
+
+TEST(DamagedMat, FilesOfTheOtherByteOrderAreRead) {
+  std::string file(124, ' ');
+  file += std::string("\x01\x00MI", 4);
+  const auto word = [](std::uint32_t value) {
+    value = __builtin_bswap32(value);
+    return std::string(reinterpret_cast<const char*>(&value), 4);
+  };
+  for (const char name : {'t', 'x', 'f'}) {
+    std::string body = word(6) + word(8) + word(6) + word(0) + word(5) + word(8) + word(8) + word(1);
+    body += word(1U << 16U | 1U) + std::string(1, name) + std::string(3, '\0') + word(9) + word(64);
+    for (int i = 0; i < 8; ++i) {
+      const auto bits = __builtin_bswap64(std::bit_cast<std::uint64_t>(i + 0.25));
+      body.append(reinterpret_cast<const char*>(&bits), 8);
+    }
+    file += word(14) + word(static_cast<std::uint32_t>(body.size())) + body;
+  }
+  const auto r = parse_mat(file, "a.mat");
+  ASSERT_EQ(r.size(), 8U);
+  EXPECT_EQ(r.force[3], 3.25);
+}
+
+// ---- HDF5 files as other programs write them ----
+
+class Hdf5Writer {
+ public:
+  enum class Class { none, null_padded, variable_length };
+
+  explicit Hdf5Writer(const std::filesystem::path& path)
+      : file_(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT)) {}
+  ~Hdf5Writer() { H5Fclose(file_); }
+  Hdf5Writer(const Hdf5Writer&) = delete;
+  Hdf5Writer& operator=(const Hdf5Writer&) = delete;
+
+  // Where its first chunk lies in the file, if it is in chunks.
+  haddr_t column(const char* name, const std::vector<double>& values, Class how, bool chunked = false) {
+    const hsize_t size[2] = {1, values.size()};
+    const hid_t space = H5Screate_simple(2, size, nullptr);
+    const hid_t creation = H5Pcreate(H5P_DATASET_CREATE);
+    if (chunked) {
+      H5Pset_chunk(creation, 2, size);
+      H5Pset_deflate(creation, 6);
+    }
+    const hid_t set = H5Dcreate2(file_, name, H5T_IEEE_F64LE, space, H5P_DEFAULT, creation, H5P_DEFAULT);
+    H5Dwrite(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
+    if (how != Class::none) put_class(set, how);
+    haddr_t at = 0;
+    if (chunked) {
+      H5Fflush(file_, H5F_SCOPE_GLOBAL);
+      hsize_t offset[2];
+      hsize_t bytes = 0;
+      unsigned filters = 0;
+      EXPECT_GE(H5Dget_chunk_info(set, space, 0, offset, &filters, &at, &bytes), 0);
+    }
+    H5Dclose(set);
+    H5Pclose(creation);
+    H5Sclose(space);
+    return at;
+  }
+
+ private:
+  static void put_class(hid_t set, Class how) {
+    const hid_t type = H5Tcopy(H5T_C_S1);
+    H5Tset_size(type, how == Class::null_padded ? 6 : H5T_VARIABLE);
+    H5Tset_strpad(type, how == Class::null_padded ? H5T_STR_NULLPAD : H5T_STR_NULLTERM);
+    const hid_t scalar = H5Screate(H5S_SCALAR);
+    const hid_t attribute = H5Acreate2(set, "MATLAB_class", type, scalar, H5P_DEFAULT, H5P_DEFAULT);
+    const char* text = "double";
+    EXPECT_GE(H5Awrite(attribute, type, how == Class::null_padded ? static_cast<const void*>(text) : &text), 0);
+    H5Aclose(attribute);
+    H5Sclose(scalar);
+    H5Tclose(type);
+  }
+  hid_t file_;
+};
+
+TEST(Mat73, ClassesAreReadHoweverTheyArePadded) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "h5py.mat";
+  {
+    Hdf5Writer file(path);
+    file.column("time", ramp(20, 0.1), Hdf5Writer::Class::null_padded);
+    file.column("x", ramp(20, 1.0), Hdf5Writer::Class::variable_length);
+    file.column("f", ramp(20, 3.0), Hdf5Writer::Class::none, true);
+  }
+  const auto r = read_mat(path);
+  ASSERT_EQ(r.size(), 20U);
+  EXPECT_EQ(r.force[5], 15.0);
+}
+
+TEST(Mat73, AVariableThatCannotBeReadHidesNoOther) {
+  const TemporaryFolder folder;
+  for (const std::string damaged : {"aside", "current", "f"}) {
+    const auto path = folder.path() / (damaged + ".mat");
+    haddr_t at = 0;
+    {
+      Hdf5Writer file(path);
+      at = file.column(damaged.c_str(), ramp(20, 0.1), Hdf5Writer::Class::null_padded, true);
+      for (const char* name : {"time", "x", "f"}) {
+        if (damaged != name) file.column(name, ramp(20, 1.0), Hdf5Writer::Class::null_padded);
+      }
+    }
+    std::string bytes = read_file(path);
+    for (std::size_t i = 0; i < 12; ++i) bytes.at(at + i) = static_cast<char>(~bytes.at(at + i));
+    if (damaged == "aside") {
+      EXPECT_EQ(parse_mat(bytes, "a.mat").size(), 20U);
+    } else {
+      EXPECT_EQ(outcome_of(bytes),
+                "a.mat: variable '" + damaged + "' cannot be read, the file is damaged, expected a complete MAT file");
+    }
+  }
+}
+
+// ---- The fence ----
+
+TEST(Fence, GivesBackWhatWasMadeAndNothingOfWhatFailed) {
+  const FenceLimits limits{std::size_t{64} << 20U, 1};
+  EXPECT_EQ(behind_fence([] { return std::string(300000, 'x'); }, limits, 0), std::string(300000, 'x'));
+  EXPECT_EQ(behind_fence([]() -> std::string { throw std::bad_alloc(); }, limits, 0), std::nullopt);
+  EXPECT_EQ(behind_fence([]() -> std::string { abort(); }, limits, 0), std::nullopt);
+  EXPECT_EQ(behind_fence(
+                []() -> std::string {
+                  for (volatile bool forever = true; forever;) {
+                  }
+                  return {};
+                },
+                limits, 0),
+            std::nullopt);
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+  EXPECT_EQ(behind_fence([] { return std::to_string(std::string(std::size_t{200} << 20U, 'x').size()); }, limits, 0),
+            std::nullopt);
+#endif
+}
 
 TEST(Mat, NotAMatFile) {
   const TemporaryFolder folder;
