@@ -82,8 +82,8 @@ void print_summary(const Diagnosis& diagnosis, const std::filesystem::path& out)
                     {search.augmented.what.model == search.base.what.model ? "augmented"
                                                                            : "augmented " + search.augmented.what.model,
                      format_number(search.augmented.cost, 4), format_number(search.augmented.heldout, 4)},
-                    {"noise floor (" + diagnosis.noise_floor_method + ")", format_number(diagnosis.noise_floor, 4),
-                     format_number(diagnosis.noise_floor_heldout, 4)}}));
+                    {"noise floor (" + std::string(word_of(diagnosis.noise_floor_method)) + ")",
+                     format_number(diagnosis.noise_floor, 4), format_number(diagnosis.noise_floor_heldout, 4)}}));
   for (std::size_t k = 0; k < diagnosis.sentences.size(); ++k) {
     fmt::print("- {} (confidence {:.0f} %)\n", diagnosis.sentences[k], 100.0 * diagnosis.verdict.effects[k].confidence);
   }
@@ -221,16 +221,16 @@ void run(const Options& options) {
     page["parameters"].push_back(estimate_json(row, result.layout));
   }
   const Search& search = diagnosis->search;
-  page["summary"] = json::array(
-      {{{"label", "Held-out NRMSE, base model"},
-        {"value", format_number(search.base.heldout, 3)},
-        {"note", search.base.what.model}},
-       {{"label", "Held-out NRMSE, augmented"},
-        {"value", format_number(search.augmented.heldout, 3)},
-        {"note", diagnosis->bench.split().how}},
-       {{"label", "Noise floor, held out"},
-        {"value", format_number(diagnosis->noise_floor_heldout, 3)},
-        {"note", "fitted " + format_number(diagnosis->noise_floor, 3) + ", by " + diagnosis->noise_floor_method}}});
+  page["summary"] = json::array({{{"label", "Held-out NRMSE, base model"},
+                                  {"value", format_number(search.base.heldout, 3)},
+                                  {"note", search.base.what.model}},
+                                 {{"label", "Held-out NRMSE, augmented"},
+                                  {"value", format_number(search.augmented.heldout, 3)},
+                                  {"note", diagnosis->bench.split().how}},
+                                 {{"label", "Noise floor, held out"},
+                                  {"value", format_number(diagnosis->noise_floor_heldout, 3)},
+                                  {"note", "fitted " + format_number(diagnosis->noise_floor, 3) + ", by " +
+                                               std::string(word_of(diagnosis->noise_floor_method))}}});
 
   const std::filesystem::path out(options.out);
   write_file_atomically(out / "diagnosis.json", json_text(diagnosis_file));

@@ -322,7 +322,7 @@ void estimate_noise_floor(Diagnosis& diagnosis, Normalisation normalisation) {
   const auto relative = [&](const Recording& recording, const NoiseFloor& noise) {
     return squared(noise.sigma / normaliser(recording, normalisation));
   };
-  std::set<std::string> methods;
+  std::set<NoiseMethod> methods;
   double fitted = 0.0;
   for (const Recording& recording : diagnosis.bench.split().fit) {
     const NoiseFloor noise = noise_floor(recording);
@@ -335,7 +335,7 @@ void estimate_noise_floor(Diagnosis& diagnosis, Normalisation normalisation) {
   }
   diagnosis.noise_floor = std::sqrt(fitted / static_cast<double>(diagnosis.bench.split().fit.size()));
   diagnosis.noise_floor_heldout = std::sqrt(heldout / static_cast<double>(diagnosis.bench.split().judge.size()));
-  diagnosis.noise_floor_method = methods.size() == 1 ? *methods.begin() : "cycles where periodic, high-pass elsewhere";
+  diagnosis.noise_floor_method = methods.size() == 1 ? *methods.begin() : NoiseMethod::mixed;
 }
 
 std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const Split& split, const DiagnoseOptions& options,

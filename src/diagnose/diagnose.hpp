@@ -9,6 +9,7 @@
 #include "diagnose/residual/locate.hpp"
 #include "diagnose/search/alias.hpp"
 #include "diagnose/search/observe.hpp"
+#include "diagnose/signal/noise.hpp"
 
 namespace hysteron {
 
@@ -38,7 +39,7 @@ struct Diagnosis {
   Verdict verdict;
   double noise_floor = 0.0;          // of the force, NRMSE over the fitted recordings
   double noise_floor_heldout = 0.0;  // likewise over the judging ones
-  std::string noise_floor_method;
+  NoiseMethod noise_floor_method = NoiseMethod::unknown;
   std::vector<Location> locations;
   Drift drift_of_base;
   Drift drift_of_augmented;

@@ -87,7 +87,7 @@ json diagnosis_json(const Diagnosis& diagnosis) {
             {"nrmse_heldout", search.base.heldout},
             {"noise_floor_nrmse", diagnosis.noise_floor},
             {"noise_floor_heldout_nrmse", diagnosis.noise_floor_heldout},
-            {"noise_floor_method", diagnosis.noise_floor_method}}},
+            {"noise_floor_method", word_of(diagnosis.noise_floor_method)}}},
           {"verdict", diagnosis.verdict.word},
           {"effects", effects},
           {"locations", locations},

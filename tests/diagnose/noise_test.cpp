@@ -2,10 +2,16 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+
 #include "diagnose/residual/evenness.hpp"
 #include "diagnose/residual/structure.hpp"
 #include "diagnose/signal/outliers.hpp"
 #include "fit/synthetic.hpp"
+#include "io/velocity.hpp"
 
 namespace hysteron {
 namespace {
@@ -29,7 +35,7 @@ Recording noisy(double white, double coloured, double correlation, std::uint64_t
 
 TEST(NoiseFloor, FindsTheDeviationOfWhiteNoiseFromCycles) {
   const NoiseFloor floor = noise_floor(noisy(10.0, 0.0, 0.0));
-  EXPECT_EQ(floor.method, "cycles");
+  EXPECT_EQ(floor.method, NoiseMethod::cycles);
   EXPECT_NEAR(floor.sigma, 10.0, 0.6);
   EXPECT_NEAR(floor.white, 10.0, 0.8);
 }
@@ -114,6 +120,96 @@ TEST(NoiseFloor, FindsThePeriod) {
   Recording sweep = testing::motion("s.csv", {{0.01, 0.7}, {0.004, 1.93}, {0.003, 3.17}}, 6.0, 3000, 0.2);
   sweep.force.assign(sweep.size(), 1.0);
   EXPECT_EQ(periodicity(sweep).period, 0.0);
+}
+
+// A sine of 1.5 Hz whose amplitude follows an envelope in [0, 1] of time, and the force of a yielding damper on it with
+// noise of 8 N whose neighbours correlate by `correlation`; 6000 samples over 12 s.
+constexpr double noise_size = 8.0;
+
+Recording enveloped(const std::function<double(double)>& envelope, double correlation, std::uint64_t draw) {
+  Recording recording;
+  const Stream stream = Stream(draw).child("enveloped");
+  for (std::size_t n = 0; n < 6000; ++n) {
+    const double t = 0.002 * static_cast<double>(n);
+    recording.time.push_back(t);
+    recording.displacement.push_back(0.01 * envelope(t) * std::sin(3.0 * std::numbers::pi * t));
+  }
+  recording.velocity = derive_velocity(recording.time, recording.displacement);
+  double state = stream.normal(0, 1);
+  for (std::size_t n = 0; n < 6000; ++n) {
+    state = correlation * state + std::sqrt(1.0 - correlation * correlation) * stream.normal(n);
+    const double v = recording.velocity[n];
+    recording.force.push_back(800.0 * std::tanh(v / 0.02) + 2000.0 * v + noise_size * state);
+  }
+  return recording;
+}
+
+double ramps(double t) { return std::clamp(std::min(t / 3.0, (12.0 - t) / 3.0), 0.0, 1.0); }
+
+// Relative standard error of the deviation of so many seconds of such noise, every period but two compared twice: the
+// squares of an AR(1) process are worth (1 - r^2) / (1 + r^2) values each.
+double expected_error(double seconds, double correlation) {
+  const double square = correlation * correlation;
+  const double worth = seconds / 0.002 * (1.0 - square) / (1.0 + square);
+  return std::sqrt(1.5 / (2.0 * worth));
+}
+
+TEST(NoiseFloor, OfARampedSineIsThatOfItsSteadyCycles) {
+  for (const double correlation : {0.0, 0.9}) {
+    double sum = 0.0;
+    for (std::uint64_t draw = 1; draw <= 8; ++draw) {
+      const NoiseFloor floor = noise_floor(enveloped(ramps, correlation, draw));
+      ASSERT_EQ(floor.method, NoiseMethod::cycles);
+      // Six seconds are steady, of which the first half period does not count.
+      EXPECT_NEAR(floor.cycles, 9.0 - 0.5, 0.6);
+      EXPECT_NEAR(floor.sigma, noise_size, 4.0 * expected_error(5.0, correlation) * noise_size) << correlation;
+      sum += floor.sigma / 8.0;
+    }
+    EXPECT_NEAR(sum, noise_size, 2.0 * expected_error(5.0, correlation) * noise_size) << correlation;
+  }
+}
+
+TEST(NoiseFloor, OfAMotionThatStopsIsThatOfTheMotion) {
+  const auto stops = [](double t) { return t < 4.0 ? 1.0 : 0.0; };
+  const NoiseFloor floor = noise_floor(enveloped(stops, 0.0, 3));
+  ASSERT_EQ(floor.method, NoiseMethod::cycles);
+  EXPECT_NEAR(floor.cycles, 6.0 - 0.5, 0.6);
+  EXPECT_NEAR(floor.sigma, noise_size, 4.0 * expected_error(3.3, 0.0) * noise_size);
+}
+
+TEST(NoiseFloor, OfTwoAmplitudesIsThatOfTheLongerStretch) {
+  const auto two = [](double t) { return t < 14.0 / 3.0 ? 0.4 : 1.0; };
+  const Recording recording = enveloped(two, 0.0, 5);
+  const NoiseFloor floor = noise_floor(recording);
+  ASSERT_EQ(floor.method, NoiseMethod::cycles);
+  EXPECT_NEAR(floor.cycles, 11.0 - 0.5, 0.6);
+  EXPECT_NEAR(floor.sigma, noise_size, 4.0 * expected_error(6.5, 0.0) * noise_size);
+  EXPECT_NEAR(periodicity(recording).period, 2.0 / 3.0, 1e-4);
+}
+
+TEST(NoiseFloor, FadingForceIsNoNoise) {
+  Recording recording = enveloped(ramps, 0.0, 7);
+  for (std::size_t n = 0; n < recording.size(); ++n) {
+    recording.force[n] *= 1.0 + 0.3 * std::exp(-recording.time[n] / 4.0);
+    recording.force[n] += 20.0 * recording.time[n];
+  }
+  // The noise fades with the rest: by 30 to 1.5 %, 8 % in the middle.
+  EXPECT_NEAR(noise_floor(recording).sigma, 1.08 * noise_size, 4.0 * expected_error(5.0, 0.0) * noise_size);
+}
+
+TEST(NoiseFloor, OfAMotionThatNeverRepeatsIsHighPass) {
+  EXPECT_EQ(noise_floor(noisy(10.0, 0.0, 0.0, seed, {{0.01, 0.7}, {0.004, 1.93}, {0.003, 3.17}})).method,
+            NoiseMethod::high_pass);
+  EXPECT_EQ(noise_floor(enveloped([](double t) { return t / 12.0; }, 0.0, 1)).method, NoiseMethod::high_pass)
+      << "a ramp that never ends";
+}
+
+TEST(NoiseFloor, OfFewSamplesIsUnknown) {
+  Recording recording = noisy(10.0, 0.0, 0.0);
+  for (std::vector<double>* channel : channels_of(recording)) {
+    if (!channel->empty()) channel->resize(8);
+  }
+  EXPECT_EQ(noise_floor(recording).method, NoiseMethod::unknown);
 }
 
 TEST(Structure, NoiseOfAnyColourCannotBePredicted) {

@@ -79,7 +79,7 @@ Misfit misfit_of(const Workbench& bench, const Fit& fit) {
     const double noise = squared(floor.sigma / norm) + passed;
     // Periods tell the noise whatever its colour, but what fades or grows over them looks like noise too; what repeats
     // with the motion is surely none, unless it is what rounding leaves.
-    const bool known = floor.method == "cycles" || floor.rounded;
+    const bool known = floor.method == NoiseMethod::cycles || floor.rounded;
     structure += std::max(known ? mean - noise : 0.0, floor.rounded ? 0.0 : share * mean);
     result.squares += mean;
     result.white += std::min(mean, squared(floor.white / norm) + passed);

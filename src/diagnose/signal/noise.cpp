@@ -1,6 +1,8 @@
 #include "diagnose/signal/noise.hpp"
 
+#include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/drive.hpp"
@@ -11,63 +13,295 @@
 namespace hysteron {
 namespace {
 
-// Cubic Lagrange interpolation with the squared sum of its weights, through which white noise passes.
-struct Interpolated {
-  double value;
-  double noise;
-};
+// Successive periods of the displacement differ by at most this part of its standard deviation, each a difference of
+// two; a period that is being looked for by so much more.
+constexpr double repeating = 0.03;
+constexpr double nearly = 4.0;
+// Within a stretch no piece differs by more than so many times what most do, or this part.
+constexpr double usual_times = 3.0;
+constexpr double least_tolerance = 1e-3;
+// The displacement is compared in pieces of a period, and moves where its standard deviation over a period is this part
+// of the largest one.
+constexpr std::size_t pieces = 4;
+constexpr double moving = 0.1;
+// Periods left of a stretch without its first half period.
+constexpr double fewest_periods = 2.0;
+constexpr double run_in = 0.5;
+constexpr std::size_t fewest_samples = 16;
+// Samples of a motion that are compared, in all and a period.
+constexpr double compared = 2000.0;
+constexpr double compared_per_period = 32.0;
+// Differences beyond this many robust deviations are outliers.
+constexpr double cut = 6.0;
 
-Interpolated interpolate(const std::vector<double>& t, const std::vector<double>& y, double at) {
-  const auto upper = std::ranges::upper_bound(t, at);
-  const auto above = static_cast<std::ptrdiff_t>(upper - t.begin());
-  const auto size = static_cast<std::ptrdiff_t>(t.size());
-  const std::ptrdiff_t first = std::clamp<std::ptrdiff_t>(above - 2, 0, size - 4);
-  Interpolated result{0.0, 0.0};
-  for (std::ptrdiff_t k = first; k < first + 4; ++k) {
-    double weight = 1.0;
-    for (std::ptrdiff_t m = first; m < first + 4; ++m) {
-      if (m != k) {
-        weight *=
-            (at - t[static_cast<std::size_t>(m)]) / (t[static_cast<std::size_t>(k)] - t[static_cast<std::size_t>(m)]);
+// The weights of the cubic Lagrange interpolation at times that do not fall.
+class Interpolation {
+ public:
+  explicit Interpolation(const std::vector<double>& time) : time_(time) {}
+
+  void to(double at) {
+    while (first_ + 4 < time_.size() && time_[first_ + 2] <= at) {
+      ++first_;
+    }
+    for (std::size_t k = 0; k < weights_.size(); ++k) {
+      weights_[k] = 1.0;
+      for (std::size_t m = 0; m < weights_.size(); ++m) {
+        if (m != k) {
+          weights_[k] *= (at - time_[first_ + m]) / (time_[first_ + k] - time_[first_ + m]);
+        }
       }
     }
-    result.value += weight * y[static_cast<std::size_t>(k)];
-    result.noise += weight * weight;
   }
-  return result;
-}
-
-// Standard deviation around zero with outliers beyond six robust deviations cut off.
-double clipped_deviation(const std::vector<double>& values) {
-  std::vector<double> sizes(values.size());
-  std::ranges::transform(values, sizes.begin(), [](double v) { return std::fabs(v); });
-  const double robust = 1.4826 * median_of(sizes);
-  double sum = 0.0;
-  std::size_t count = 0;
-  for (const double value : values) {
-    if (robust <= 0.0 || std::fabs(value) <= 6.0 * robust) {
-      sum += value * value;
-      ++count;
+  [[nodiscard]] double of(const std::vector<double>& y) const {
+    double value = 0.0;
+    for (std::size_t k = 0; k < weights_.size(); ++k) {
+      value += weights_[k] * y[first_ + k];
+    }
+    return value;
+  }
+  // Adds the products of the weights with those `lag` samples further, for each lag.
+  void add_products(std::array<double, 4>& products) const {
+    for (std::size_t lag = 0; lag < weights_.size(); ++lag) {
+      for (std::size_t k = 0; k + lag < weights_.size(); ++k) {
+        products[lag] += weights_[k] * weights_[k + lag];
+      }
     }
   }
-  return count == 0 ? 0.0 : std::sqrt(sum / static_cast<double>(count));
+
+ private:
+  const std::vector<double>& time_;
+  std::size_t first_ = 0;
+  std::array<double, 4> weights_{};
+};
+
+// The robust standard deviation around zero, and that without outliers beyond it.
+double robust_deviation(const std::vector<double>& values) {
+  std::vector<double> sizes(values.size());
+  std::ranges::transform(values, sizes.begin(), [](double v) { return std::fabs(v); });
+  return 1.4826 * median_of(sizes);
+}
+
+double clipped_deviation(const std::vector<double>& values, double freedoms = 0.0) {
+  const double robust = robust_deviation(values);
+  double sum = 0.0;
+  double count = 0.0;
+  for (const double value : values) {
+    if (robust <= 0.0 || std::fabs(value) <= cut * robust) {
+      sum += value * value;
+      count += 1.0;
+    }
+  }
+  return count > freedoms ? std::sqrt(sum / (count - freedoms)) : 0.0;
+}
+
+// Samples of the recording that are compared: enough of each period.
+std::size_t stride_of(const Recording& recording, double period) {
+  const double periods = (recording.time.back() - recording.time.front()) / period;
+  const double count = std::max(compared, compared_per_period * periods);
+  return std::max<std::size_t>(1, static_cast<std::size_t>(static_cast<double>(recording.size()) / count));
 }
 
 // Mean square of x(t + period) - x(t).
 double misfold(const Recording& recording, double period, double begins, double ends) {
   double sum = 0.0;
-  std::size_t count = 0;
-  const std::size_t step = std::max<std::size_t>(1, recording.size() / 2000);
+  double count = 0.0;
+  const std::size_t step = stride_of(recording, period);
+  Interpolation later(recording.time);
   for (std::size_t n = 0; n < recording.size(); n += step) {
     const double t = recording.time[n];
     if (t < begins || t + period > ends) {
       continue;
     }
-    const double d = interpolate(recording.time, recording.displacement, t + period).value - recording.displacement[n];
+    later.to(t + period);
+    const double d = later.of(recording.displacement) - recording.displacement[n];
     sum += d * d;
-    ++count;
+    count += 1.0;
   }
-  return count == 0 ? 1e300 : sum / static_cast<double>(count);
+  return count > 0.0 ? sum / count : 1e300;
+}
+
+// The period near the given one with which this part of the motion repeats best.
+double refined(const Recording& recording, double period, double begins, double ends) {
+  double best = misfold(recording, period, begins, ends);
+  constexpr int zooms = 8;
+  for (int zoom = 0; zoom < zooms; ++zoom) {
+    const double width = 0.04 * std::pow(0.25, zoom);
+    const double centre = period;
+    for (int k = -4; k <= 4; ++k) {
+      const double trial = centre * (1.0 + width * k / 4.0);
+      const double error = misfold(recording, trial, begins, ends);
+      if (error < best) {
+        best = error;
+        period = trial;
+      }
+    }
+  }
+  return period;
+}
+
+// A piece of a period: of what its displacements differ by from those a period later, and of themselves, the sums.
+struct Piece {
+  double count = 0.0;
+  double compared = 0.0;
+  double differences = 0.0;  // squared
+  double sum = 0.0;
+  double squares = 0.0;
+};
+
+struct Stretch {
+  Periodicity cycle;
+  double usual = 0.0;  // what its displacements differ by, in the middle of its pieces, as the tolerance counts
+};
+
+// The longest run of pieces of a period in which the displacement comes again a period later within `tolerance` of its
+// standard deviation over the period from there on.
+Stretch longest_stretch(const Recording& recording, double period, double tolerance) {
+  const double start = recording.time.front();
+  const double length = period / static_cast<double>(pieces);
+  const auto count = static_cast<std::size_t>((recording.time.back() - start) / length) + 1;
+  std::vector<Piece> row(count);
+  const std::size_t step = stride_of(recording, period);
+  Interpolation later(recording.time);
+  for (std::size_t n = 0; n < recording.size(); n += step) {
+    const double t = recording.time[n];
+    const double x = recording.displacement[n] - recording.displacement[0];
+    Piece& piece = row[std::min(count - 1, static_cast<std::size_t>((t - start) / length))];
+    piece.sum += x;
+    piece.squares += x * x;
+    piece.count += 1.0;
+    if (t + period <= recording.time.back()) {
+      later.to(t + period);
+      const double d = later.of(recording.displacement) - recording.displacement[n];
+      piece.differences += d * d;
+      piece.compared += 1.0;
+    }
+  }
+  if (count <= pieces) {
+    return {};
+  }
+  std::vector<double> variance(count - pieces, 0.0);
+  for (std::size_t k = 0; k < variance.size(); ++k) {
+    Piece whole;
+    for (std::size_t i = k; i < k + pieces; ++i) {
+      whole.count += row[i].count;
+      whole.sum += row[i].sum;
+      whole.squares += row[i].squares;
+    }
+    if (whole.count > 0.0) {
+      variance[k] = std::max(0.0, whole.squares / whole.count - std::pow(whole.sum / whole.count, 2));
+    }
+  }
+  const double least = moving * moving * *std::ranges::max_element(variance);
+  std::size_t longest = 0;
+  std::size_t ended = 0;
+  std::size_t run = 0;
+  std::vector<double> error(variance.size(), 1e300);
+  for (std::size_t k = 0; k < variance.size(); ++k) {
+    if (row[k].compared > 0.0 && variance[k] > least) {
+      error[k] = std::sqrt(0.5 * row[k].differences / (row[k].compared * variance[k]));
+    }
+    run = error[k] < tolerance ? run + 1 : 0;
+    if (run > longest) {
+      longest = run;
+      ended = k + 1;
+    }
+  }
+  Stretch found;
+  Periodicity& result = found.cycle;
+  result.begins = start + static_cast<double>(ended - longest) * length + run_in * period;
+  result.ends = std::min(start + static_cast<double>(ended) * length + period, recording.time.back());
+  if (longest == 0 || result.ends - result.begins < (fewest_periods - 1e-9) * period) {
+    return {};
+  }
+  result.period = period;
+  found.usual = median_of({error.begin() + static_cast<std::ptrdiff_t>(ended - longest),
+                           error.begin() + static_cast<std::ptrdiff_t>(ended)});
+  return found;
+}
+
+// What the force differs by from that a period later, less what follows the force itself (a fade, steady or not), a
+// drift of its zero, and the motion's own differences, all to first order.
+struct Differences {
+  std::vector<double> left;
+  double freedoms = 0.0;                // taken off
+  std::array<double, 4> products = {};  // mean products of the interpolation's weights by lag
+};
+
+// Mean square of a difference of noise of deviation one. The interpolation smooths white noise and passes coloured
+// noise: of AR(1) noise of correlation r it passes 1 + sum w_i w_j r^|i - j|, and r is what makes neighbouring
+// differences correlate as they do.
+double passed(const Differences& differences) {
+  const std::array<double, 4>& p = differences.products;
+  const auto square = [&](double r) { return 1.0 + p[0] + 2.0 * r * (p[1] + r * (p[2] + r * p[3])); };
+  const auto product = [&](double r) {
+    return r + p[0] * r + p[1] * (1.0 + r * r) + p[2] * r * (1.0 + r * r) + p[3] * r * r * (1.0 + r * r);
+  };
+  double squares = 0.0;
+  double products = 0.0;
+  const double limit = cut * robust_deviation(differences.left);
+  for (std::size_t n = 1; n < differences.left.size(); ++n) {
+    const double here = std::clamp(differences.left[n], -limit, limit);
+    squares += here * here;
+    products += here * std::clamp(differences.left[n - 1], -limit, limit);
+  }
+  double low = 0.0;
+  double high = 1.0;
+  for (int k = 0; k < 30 && squares > 0.0; ++k) {
+    const double r = 0.5 * (low + high);
+    (product(r) * squares < products * square(r) ? low : high) = r;
+  }
+  return square(low);
+}
+
+Differences differences_of(const Recording& recording, const Periodicity& cycle) {
+  constexpr Eigen::Index terms = 7;
+  std::vector<Eigen::Matrix<double, terms, 1>> rows;
+  Differences result;
+  Interpolation later(recording.time);
+  for (std::size_t n = 0; n < recording.size(); ++n) {
+    const double t = recording.time[n];
+    if (t < cycle.begins || t + cycle.period > cycle.ends) {
+      continue;
+    }
+    later.to(t + cycle.period);
+    const double force = later.of(recording.force);
+    const double at = 2.0 * (t - cycle.begins) / (cycle.ends - cycle.begins - cycle.period) - 1.0;
+    const double middle = 0.5 * (force + recording.force[n]);
+    rows.emplace_back(1.0, at, middle, middle * at, middle * at * at,
+                      later.of(recording.displacement) - recording.displacement[n],
+                      later.of(recording.velocity) - recording.velocity[n]);
+    result.left.push_back(force - recording.force[n]);
+    later.add_products(result.products);
+  }
+  for (double& product : result.products) {
+    product /= std::max(static_cast<double>(rows.size()), 1.0);
+  }
+  result.freedoms = static_cast<double>(terms);
+  const std::vector<double> whole = result.left;
+  // Once more without what is an outlier then.
+  double limit = 1e300;
+  for (int pass = 0; pass < 2 && !rows.empty(); ++pass) {
+    Eigen::Matrix<double, terms, terms> among = Eigen::Matrix<double, terms, terms>::Zero();
+    Eigen::Matrix<double, terms, 1> with = Eigen::Matrix<double, terms, 1>::Zero();
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      if (std::fabs(result.left[k]) <= limit) {
+        among += rows[k] * rows[k].transpose();
+        with += whole[k] * rows[k];
+      }
+    }
+    // In units of each term, so that the pivots tell which are none at all.
+    const Eigen::Matrix<double, terms, 1> scale = among.diagonal().cwiseSqrt().cwiseMax(1e-300);
+    const Eigen::Matrix<double, terms, terms> normal =
+        scale.cwiseInverse().asDiagonal() * among * scale.cwiseInverse().asDiagonal();
+    const Eigen::Matrix<double, terms, 1> weights =
+        (normal.completeOrthogonalDecomposition().solve(with.cwiseQuotient(scale))).cwiseQuotient(scale);
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      result.left[k] = whole[k] - weights.dot(rows[k]);
+    }
+    const double robust = robust_deviation(result.left);
+    limit = robust > 0.0 ? cut * robust : 1e300;
+  }
+  return result;
 }
 
 }  // namespace
@@ -78,69 +312,57 @@ double median_of(std::vector<double> values) {
   return *middle;
 }
 
+std::string_view word_of(NoiseMethod method) {
+  switch (method) {
+    case NoiseMethod::cycles:
+      return "cycles";
+    case NoiseMethod::high_pass:
+      return "high-pass";
+    case NoiseMethod::mixed:
+      return "cycles where periodic, high-pass elsewhere";
+    case NoiseMethod::unknown:
+      break;
+  }
+  return "too few samples";
+}
+
 Periodicity periodicity(const Recording& recording) {
-  Periodicity result;
   const double frequency = dominant_frequency(recording);
-  if (!(frequency > 0.0) || recording.size() < 16) {
-    return result;
+  if (!(frequency > 0.0) || recording.size() < fewest_samples) {
+    return {};
   }
-  double peak = 0.0;
-  for (const double v : recording.velocity) {
-    peak = std::max(peak, std::fabs(v));
-  }
-  std::size_t first = 0;
-  std::size_t last = recording.size() - 1;
-  while (first < last && std::fabs(recording.velocity[first]) < 0.3 * peak) {
-    ++first;
-  }
-  while (last > first && std::fabs(recording.velocity[last]) < 0.3 * peak) {
-    --last;
-  }
-  // The first half period is often a run-in.
-  double period = 1.0 / frequency;
-  result.begins = recording.time[first] + 0.5 * period;
-  result.ends = recording.time[last];
-  if (result.ends - result.begins < 2.0 * period) {
-    return result;
-  }
-  double best = 1e300;
-  constexpr int zooms = 8;
-  for (int zoom = 0; zoom < zooms; ++zoom) {
-    const double width = 0.04 * std::pow(0.25, zoom);
-    const double centre = period;
-    for (int k = -4; k <= 4; ++k) {
-      const double trial = centre * (1.0 + width * k / 4.0);
-      const double error = misfold(recording, trial, result.begins, result.ends);
-      if (error < best) {
-        best = error;
-        period = trial;
-      }
+  // Ramps and rests shift the period with which the whole repeats best: the stretch tells it better, and is then told
+  // better itself. Its ends reach into the ramps as far as the tolerance lets them: what is usual in it bounds it
+  // closer.
+  Periodicity best;
+  constexpr int trials = 6;
+  for (int k = -trials; k <= trials; ++k) {
+    const double period = (1.0 + 0.04 * k / trials) / frequency;
+    const Periodicity found = longest_stretch(recording, period, nearly * repeating).cycle;
+    if (found.ends - found.begins > best.ends - best.begins) {
+      best = found;
     }
   }
-  double mean = 0.0;
-  double square = 0.0;
-  double count = 0.0;
-  for (std::size_t n = first; n <= last; ++n) {
-    mean += recording.displacement[n];
-    square += recording.displacement[n] * recording.displacement[n];
-    count += 1.0;
+  if (!(best.period > 0.0)) {
+    return {};
   }
-  const double variance = square / count - mean * mean / (count * count);
-  if (best < 2.0 * 0.03 * 0.03 * variance) {
-    result.period = period;
+  Stretch found = longest_stretch(recording, refined(recording, best.period, best.begins, best.ends), repeating);
+  best = found.cycle;
+  for (int pass = 0; pass < 2 && found.cycle.period > 0.0; ++pass) {
+    const double tolerance = std::clamp(usual_times * found.usual, least_tolerance, repeating);
+    found = longest_stretch(recording, refined(recording, best.period, best.begins, best.ends), tolerance);
+    best = found.cycle.period > 0.0 ? found.cycle : best;
   }
-  return result;
+  return best;
 }
 
 NoiseFloor noise_floor(const Recording& recording) {
   NoiseFloor result;
-  if (recording.size() < 16) {
+  if (recording.size() < fewest_samples) {
     return result;
   }
   const std::vector<double> fourth = fourth_differences(recording.force);
-  std::vector<double> sizes(fourth.size());
-  std::ranges::transform(fourth, sizes.begin(), [](double v) { return std::fabs(v); });
-  result.white = 1.4826 * median_of(sizes);
+  result.white = robust_deviation(fourth);
   if (result.white <= 0.0) {
     result.white = clipped_deviation(fourth);
   }
@@ -150,27 +372,17 @@ NoiseFloor noise_floor(const Recording& recording) {
   result.white = std::max(result.white, rounding);
   const Periodicity cycle = periodicity(recording);
   if (cycle.period > 0.0) {
-    std::vector<double> differences;
-    double noise = 0.0;
-    for (std::size_t n = 0; n < recording.size(); ++n) {
-      const double t = recording.time[n];
-      if (t < cycle.begins || t + cycle.period > cycle.ends) {
-        continue;
-      }
-      const Interpolated next = interpolate(recording.time, recording.force, t + cycle.period);
-      differences.push_back(next.value - recording.force[n]);
-      noise += 1.0 + next.noise;
-    }
-    if (differences.size() >= 16) {
+    const Differences differences = differences_of(recording, cycle);
+    if (static_cast<double>(differences.left.size()) >= static_cast<double>(fewest_samples) + differences.freedoms) {
       result.sigma = std::max(
-          clipped_deviation(differences) / std::sqrt(noise / static_cast<double>(differences.size())), rounding);
-      result.method = "cycles";
+          clipped_deviation(differences.left, differences.freedoms) / std::sqrt(passed(differences)), rounding);
+      result.method = NoiseMethod::cycles;
       result.cycles = (cycle.ends - cycle.begins) / cycle.period;
       return result;
     }
   }
   result.sigma = result.white;
-  result.method = "high-pass";
+  result.method = NoiseMethod::high_pass;
   return result;
 }
 

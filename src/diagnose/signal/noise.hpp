@@ -1,7 +1,7 @@
 // Noise of the force channel, from the data alone.
 #pragma once
 
-#include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/recording.hpp"
@@ -11,27 +11,39 @@ namespace hysteron {
 // The upper one of the two in the middle; at least one value.
 double median_of(std::vector<double> values);
 
+enum class NoiseMethod {
+  unknown,    // too few samples
+  cycles,     // what differs between successive periods of a motion that repeats; it holds coloured noise too
+  high_pass,  // robust fourth differences; only the part of the noise that is white is seen
+  mixed       // of several recordings: cycles where the motion repeats, high-pass elsewhere
+};
+std::string_view word_of(NoiseMethod method);
+
 struct NoiseFloor {
   double sigma = 0.0;  // N
-  // "cycles": what differs between successive periods of a periodic motion; it holds coloured noise too.
-  // "high-pass": robust fourth differences; only the part of the noise that is white is seen.
-  std::string method;
+  NoiseMethod method = NoiseMethod::unknown;
   double white = 0.0;    // N, by high-pass, whatever the method
-  double cycles = 0.0;   // periods in the motion, 0 when it is not periodic
+  double cycles = 0.0;   // periods that were compared, 0 where none are
   bool rounded = false;  // rounding to the quantum of the force is all that is seen
 };
 
+// By cycles where a stretch of the motion repeats itself (periodicity), else by high-pass. Of what differs between
+// successive periods, that part is no noise which follows a force that fades or grows over the periods, a drift of its
+// zero, or what displacement and velocity themselves differ by: it is taken off, as far as it is linear. A fade
+// changes from one period to the next by far less than over all of them.
 NoiseFloor noise_floor(const Recording& recording);
 
 // The recording with as much noise again on its motion as displacement and velocity hold. How a model's force differs
 // between the two is what the noise of the motion makes of it: no model can do better, and no force channel shows it.
 Recording shaken(const Recording& recording);
 
-// Period in s of a motion that repeats itself (displacement of successive periods equal within 3 % of its standard
-// deviation), 0 when it does not or lasts less than 2.5 periods; and the time at which the running motion begins.
+// The longest stretch of a recording that repeats itself from period to period: displacement of successive periods
+// equal within 3 % of its standard deviation there. The first half period of it is left out (the force still knows what
+// came before), after which at least two periods stay. Ramps, rests and other amplitudes bound it; what repeats with
+// another period than the one of most half cycles is not found. All zero where nothing repeats.
 struct Periodicity {
-  double period = 0.0;
-  double begins = 0.0;
+  double period = 0.0;  // s
+  double begins = 0.0;  // s, of the recording's time
   double ends = 0.0;
 };
 Periodicity periodicity(const Recording& recording);
