@@ -918,7 +918,7 @@ function evidenceTables(evidence) {
   const trials = list(evidence.trials);
   return [
     el("h3", {}, "Evidence, and what would do in its place"),
-    el("p", { class: "muted" }, "Evidence is the gain of the Bayesian information criterion with the effective number of independent samples; ten is strong. A share near 100 % means the recordings hardly tell the two apart."),
+    el("p", { class: "muted" }, "Evidence is the gain of the Bayesian information criterion with the number of independent values; ten is strong. A share near 100 % means the recordings hardly tell the two apart."),
     found.map((f) => plainTable(`${f.id}: without it the fitted NRMSE is ${fmt(f.nrmse_fit_without, 3)}; evidence for it ${fmt(f.evidence, 3)}`, titles,
       list(f.rivals).slice(0, 8).map((r) => [r.id.startsWith("law:") ? `richer dependence of ${r.id.slice(4)} on the drive` : r.id, percent(Math.max(0, Math.min(1, r.share_of_gain))), fmt(r.evidence, 3)]))),
     trials.length ? plainTable("Whether the strongest is needed under other assumptions too", [{ title: "Effect", head: true }, { title: "Under" }, { title: "Keeps of its gain", num: true }, { title: "Evidence", num: true }],

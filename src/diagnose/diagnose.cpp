@@ -189,7 +189,7 @@ std::string doubt_of_completeness(const Search& search, const Workbench& fine,
     return "what is left does not repeat with the motion, but its size follows it, which that of noise does not; no "
            "known effect describes it";
   }
-  const Wandering wander = wandering(leftovers_of(fine, search.augmented));
+  const Wandering wander = wandering(leftovers_of(fine.split().fit, fine.residuals(search.augmented)));
   if (!wanders(wander)) {
     return {};
   }
@@ -322,12 +322,15 @@ void estimate_noise_floor(Diagnosis& diagnosis, Normalisation normalisation) {
   const auto relative = [&](const Recording& recording, const NoiseFloor& noise) {
     return squared(noise.sigma / normaliser(recording, normalisation));
   };
-  std::set<NoiseMethod> methods;
+  const std::vector<Recording>& recordings = diagnosis.bench.split().fit;
+  const std::vector<NoiseFloor>& floors = diagnosis.bench.noise();
   double fitted = 0.0;
-  for (const Recording& recording : diagnosis.bench.split().fit) {
-    const NoiseFloor noise = noise_floor(recording);
-    fitted += relative(recording, noise);
-    methods.insert(noise.method);
+  diagnosis.noise_floor_method = floors.front().method;
+  for (std::size_t k = 0; k < recordings.size(); ++k) {
+    fitted += relative(recordings[k], floors[k]);
+    if (floors[k].method != floors.front().method) {
+      diagnosis.noise_floor_method = NoiseMethod::mixed;
+    }
   }
   double heldout = 0.0;
   for (const Judged& judged : diagnosis.bench.split().judge) {
@@ -335,7 +338,6 @@ void estimate_noise_floor(Diagnosis& diagnosis, Normalisation normalisation) {
   }
   diagnosis.noise_floor = std::sqrt(fitted / static_cast<double>(diagnosis.bench.split().fit.size()));
   diagnosis.noise_floor_heldout = std::sqrt(heldout / static_cast<double>(diagnosis.bench.split().judge.size()));
-  diagnosis.noise_floor_method = methods.size() == 1 ? *methods.begin() : NoiseMethod::mixed;
 }
 
 std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const Split& split, const DiagnoseOptions& options,
@@ -378,7 +380,7 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const Split& split
   // Where nothing but noise is left, places of it would be those of chance.
   if (diagnosis.verdict.word != "complete" &&
       (structured(diagnosis.search.base_misfit) || !diagnosis.search.found.empty())) {
-    diagnosis.locations = locate(diagnosis.bench, diagnosis.search.base);
+    diagnosis.locations = locate(diagnosis.bench.split().fit, diagnosis.bench.residuals(diagnosis.search.base));
   }
   diagnosis.drift_of_base = drift_of(fine, diagnosis.search.base);
   diagnosis.drift_of_augmented = drift_of(fine, diagnosis.search.augmented);

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 
+#include "diagnose/search/of_fit.hpp"
 #include "fit/synthetic.hpp"
 
 namespace hysteron {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "diagnose/search/of_fit.hpp"
 #include "fit/synthetic.hpp"
 
 namespace hysteron {

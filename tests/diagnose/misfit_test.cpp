@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "diagnose/search/of_fit.hpp"
 #include "diagnose/signal/noise.hpp"
 #include "fit/synthetic.hpp"
 

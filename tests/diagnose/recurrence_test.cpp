@@ -14,8 +14,7 @@ namespace {
 
 struct Left {
   std::vector<Recording> recordings;
-  std::vector<Residual> residuals;
-  std::vector<double> norms;
+  Residuals residuals;
 };
 
 // What a model leaves of four motions: a multiple of the force and a constant that differ from one to the next, noise
@@ -39,13 +38,13 @@ Left left_of(double scatter, double colour, const std::function<double(double, d
       recording.force.push_back(force - residual.force.back());
     }
     result.recordings.push_back(std::move(recording));
-    result.residuals.push_back(std::move(residual));
-    result.norms.push_back(1500.0);
+    result.residuals.of.push_back(std::move(residual));
+    result.residuals.norms.push_back(1500.0);
   }
   return result;
 }
 
-Recurrence of(const Left& left) { return recurrence(left.recordings, left.residuals, left.norms); }
+Recurrence of(const Left& left) { return recurrence_of(left.recordings, left.residuals); }
 
 const auto nothing = [](double, double) { return 0.0; };
 
@@ -71,7 +70,7 @@ TEST(Recurrence, SeesWhatIsTooSmallToBeSeenInOneRecording) {
   const Left left = left_of(
       0.0, 0.0, [](double x, double v) { return 0.7 * x * x * std::tanh(v / 0.02); }, 7);
   for (std::size_t k = 0; k < left.recordings.size(); ++k) {
-    EXPECT_LT(predictable_share(left.recordings[k], left.residuals[k].force), 0.03);
+    EXPECT_LT(predictable_share(left.recordings[k], left.residuals.of[k].force), 0.03);
   }
   EXPECT_TRUE(recurs(of(left)));
 }
@@ -86,9 +85,9 @@ TEST(Recurrence, MoreThanChanceWhateverTheUnits) {
       left.recordings[k].displacement[n] *= 1e3;
       left.recordings[k].velocity[n] *= 1e3;
       left.recordings[k].force[n] *= 1e-3;
-      left.residuals[k].force[n] *= 1e-3;
+      left.residuals.of[k].force[n] *= 1e-3;
     }
-    left.norms[k] *= 1e-3;
+    left.residuals.norms[k] *= 1e-3;
   }
   const Recurrence after = of(left);
   EXPECT_NEAR(after.share, before.share, 1e-6);
@@ -97,11 +96,11 @@ TEST(Recurrence, MoreThanChanceWhateverTheUnits) {
 
 TEST(Recurrence, TooFewSamplesAreNone) {
   Left left = left_of(0.0, 0.0, nothing, 1);
-  for (Residual& residual : left.residuals) {
+  for (Residual& residual : left.residuals.of) {
     residual.from = residual.force.size() - 100;
   }
   EXPECT_FALSE(recurs(of(left)));
-  EXPECT_FALSE(recurs(recurrence({}, {}, {})));
+  EXPECT_FALSE(recurs(recurrence_of({}, {})));
 }
 
 }  // namespace

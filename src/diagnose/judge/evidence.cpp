@@ -15,8 +15,6 @@ json misfit_json(const Misfit& misfit) {
           {"predictable", misfit.predictable},
           {"unevenness", misfit.evenness.deviation},
           {"unevenness_by_chance", misfit.evenness.by_chance},
-          {"correlation", misfit.correlation},
-          {"effective_samples", misfit.effective},
           {"independent_samples", misfit.independent}};
 }
 
@@ -30,8 +28,6 @@ Misfit misfit_from(const json& row) {
   misfit.motion = row.at("floor_of_motion");
   misfit.predictable = row.at("predictable");
   misfit.evenness = {row.at("unevenness"), row.at("unevenness_by_chance")};
-  misfit.correlation = row.at("correlation");
-  misfit.effective = row.at("effective_samples");
   misfit.independent = row.at("independent_samples");
   return misfit;
 }

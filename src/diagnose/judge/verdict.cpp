@@ -82,7 +82,6 @@ struct Standard {
   bool settled;   // it is like noise in all: what an estimate of the noise without repeated cycles misses is its colour
   bool close;     // at most near_noise times the noise stays
   double dominance;  // times the excess that an effect must explain
-  double honest;     // of the samples that evidence counts, those a slow noise under a white one leaves independent
 };
 
 Standard standard_of(const Findings& findings) {
@@ -94,7 +93,6 @@ Standard standard_of(const Findings& findings) {
   const bool more_is_missing =
       left.predictable > predicted_share || (findings.found.size() > most_effects && !result.close);
   result.dominance = more_is_missing ? dominant : least_gain_over_excess;
-  result.honest = left.effective > 0.0 ? std::min(1.0, left.independent / left.effective) : 1.0;
   return result;
 }
 
@@ -124,13 +122,9 @@ bool is_borne_out(const Finding& found, const Errors& augmented) {
   return share.heldout > std::max(share.fit, borne_out);
 }
 
-double telling(const Finding& found, const Errors& augmented, double honest) {
-  return is_borne_out(found, augmented) ? telling_evidence : telling_evidence / honest;
-}
-
 // Whether the evidence alone is enough.
 bool is_told(const Finding& found, const Findings& findings, const Standard& standard) {
-  return standard.settled && found.evidence > telling(found, findings.augmented, standard.honest) && findings.further &&
+  return standard.settled && found.evidence > telling_evidence && findings.further &&
          *findings.further < most_further_part * found.evidence;
 }
 
@@ -175,7 +169,7 @@ bool deserves_a_name(const Finding& found, const Findings& findings, const Stand
     return false;
   }
   const bool told = is_told(found, findings, standard);
-  const double sure = sure_evidence * telling(found, findings.augmented, standard.honest);
+  const double sure = sure_evidence * telling_evidence;
   if (!confirmed(found, findings.augmented, told ? sure : 1e300)) {
     return false;
   }
@@ -198,12 +192,11 @@ Contest contest_for(const Finding& found, const Findings& findings, const Standa
   Contest result;
   const double unexplained = standard.settled ? 0.0 : standard.excess;
   const double margin = std::max(least_margin, margin_of_excess * unexplained / found.gain);
-  const double ahead = is_told(found, findings, standard) ? least_evidence / standard.honest : least_evidence;
   double best_share = 0.0;
   for (std::size_t k = 0; k < found.contenders.size(); ++k) {
     const Contender& rival = found.contenders[k];
-    const bool refuted = rival.evidence > refuting_evidence / standard.honest &&
-                         squared(rival.heldout / findings.augmented.heldout) > refuting_factor;
+    const bool refuted =
+        rival.evidence > refuting_evidence && squared(rival.heldout / findings.augmented.heldout) > refuting_factor;
     // Where structure stays, one that ends as the other at a bound may be a descent gone astray of the other.
     const BoxLimit* end = box_limit(found.id, rival.id);
     const bool unsure =
@@ -212,8 +205,8 @@ Contest contest_for(const Finding& found, const Findings& findings, const Standa
     // it.
     const bool near_kin = findings.misfit.predictable > predicted_share && is_kin(found.id, rival.id) &&
                           rival.share > 1.0 - margin_of_kin;
-    const bool close =
-        unsure || near_kin || (!refuted && (rival.share > 1.0 - margin || rival.evidence < ahead)) || rival.ended_as;
+    const bool close = unsure || near_kin ||
+                       (!refuted && (rival.share > 1.0 - margin || rival.evidence < least_evidence)) || rival.ended_as;
     // What holds the effect as a limit always explains as much; only more than its further parameters are worth counts.
     if (is_limit(found.id, rival.id) && !rival.ended_as &&
         (rival.evidence > 0.0 || (close && !rival.apart && !standard.settled))) {
@@ -221,7 +214,7 @@ Contest contest_for(const Finding& found, const Findings& findings, const Standa
     }
     if (!close) {
       best_share = std::max(best_share, rival.share);
-    } else if (is_limit(rival.id, found.id) && rival.evidence < ahead && !rival.apart) {
+    } else if (is_limit(rival.id, found.id) && rival.evidence < least_evidence && !rival.apart) {
       result.instead = k;
     } else if (rival.id == channel_lag && is_kin(channel_lag, found.id)) {
       // The channels tell a lag of one of them from a delay of the force.
@@ -296,14 +289,14 @@ const OtherLaw* better_law(const Findings& findings) {
 }
 
 // Whether something is missing, though it has no name.
-bool something_shows(const Findings& findings, double honest) {
+bool something_shows(const Findings& findings) {
   double together = 0.0;
   for (const Finding& found : findings.found) {
     if (makes_up(found, findings)) {
       continue;
     }
     together += found.evidence;
-    const double enough = telling_evidence / honest;
+    const double enough = telling_evidence;
     const bool much = found.evidence > enough ||
                       (found.evidence > least_evidence && found.gain > shown_gain * findings.base_misfit.squares);
     if (much && confirmed(found, findings.augmented, sure_evidence * enough)) {
@@ -313,11 +306,11 @@ bool something_shows(const Findings& findings, double honest) {
   return together > telling_evidence && squared(findings.augmented.heldout / findings.base.heldout) < 1.0 - shown_gain;
 }
 
-Verdict without_a_name(const Findings& findings, double honest) {
+Verdict without_a_name(const Findings& findings) {
   Verdict verdict;
   verdict.word = "unattributed";
   if (!findings.found.empty()) {
-    const bool quiet = !structured(findings.base_misfit) && !something_shows(findings, honest);
+    const bool quiet = !structured(findings.base_misfit) && !something_shows(findings);
     verdict.word = quiet ? "complete" : "unattributed";
     verdict.reason = quiet ? "the best known effect explains too little to be more than the colour of the noise"
                            : "the best known effect explains less of the misfit than stays unexplained, or not on the "
@@ -363,7 +356,7 @@ Verdict undoubted(const Findings& findings) {
     verdict.effects.push_back(named);
   }
   if (verdict.effects.empty()) {
-    return without_a_name(findings, standard.honest);
+    return without_a_name(findings);
   }
   verdict.word = "missing-physics";
   return verdict;

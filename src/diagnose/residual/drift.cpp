@@ -5,11 +5,12 @@
 #include <numeric>
 
 #include "core/midranks.hpp"
+#include "diagnose/residual/independent.hpp"
+#include "fit/layout.hpp"
 
 namespace hysteron {
 namespace {
 
-constexpr double step = 1e-3;  // relative, of the parameter
 constexpr std::size_t fewest_recordings = 5;
 // Chance explains a rank correlation whose t is below this (one in two thousand at six degrees of freedom), and a
 // change of less than this many standard errors or this share of the parameter.
@@ -58,10 +59,9 @@ void find_what_it_follows(DriftOfParameter& row, const std::vector<DriftConditio
 
 }  // namespace
 
-Drift drift_of(const Workbench& bench, const Fit& fit) {
+Drift drift_of(const std::vector<Recording>& recordings, const Residuals& residuals,
+               const std::vector<Sensitivity>& sensitivities) {
   Drift result;
-  const std::vector<Recording>& recordings = bench.split().fit;
-  std::vector<Residual> left;
   for (const Recording& recording : recordings) {
     const auto [low, high] = std::ranges::minmax(recording.displacement);
     const double drive = recording.drive.empty()
@@ -71,47 +71,31 @@ Drift drift_of(const Workbench& bench, const Fit& fit) {
     result.recordings.push_back(recording.file);
     result.conditions.push_back(
         {0.5 * (high - low), dominant_frequency(recording), drive, static_cast<double>(result.conditions.size())});
-    left.push_back(bench.residual(fit, recording));
   }
-  for (const ParameterLaw& law : fit.layout->laws()) {
+  for (const Sensitivity& sensitivity : sensitivities) {
     DriftOfParameter row;
-    row.name = fit.layout->names()[law.parameter];
-    // Of what may be zero no relative change can be told.
-    if (row.name.find('.') != std::string::npos || fit.layout->cards()[law.parameter].lower < 0.0) {
-      continue;
-    }
-    Fit moved = fit;
-    for (Term& term : moved.terms) {
-      if (term.parameter == law.parameter) {
-        term.value *= 1.0 + step;
-      }
-    }
+    row.name = sensitivity.name;
     for (std::size_t k = 0; k < recordings.size(); ++k) {
-      const Residual there = bench.residual(moved, recordings[k]);
+      const Residual& left = residuals.of[k];
+      const std::vector<double>& slope = sensitivity.slope[k];
       double slopes = 0.0;
       double product = 0.0;
       double squares = 0.0;
-      double neighbours = 0.0;
-      double count = 0.0;
-      double before = 0.0;
-      for (std::size_t n = left[k].from; n < there.force.size(); ++n) {
-        const double residual = left[k].force[n];
-        const double slope = (there.force[n] - residual) / step;
-        slopes += slope * slope;
-        product += slope * residual;
-        squares += residual * residual;
-        neighbours += residual * before;
-        before = residual;
-        count += 1.0;
+      for (std::size_t n = left.from; n < slope.size(); ++n) {
+        slopes += slope[n] * slope[n];
+        product += slope[n] * left.force[n];
+        squares += left.force[n] * left.force[n];
       }
       if (!(slopes > 0.0) || !std::isfinite(slopes) || !std::isfinite(squares)) {
         row.change.push_back(0.0);
         row.std_error.push_back(0.0);
         continue;
       }
-      const double correlation = std::clamp(squares > 0.0 ? neighbours / squares : 0.0, 0.0, 0.999);
       row.change.push_back(-product / slopes);
-      row.std_error.push_back(std::sqrt(squares / count * (1.0 + correlation) / (1.0 - correlation) / slopes));
+      // Of the samples that both make up, so many are independent.
+      const double mean_slope = slopes / static_cast<double>(slope.size() - left.from);
+      const double mean_square = squares / static_cast<double>(slope.size() - left.from);
+      row.std_error.push_back(std::sqrt(mean_square / mean_slope / independent_values(recordings[k], left)));
     }
     find_what_it_follows(row, result.conditions);
     result.parameters.push_back(std::move(row));

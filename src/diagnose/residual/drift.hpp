@@ -6,13 +6,20 @@
 #include <string>
 #include <vector>
 
-#include "diagnose/search/workbench.hpp"
+#include "core/recording.hpp"
+#include "diagnose/residual/residuals.hpp"
 
 namespace hysteron {
 
 // Of a recording: half stroke in m, frequency in Hz, mean drive in A or V, and its place in the order of recording.
 constexpr std::array<const char*, 4> drift_variables = {"amplitude", "frequency", "drive", "order"};
 using DriftConditions = std::array<double, drift_variables.size()>;
+
+// What a relative change of a parameter adds to the residual, to first order: N at every sample of every recording.
+struct Sensitivity {
+  std::string name;
+  std::vector<std::vector<double>> slope;
+};
 
 struct DriftOfParameter {
   std::string name;
@@ -28,9 +35,10 @@ struct DriftOfParameter {
 struct Drift {
   std::vector<std::string> recordings;  // file names, the fitted ones
   std::vector<DriftConditions> conditions;
-  std::vector<DriftOfParameter> parameters;  // of the damper law that cannot be zero, without those of effects
+  std::vector<DriftOfParameter> parameters;  // as of the sensitivities
 };
 
-Drift drift_of(const Workbench& bench, const Fit& fit);
+Drift drift_of(const std::vector<Recording>& recordings, const Residuals& residuals,
+               const std::vector<Sensitivity>& sensitivities);
 
 }  // namespace hysteron

@@ -5,7 +5,7 @@
 
 #include <array>
 
-#include "diagnose/search/workbench.hpp"
+#include "diagnose/residual/residuals.hpp"
 
 namespace hysteron {
 

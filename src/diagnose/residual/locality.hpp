@@ -2,9 +2,8 @@
 // the model misses on the rest of the stroke is no doubt of it.
 #pragma once
 
-#include <string>
-
-#include "diagnose/search/workbench.hpp"
+#include "core/recording.hpp"
+#include "diagnose/residual/residuals.hpp"
 
 namespace hysteron {
 
@@ -16,7 +15,9 @@ struct Locality {
   double noise = 0.0;
 };
 
-// `with` holds the effect, `without` is the same hypothesis less it. Nothing acts where `effect` is not in `with`.
-Locality locality_of(const Workbench& bench, const Fit& with, const Fit& without, const std::string& effect);
+// Residuals of a fit with the effect, of the same hypothesis less it, refitted, and of the first with the effect
+// switched off and nothing refitted. Samples at which any of them does not count do not.
+Locality locality_of(const std::vector<Recording>& recordings, const Residuals& with, const Residuals& without,
+                     const Residuals& switched_off);
 
 }  // namespace hysteron

@@ -9,7 +9,6 @@
 
 #include "core/random.hpp"
 #include "diagnose/signal/features.hpp"
-#include "diagnose/signal/noise.hpp"
 
 namespace hysteron {
 namespace {
@@ -109,16 +108,15 @@ std::vector<double> bin_edges(std::vector<double> values) {
   return between;
 }
 
-std::vector<Location> locate(const Workbench& bench, const Fit& fit) {
-  const std::vector<Recording>& recordings = bench.split().fit;
+std::vector<Location> locate(const std::vector<Recording>& recordings, const Residuals& residuals) {
   std::vector<Features> features;
   std::vector<std::vector<double>> energy;  // per recording and sample, normalised, noise taken off
-  for (const Recording& recording : recordings) {
-    features.push_back(features_of(recording));
-    const Residual residual = bench.residual(fit, recording);
-    const double norm = normaliser(recording, bench.options().normalisation);
-    const double noise = noise_floor(recording).sigma / norm;
-    std::vector<double> r(recording.size(), 0.0);
+  for (std::size_t k = 0; k < recordings.size(); ++k) {
+    features.push_back(features_of(recordings[k]));
+    const Residual& residual = residuals.of[k];
+    const double norm = residuals.norms[k];
+    const double noise = residuals.noise[k].sigma / norm;
+    std::vector<double> r(recordings[k].size(), 0.0);
     for (std::size_t n = residual.from; n < r.size(); ++n) {
       r[n] = (residual.force[n] * residual.force[n] / (norm * norm) - noise * noise) / static_cast<double>(r.size());
     }

@@ -4,7 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "diagnose/search/workbench.hpp"
+#include "core/recording.hpp"
+#include "diagnose/residual/residuals.hpp"
 
 namespace hysteron {
 
@@ -24,7 +25,7 @@ struct Location {
 // Concentrations of the squared residual (less the noise), strongest first: share of misfit at least a fifth and 1.25
 // times the share of samples, and more than that share at the 5 % quantile of a block bootstrap over stretches of the
 // recordings.
-std::vector<Location> locate(const Workbench& bench, const Fit& fit);
+std::vector<Location> locate(const std::vector<Recording>& recordings, const Residuals& residuals);
 
 // Ends of the bins of a variable with these values, one or more: sixteen bins that hold as many values each, or, where
 // the values are of few levels, noise on them or not, one for each level, which ends half way to the next.

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "diagnose/residual/evenness.hpp"
-#include "diagnose/search/workbench.hpp"
+#include "diagnose/residual/residuals.hpp"
 
 namespace hysteron {
 
@@ -18,23 +18,18 @@ struct Misfit {
   double motion = 0.0;       // the part of the floor that comes from the motion's noise
   double predictable = 0.0;  // share that repeats with the motion (structure.hpp)
   Evenness evenness;
-  double correlation = 0.0;  // lag-one correlation of the residual
-  double effective = 0.0;    // samples worth of independent information, were the residual's memory one of lag one
-  double independent = 0.0;  // likewise from all lags: fewer where a slow noise hides under a white one
+  double independent = 0.0;  // values worth of independent information (independent.hpp)
 };
 
-// Over the fitted recordings of the workbench.
-Misfit misfit_of(const Workbench& bench, const Fit& fit);
+Misfit misfit_of(const std::vector<Recording>& recordings, const Residuals& residuals);
 
 // Structure beyond what noise and its estimate explain.
 bool structured(const Misfit& misfit);
 // Nothing of it follows the motion, neither its values nor their size: noise, whatever its colour.
 bool noise_like(const Misfit& misfit);
 
-// Gain of the Bayesian information criterion from squares `before` to `after` for `more` parameters, by `effective`
-// independent samples.
-double evidence(double before, double after, double more, double effective);
-
-inline double squared(double value) { return value * value; }
+// Gain of the Bayesian information criterion from squares `before` to `after` for `more` parameters, by so many
+// independent values.
+double evidence(double before, double after, double more, double independent);
 
 }  // namespace hysteron

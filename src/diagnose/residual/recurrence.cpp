@@ -127,20 +127,20 @@ void take_off(Eigen::MatrixXd& columns, const Eigen::VectorXd& force) {
 
 }  // namespace
 
-Recurrence recurrence(const std::vector<Recording>& recordings, const std::vector<Residual>& residuals,
-                      const std::vector<double>& norms) {
+Recurrence recurrence_of(const std::vector<Recording>& recordings, const Residuals& residuals) {
+  const std::vector<double>& norms = residuals.norms;
   const Scales scales = scales_of(recordings);
   constexpr auto count = static_cast<Eigen::Index>(3 * states);
   Eigen::MatrixXd half = Eigen::MatrixXd::Zero(count, count);
   Eigen::MatrixXd with = Eigen::MatrixXd::Zero(count, 1 + shifts);
   Eigen::RowVectorXd squares = Eigen::RowVectorXd::Zero(1 + shifts);
   for (std::size_t k = 0; k < recordings.size(); ++k) {
-    if (recordings[k].size() < residuals[k].from + fewest_samples) {
+    if (recordings[k].size() < residuals.of[k].from + fewest_samples) {
       continue;
     }
-    const Eigen::VectorXd force = simulated(recordings[k], residuals[k], scales);
-    Eigen::MatrixXd motion = functions(recordings[k], residuals[k].from, force, scales) / norms[k];
-    Eigen::MatrixXd left = shifted(residuals[k], norms[k], k);
+    const Eigen::VectorXd force = simulated(recordings[k], residuals.of[k], scales);
+    Eigen::MatrixXd motion = functions(recordings[k], residuals.of[k].from, force, scales) / norms[k];
+    Eigen::MatrixXd left = shifted(residuals.of[k], norms[k], k);
     take_off(motion, force);
     take_off(left, force);
     half.selfadjointView<Eigen::Lower>().rankUpdate(motion.transpose());
@@ -162,17 +162,6 @@ Recurrence recurrence(const std::vector<Recording>& recordings, const std::vecto
       (2.0 * weights.cwiseProduct(with) - weights.cwiseProduct(among * weights)).colwise().sum();
   const Eigen::RowVectorXd shares = taken.cwiseQuotient(squares.cwiseMax(1e-300));
   return {shares[0], shares.tail(shifts).mean(), shares.tail(shifts).maxCoeff()};
-}
-
-Recurrence recurrence_of(const Workbench& bench, const Fit& fit) {
-  const std::vector<Recording>& recordings = bench.split().fit;
-  std::vector<Residual> residuals;
-  std::vector<double> norms;
-  for (const Recording& recording : recordings) {
-    residuals.push_back(bench.residual(fit, recording));
-    norms.push_back(normaliser(recording, bench.options().normalisation));
-  }
-  return recurrence(recordings, residuals, norms);
 }
 
 }  // namespace hysteron

@@ -7,7 +7,8 @@
 
 #include <vector>
 
-#include "diagnose/search/workbench.hpp"
+#include "core/recording.hpp"
+#include "diagnose/residual/residuals.hpp"
 
 namespace hysteron {
 
@@ -18,12 +19,8 @@ struct Recurrence {
   double most_by_chance = 0.0;  // likewise, the largest
 };
 
-// Residuals, one for each recording, in units of `norms` in N. Recordings of fewer than 200 samples are left out.
-Recurrence recurrence(const std::vector<Recording>& recordings, const std::vector<Residual>& residuals,
-                      const std::vector<double>& norms);
-
-// Of what the fit leaves of the fitted recordings.
-Recurrence recurrence_of(const Workbench& bench, const Fit& fit);
+// Recordings of fewer than 200 samples are left out.
+Recurrence recurrence_of(const std::vector<Recording>& recordings, const Residuals& residuals);
 
 // Whether chance does not explain the share. False where nothing is known.
 inline bool recurs(const Recurrence& recurrence) {

@@ -172,17 +172,16 @@ bool wanders(const Wandering& wandering) {
          wandering.share > clear_of_chance * wandering.by_chance;
 }
 
-std::vector<Leftover> leftovers_of(const Workbench& bench, const Fit& fit) {
+std::vector<Leftover> leftovers_of(const std::vector<Recording>& recordings, const Residuals& residuals) {
   std::vector<Leftover> result;
-  for (const Recording& recording : bench.split().fit) {
-    const Residual residual = bench.residual(fit, recording);
+  for (std::size_t k = 0; k < recordings.size(); ++k) {
+    const Residual& residual = residuals.of[k];
     const auto from = static_cast<std::ptrdiff_t>(residual.from);
-    const double norm = normaliser(recording, bench.options().normalisation);
     Leftover one;
-    one.time.assign(recording.time.begin() + from, recording.time.end());
-    for (std::size_t n = residual.from; n < recording.size(); ++n) {
-      one.residual.push_back(residual.force[n] / norm);
-      one.force.push_back(recording.force[n] + residual.force[n]);
+    one.time.assign(recordings[k].time.begin() + from, recordings[k].time.end());
+    for (std::size_t n = residual.from; n < recordings[k].size(); ++n) {
+      one.residual.push_back(residual.force[n] / residuals.norms[k]);
+      one.force.push_back(recordings[k].force[n] + residual.force[n]);
     }
     if (!one.time.empty()) {
       result.push_back(std::move(one));

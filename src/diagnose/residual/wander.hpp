@@ -5,7 +5,8 @@
 
 #include <vector>
 
-#include "diagnose/search/workbench.hpp"
+#include "core/recording.hpp"
+#include "diagnose/residual/residuals.hpp"
 
 namespace hysteron {
 
@@ -28,7 +29,6 @@ Wandering wandering(const std::vector<Leftover>& leftovers);
 // Whether chance does not explain the share.
 bool wanders(const Wandering& wandering);
 
-// Of the fitted recordings.
-std::vector<Leftover> leftovers_of(const Workbench& bench, const Fit& fit);
+std::vector<Leftover> leftovers_of(const std::vector<Recording>& recordings, const Residuals& residuals);
 
 }  // namespace hysteron

@@ -206,8 +206,8 @@ std::vector<Unobservable> detection_limits(const Workbench& bench, const Fit& fi
       continue;
     }
     // size^2 * sensitivity * kept / squares * effective = what the criterion asks for.
-    const double asked = 12.0 + std::log(misfit.effective);
-    const double response_share = std::sqrt(asked * misfit.squares / (misfit.effective * kept));
+    const double asked = 12.0 + std::log(misfit.independent);
+    const double response_share = std::sqrt(asked * misfit.squares / (misfit.independent * kept));
     if (response_share > 1.0) {
       result[k].reason = "the other parameters imitate it nearly entirely on these recordings";
       continue;

@@ -114,7 +114,7 @@ void grow(Course& course, const std::vector<std::string>& candidates, int most_e
     std::vector<Tried> tried = stage(course.bench, course.current, candidates, course.effective);
     // What a good model leaves tells the independent samples better than what a bad one does.
     if (!tried.empty()) {
-      course.effective = std::max(course.effective, misfit_of(course.bench, tried.front().fit).effective);
+      course.effective = std::max(course.effective, misfit_of(course.bench, tried.front().fit).independent);
       for (Tried& one : tried) {
         one = weighed(one.id, one.fit, course.current, course.effective);
       }
@@ -345,7 +345,7 @@ Search search(const Workbench& bench, const Workbench& fine, const Hypothesis& b
   candidates.insert(candidates.end(), laws.begin(), laws.end());
 
   Course course{bench, base, result.quick_base, result.quick_base};
-  course.effective = misfit_of(bench, course.current).effective;
+  course.effective = misfit_of(bench, course.current).independent;
   grow(course, candidates, options.most_effects, progress);
   if (!course.stages.empty()) {
     result.first_stage = course.stages.front();

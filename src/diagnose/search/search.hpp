@@ -7,9 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "diagnose/residual/locality.hpp"
-#include "diagnose/residual/misfit.hpp"
-#include "diagnose/residual/recurrence.hpp"
+#include "diagnose/search/of_fit.hpp"
 #include "diagnose/search/stage.hpp"
 #include "diagnose/search/withstand.hpp"
 

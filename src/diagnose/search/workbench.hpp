@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "diagnose/residual/drift.hpp"
+#include "diagnose/residual/residuals.hpp"
 #include "diagnose/signal/split.hpp"
 #include "fit/objective.hpp"
 
@@ -30,15 +32,6 @@ struct Fit {
   double heldout = 0.0;  // NRMSE over the judged recordings
 
   [[nodiscard]] std::size_t dimension() const { return point.size(); }
-};
-
-// Simulated - measured force in N at every sample; those before `from`, the run-in, are zero and do not count.
-struct Residual {
-  std::vector<double> force;
-  std::size_t from = 0;
-
-  // Mean square over the samples from `first` on that count.
-  [[nodiscard]] double mean_square(std::size_t first = 0) const;
 };
 
 class Workbench {
@@ -72,6 +65,12 @@ class Workbench {
 
   // Of a fit on a recording.
   [[nodiscard]] Residual residual(const Fit& fit, const Recording& recording) const;
+  // Of a fit on the fitted recordings, with all that is told of them: two simulations of each, in parallel.
+  [[nodiscard]] Residuals residuals(const Fit& fit) const;
+  // Noise of the fitted recordings' forces.
+  [[nodiscard]] const std::vector<NoiseFloor>& noise() const { return noise_; }
+  // How the residuals of a fit, those given, change with each parameter of its damper law that cannot be zero.
+  [[nodiscard]] std::vector<Sensitivity> sensitivities(const Fit& fit, const Residuals& residuals) const;
   [[nodiscard]] Layout layout(const Hypothesis& what) const;
 
  private:
@@ -82,6 +81,7 @@ class Workbench {
 
   DataScale scale_;
   Split split_;
+  std::vector<NoiseFloor> noise_;
   LayoutOptions layout_;
   ObjectiveOptions options_;
   std::uint64_t seed_;
