@@ -35,6 +35,7 @@ struct Options {
   int campaigns = 300;
   std::vector<std::string> levels;
   std::vector<std::string> effects;
+  challenge::FormChoice choice;
   std::uint64_t seed = 1;
   int jobs = 2;
   int threads = 1;
@@ -47,7 +48,10 @@ std::vector<challenge::Task> tasks_of(const Options& options) {
   std::vector<challenge::Level> levels;
   for (const std::string& name : options.levels) levels.push_back(challenge::level_of(name));
   for (const std::string& id : options.effects) static_cast<void>(challenge::hidden_effect(id));
-  return challenge::plan(options.campaigns, levels, options.effects, options.seed);
+  for (const auto* list : {&options.choice.only, &options.choice.without, &options.choice.foreign}) {
+    for (const std::string& id : *list) static_cast<void>(challenge::hidden_form(id));
+  }
+  return challenge::plan(options.campaigns, levels, options.effects, options.seed, options.choice);
 }
 
 std::string last_line(const std::filesystem::path& path) {
@@ -196,10 +200,19 @@ void add_challenge(CLI::App& program) {
       ->capture_default_str();
   command
       ->add_option("--level", options->levels,
-                   "only these levels: plain, buried, absorbed, pairs, wrong-base, foreign, none, unexcited")
+                   "only these levels: plain, buried, absorbed, pairs, wrong-base, foreign, beside, none, unexcited")
       ->delimiter(',')
       ->excludes(data);
   command->add_option("--effect", options->effects, "only these effects")->delimiter(',');
+  command->add_option("--forms", options->choice.only, "only these forms of the effects, as EFFECT/FORM")
+      ->delimiter(',')
+      ->excludes(data);
+  command->add_option("--without-forms", options->choice.without, "all but these forms and foreign causes")
+      ->delimiter(',')
+      ->excludes(data);
+  command->add_option("--foreign", options->choice.foreign, "only these foreign causes")
+      ->delimiter(',')
+      ->excludes(data);
   command->add_option("--seed", options->seed, "seed of everything that is drawn")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();

@@ -12,52 +12,69 @@ struct Nudge {
   double step;
 };
 
+// The parameters on which the force does not hang linearly.
 std::vector<Nudge> nudges(const Physics& p) {
-  const double force = 0.01 * p.force_scale;
-  const double drive = 1.0;
+  const double spring = 0.01 * p.force_scale / p.length_scale;
   const double speed = std::max(p.c_a + p.c_b, 1e-9);
-  std::vector<Nudge> list = {{&Physics::alpha_a, force},
-                             {&Physics::alpha_b, force / drive},
-                             {&Physics::c_a, 0.03 * speed},
-                             {&Physics::c_b, 0.03 * speed / drive}};
-  const double spring = force / p.length_scale;
   switch (p.law) {
     case Law::bouc_wen:
-      list.insert(list.end(), {{&Physics::k0, spring},
-                               {&Physics::f0, force},
-                               {&Physics::A, 0.03 * p.A},
-                               {&Physics::beta, 0.03 * p.beta},
-                               {&Physics::gamma, 0.03 * p.gamma},
-                               {&Physics::n, 0.03 * p.n}});
-      break;
+      return {{&Physics::A, 0.03 * p.A},
+              {&Physics::beta, 0.03 * p.beta},
+              {&Physics::gamma, 0.03 * p.gamma},
+              {&Physics::n, 0.03 * p.n}};
     case Law::modified_bouc_wen:
-      list.insert(list.end(), {{&Physics::k0, spring},
-                               {&Physics::k1, spring},
-                               {&Physics::c1, 0.03 * p.c1},
-                               {&Physics::A, 0.03 * p.A},
-                               {&Physics::beta, 0.03 * p.beta},
-                               {&Physics::gamma, 0.03 * p.gamma},
-                               {&Physics::n, 0.03 * p.n}});
-      break;
+      // The dashpot c1 takes part of every force.
+      return {{&Physics::alpha_a, 0.01 * p.force_scale},
+              {&Physics::alpha_b, 0.01 * p.force_scale},
+              {&Physics::c_a, 0.03 * speed},
+              {&Physics::c_b, 0.03 * speed},
+              {&Physics::k0, spring},
+              {&Physics::c1, 0.03 * p.c1},
+              {&Physics::A, 0.03 * p.A},
+              {&Physics::beta, 0.03 * p.beta},
+              {&Physics::gamma, 0.03 * p.gamma},
+              {&Physics::n, 0.03 * p.n}};
     case Law::tanh_hysteresis:
-      list.insert(list.end(), {{&Physics::k0, spring},
-                               {&Physics::f0, force},
-                               {&Physics::v_y, 0.03 * p.v_y},
-                               {&Physics::v_h, 0.03 * p.v_h}});
-      break;
+      return {{&Physics::v_y, 0.03 * p.v_y}, {&Physics::v_h, 0.03 * p.v_h}};
     case Law::bingham:
-      list.insert(list.end(), {{&Physics::f0, force}});
-      break;
+      return {};
     case Law::lugre:
-      list.insert(list.end(), {{&Physics::k0, spring},
-                               {&Physics::f0, force},
-                               {&Physics::x_b, 0.03 * p.x_b},
-                               {&Physics::ratio, 0.03},
-                               {&Physics::v_st, 0.03 * p.v_st},
-                               {&Physics::s1, 0.03 * speed}});
-      break;
+      return {{&Physics::x_b, 0.03 * p.x_b},
+              {&Physics::ratio, 0.03},
+              {&Physics::v_st, 0.03 * p.v_st},
+              {&Physics::s1, 0.03 * speed}};
   }
-  return list;
+  return {};
+}
+
+// The others of the plain laws: dF / d alpha_a = h is found by one simulation, the rest are h i, v, v i, x and 1.
+std::vector<Forces> linear_derivatives(const Physics& physics, const std::vector<Run>& tests, double rate,
+                                       int decimation) {
+  const bool modified = physics.law == Law::modified_bouc_wen;
+  std::vector<Forces> columns(modified ? 1 : 6);
+  Physics changed = physics;
+  const double step = 0.01 * physics.force_scale;
+  changed.alpha_a += step;
+  for (const Run& test : tests) {
+    const Track plain = simulate(physics, test, rate);
+    const auto add = [&](std::size_t column, const auto& value) {
+      Track track = plain;
+      for (std::size_t k = 0; k < track.force.size(); ++k) track.force[k] = value(k);
+      columns[column].push_back(clean_force(physics, track, decimation));
+    };
+    add(0, [&](std::size_t k) { return plain.x[k]; });  // k0, or k1 of the modified law
+    if (modified) continue;
+    const Track more = simulate(changed, test, rate);
+    const auto h = [&](std::size_t k) { return (more.force[k] - plain.force[k]) / step; };
+    add(1, h);
+    add(2, [&](std::size_t k) { return h(k) * plain.drive[k]; });
+    add(3, [&](std::size_t k) { return plain.v[k]; });
+    add(4, [&](std::size_t k) { return plain.v[k] * plain.drive[k]; });
+    add(5, [](std::size_t) { return 1.0; });
+  }
+  // The step of Bingham's law holds without a spring.
+  if (physics.law == Law::bingham) columns.erase(columns.begin());
+  return columns;
 }
 
 // Takes the part of `column` along the orthonormal `basis` out of it.
@@ -90,7 +107,7 @@ std::vector<double> stacked(const Forces& forces, const std::vector<double>& pea
 
 std::vector<Forces> law_derivatives(const Physics& physics, const std::vector<Run>& tests, double rate, int decimation,
                                     const Forces& at_truth) {
-  std::vector<Forces> result;
+  std::vector<Forces> result = linear_derivatives(physics, tests, rate, decimation);
   for (const Nudge& nudge : nudges(physics)) {
     Physics changed = physics;
     changed.*nudge.parameter += nudge.step;

@@ -9,8 +9,8 @@ namespace hysteron::challenge {
 
 using Forces = std::vector<std::vector<double>>;  // recording by recording
 
-// Derivatives of the force by the law's parameters (yield force and damping with their slopes over the drive, spring,
-// offset, shape), by differences: one Forces a parameter.
+// Derivatives of the force of a law without parts by its parameters (yield force and damping with their slopes over the
+// drive, spring, offset, shape): one Forces a parameter. Shapes by differences, the others exactly.
 [[nodiscard]] std::vector<Forces> law_derivatives(const Physics& physics, const std::vector<Run>& tests, double rate,
                                                   int decimation, const Forces& at_truth);
 

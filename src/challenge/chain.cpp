@@ -28,31 +28,6 @@ std::vector<double> anti_aliased(const std::vector<double>& signal, double cutof
   return out;
 }
 
-std::vector<double> delayed(const std::vector<double>& signal, double points) {
-  std::vector<double> out(signal.size());
-  for (std::size_t k = 0; k < signal.size(); ++k) {
-    const double place = std::max(static_cast<double>(k) - points, 0.0);
-    const auto at = std::min(static_cast<std::size_t>(place), signal.size() - 2);
-    out[k] = signal[at] + (place - static_cast<double>(at)) * (signal[at + 1] - signal[at]);
-  }
-  return out;
-}
-
-std::vector<double> lagged(const std::vector<double>& signal, double points) {
-  std::vector<double> out(signal.size());
-  const double keep = std::exp(-1.0 / points);
-  double y = signal.front();
-  double before = y;
-  for (std::size_t k = 0; k < signal.size(); ++k) {
-    // Exact for a signal that is straight between grid points.
-    const double slope = signal[k] - before;
-    y = signal[k] - slope * points + (y - before + slope * points) * keep;
-    before = signal[k];
-    out[k] = y;
-  }
-  return out;
-}
-
 std::vector<double> sampled(const std::vector<double>& signal, std::size_t lead, int decimation) {
   std::vector<double> out;
   for (std::size_t k = lead; k < signal.size(); k += static_cast<std::size_t>(decimation)) out.push_back(signal[k]);
@@ -68,7 +43,7 @@ double quantised(double value, double range, int bits) {
 
 std::vector<double> clean_force(const Physics& physics, const Track& track, int decimation) {
   std::vector<double> force = track.force;
-  if (physics.force_delay != 0.0) force = delayed(force, physics.force_delay * track.rate);
+  for (const PartPointer& part : physics.parts) part->on_force(force, track.rate);
   return sampled(anti_aliased(force, 0.4 / decimation), track.lead, decimation);
 }
 
@@ -80,7 +55,9 @@ Measured measure(const Physics& physics, const Track& track, int decimation, con
   Measured result;
   result.clean = clean_force(physics, track, decimation);
   result.x = through(track.x);
-  result.v = through(physics.velocity_lag > 0.0 ? lagged(track.v, physics.velocity_lag * track.rate) : track.v);
+  std::vector<double> velocity = track.v;
+  for (const PartPointer& part : physics.parts) part->on_velocity(velocity, track.rate);
+  result.v = through(velocity);
   result.drive = through(track.drive);
   result.force = result.clean;
   const double white = chain.noise * range.force * std::sqrt(1.0 - chain.coloured_share);

@@ -7,12 +7,13 @@
 
 #include "challenge/absorption.hpp"
 #include "challenge/base.hpp"
+#include "core/error.hpp"
 
 namespace hysteron::challenge {
 namespace {
 
 // Grid points a second of the simulation: fine enough for the filter and the delay.
-constexpr double finest_grid = 2500.0;
+constexpr double finest_grid = 1600.0;
 
 Needs merged(const Needs& a, const Needs& b) {
   Needs all;
@@ -50,7 +51,7 @@ Law draw_true_law(Draws& draws, const Task& task) {
     const HiddenEffect& effect = hidden_effect(id);
     std::erase_if(laws, [&](Law law) { return std::ranges::find(effect.laws, law) == effect.laws.end(); });
   }
-  if (laws.empty()) laws = hidden_effect(task.effects.at(0)).laws;
+  if (laws.empty()) laws = common_laws(task.effects);
   return draws.pick(laws);
 }
 
@@ -155,62 +156,187 @@ double nrmse(const Forces& difference, const std::vector<double>& peaks) {
   return std::sqrt(sum / static_cast<double>(difference.size()));
 }
 
-// Finds the strength at which the effect changes the force by the wanted share of the base's peak: secant steps on
-// logarithms inside the effect's range.
+// Finds the strength at which `size` of the change of force is the wanted one: secant steps on logarithms inside the
+// effect's range.
 struct Calibration {
   double strength;
-  double share;
+  double size;
   Forces change;
 };
-Calibration calibrate(const HiddenEffect& effect, const Physics& base, const Device& device, const Stream& shape,
-                      const Concealed& c, const Forces& without, double wanted) {
-  const double rate = c.excitation.sampling_rate * c.decimation;
-  const double peak = device.force;
-  const auto measured = [&](double strength) {
-    Physics physics = base;
-    effect.put(physics, device, strength, Draws(shape));
-    // A lag of the recorded velocity leaves the force as it is: its size is what a law fed with it makes of it.
-    physics.acting_lag = physics.velocity_lag;
-    Calibration result{strength, 0.0, {}};
-    result.change = difference(clean_forces(physics, c.excitation.tests, rate, c.decimation), without);
-    result.share = largest_change(result.change) / peak;
-    return result;
-  };
-  const auto inside = [&](double strength) { return std::clamp(strength, effect.least, effect.most); };
-  Calibration best = measured(inside(wanted));
-  double slope = 1.0;
-  for (int k = 0; k < 6 && std::abs(best.share / wanted - 1.0) > 0.03; ++k) {
-    if (best.share <= 0.0) {
-      // Nothing happens yet: a threshold lies above.
-      if (best.strength >= effect.most) break;
-      best = measured(inside(3.0 * best.strength));
-      continue;
-    }
-    const double log_step = std::clamp(std::log(wanted / best.share) / slope, -2.0, 2.0);
-    const double next = inside(best.strength * std::exp(log_step));
-    if (next == best.strength) break;
-    Calibration tried = measured(next);
-    if (tried.share > 0.0) {
-      const double seen = std::log(tried.share / best.share) / std::log(tried.strength / best.strength);
-      if (std::isfinite(seen)) slope = std::clamp(seen, 0.2, 5.0);
-    }
-    if (std::abs(std::log(std::max(tried.share, 1e-12) / wanted)) <= std::abs(std::log(best.share / wanted))) {
-      best = std::move(tried);
-    } else {
-      slope = std::clamp(2.0 * slope, 0.2, 5.0);
-    }
-  }
-  return best;
+using SizeOf = double (*)(const Forces& change, const std::vector<double>& peaks);
+
+// Root mean square in the recording that changes most, over the campaign's peak.
+double share_of_peak(const Forces& change, const std::vector<double>& peaks) {
+  return largest_change(change) / *std::ranges::max_element(peaks);
 }
 
-}  // namespace
+class Workshop {
+ public:
+  Workshop(const Concealed& c, const Physics& base, const Device& device)
+      : tests_(c.excitation.tests),
+        rate_(c.excitation.sampling_rate * c.decimation),
+        decimation_(c.decimation),
+        base_(base),
+        device_(device),
+        without_(clean_forces(base, tests_, rate_, decimation_)) {
+    for (const auto& force : without_) peaks_.push_back(peak_of(force));
+    // Sizes refer to what the damper does, not to what it was drawn for.
+    device_.force = *std::ranges::max_element(peaks_);
+  }
 
-Concealed make_concealed(const Task& task, std::uint64_t seed) {
-  const Stream stream = Stream(seed).child("campaign").child(static_cast<std::uint64_t>(task.number));
+  [[nodiscard]] const Device& device() const { return device_; }
+  [[nodiscard]] const std::vector<double>& peaks() const { return peaks_; }
+  [[nodiscard]] std::vector<Forces> derivatives() const {
+    return law_derivatives(base_, tests_, rate_, decimation_, without_);
+  }
+
+  // What a form changes at a strength.
+  [[nodiscard]] Forces change(const HiddenForm& form, const Device& device, double strength,
+                              const Stream& shape) const {
+    Physics physics = base_;
+    physics.parts = {form.make(device, strength, Draws(shape))};
+    // A late velocity channel leaves the force as it is: its size is what a law fed with it makes of it.
+    physics.acting_delay = physics.parts.front()->velocity_delay();
+    return difference(clean_forces(physics, tests_, rate_, decimation_), without_);
+  }
+
+  [[nodiscard]] Calibration calibrate(const FormOf& what, const Stream& shape, double wanted, SizeOf size_of) const {
+    const HiddenEffect& effect = *what.effect;
+    const auto measured = [&](double strength) {
+      Calibration result{strength, 0.0, change(*what.form, device_, strength, shape)};
+      result.size = size_of(result.change, peaks_);
+      return result;
+    };
+    const auto inside = [&](double strength) { return std::clamp(strength, effect.least, effect.most); };
+    Calibration best = measured(inside(wanted));
+    double slope = 1.0;
+    for (int k = 0; k < 6 && std::abs(best.size / wanted - 1.0) > 0.03; ++k) {
+      if (best.size <= 0.0) {
+        // Nothing happens yet: a threshold lies above.
+        if (best.strength >= effect.most) break;
+        best = measured(inside(3.0 * best.strength));
+        continue;
+      }
+      const double log_step = std::clamp(std::log(wanted / best.size) / slope, -2.0, 2.0);
+      const double next = inside(best.strength * std::exp(log_step));
+      if (next == best.strength) break;
+      Calibration tried = measured(next);
+      if (tried.size > 0.0) {
+        const double seen = std::log(tried.size / best.size) / std::log(tried.strength / best.strength);
+        if (std::isfinite(seen)) slope = std::clamp(seen, 0.2, 5.0);
+      }
+      if (std::abs(std::log(std::max(tried.size, 1e-12) / wanted)) <= std::abs(std::log(best.size / wanted))) {
+        best = std::move(tried);
+      } else {
+        slope = std::clamp(2.0 * slope, 0.2, 5.0);
+      }
+    }
+    return best;
+  }
+
+ private:
+  const std::vector<Run>& tests_;
+  double rate_;
+  int decimation_;
+  Physics base_;
+  Device device_;
+  Forces without_;
+  std::vector<double> peaks_;
+};
+
+// Energy in noise variances, per independent sample: fewer by (1 + r) / (1 - r) for the coloured part of the noise.
+double detectability_of(const Forces& left, const Chain& chain, double peak) {
+  const double r = chain.coloured_share * chain.correlation;
+  const double sigma = chain.noise * peak;
+  double energy = 0.0;
+  for (const auto& recording : left) {
+    for (const double value : recording) energy += value * value;
+  }
+  return energy / (sigma * sigma) * (1.0 - r) / (1.0 + r);
+}
+
+// Puts the causes of the task into c.physics and writes down what they are. Foreign causes beside effects of the
+// catalogue are sized by their power over that of the strongest effect; they come last in a task.
+void hide_causes(Concealed& c, const Workshop& workshop, const Stream& stream) {
+  const Task& task = c.task;
+  if (task.effects.empty()) return;
+  const bool beside = task.level == Level::beside;
+  const std::vector<Forces> derivatives = workshop.derivatives();
+  const std::vector<double>& peaks = workshop.peaks();
+  double strongest = 0.0;  // change_nrmse of an effect of the catalogue
+  double first_share = 0.0;
+  for (std::size_t k = 0; k < task.effects.size(); ++k) {
+    const FormOf what = hidden_form(task.forms.at(k));
+    const HiddenEffect& effect = *what.effect;
+    const Stream shape = stream.child("shape").child(effect.id);
+    Draws size(stream.child("size"), effect.id);
+    HiddenTruth truth;
+    truth.id = task.effects[k];
+    truth.form = what.form->id;
+    truth.excited = task.level != Level::unexcited;
+    double wanted = draw_share(size, task.level, c.chain.noise);
+    if (beside && first_share > 0.0) wanted = first_share * size.log_uniform(0.3, 1.0);
+    if (first_share == 0.0) first_share = wanted;
+    Device at = workshop.device();
+    Calibration found{};
+    if (!truth.excited) {
+      at.amplitude *= size.uniform(1.5, 2.0);
+      found.strength = std::clamp(size.log_uniform(0.05, 0.3), effect.least, effect.most);
+      found.change = workshop.change(*what.form, at, found.strength, shape);
+    } else if (beside && effect.foreign) {
+      found = workshop.calibrate(what, shape, strongest * std::sqrt(size.log_uniform(0.05, 2.0)), nrmse);
+    } else {
+      found = workshop.calibrate(what, shape, wanted, share_of_peak);
+    }
+    const PartPointer part = what.form->make(at, found.strength, Draws(shape));
+    c.physics.parts.push_back(part);
+    truth.strength = found.strength;
+    truth.parameters = part->parameters();
+    truth.share = share_of_peak(found.change, peaks);
+    truth.change_nrmse = nrmse(found.change, peaks);
+    if (!effect.foreign) strongest = std::max(strongest, truth.change_nrmse);
+    const Forces left = left_over(found.change, derivatives, peaks, false);
+    c.left = c.left.empty() ? left : combined(c.left, 1.0, left);
+    truth.left_nrmse = nrmse(left, peaks);
+    truth.left_nrmse_single = nrmse(left_over(found.change, derivatives, peaks, true), peaks);
+    truth.detectability = detectability_of(left, c.chain, workshop.device().force);
+    c.truths.push_back(std::move(truth));
+  }
+  for (HiddenTruth& truth : c.truths) {
+    if (strongest > 0.0) truth.power_over_strongest = std::pow(truth.change_nrmse / strongest, 2.0);
+  }
+}
+
+// Forms that a task leaves open are drawn.
+Task with_forms(const Task& task, const Stream& stream) {
+  if (task.forms.size() == task.effects.size()) return task;
+  Task result = task;
+  result.forms.clear();
+  std::vector<InSeries> chain;
+  for (const std::string& id : task.effects) {
+    const HiddenEffect& effect = hidden_effect(id);
+    Draws draws(stream.child("form"), id);
+    const auto first = static_cast<std::size_t>(draws.integer(0, static_cast<int>(effect.forms.size()) - 1));
+    for (std::size_t k = 0; k < effect.forms.size(); ++k) {
+      const HiddenForm& form = effect.forms[(first + k) % effect.forms.size()];
+      chain.push_back(form.chain);
+      if (can_stand_in_series(chain)) {
+        result.forms.push_back(form.id);
+        break;
+      }
+      chain.pop_back();
+    }
+  }
+  if (result.forms.size() != task.effects.size()) throw InputError("these effects cannot stand in series");
+  return result;
+}
+
+Concealed attempt(const Task& asked, const Stream& stream) {
   Draws draws(stream, "campaign");
   Concealed c;
-  c.name = fmt::format("campaign-{:04d}", task.number);
-  c.task = task;
+  c.task = with_forms(asked, stream);
+  c.name = fmt::format("campaign-{:04d}", c.task.number);
+  const Task& task = c.task;
 
   Needs needs;
   for (const std::string& id : task.effects) {
@@ -252,9 +378,9 @@ Concealed make_concealed(const Task& task, std::uint64_t seed) {
   c.decimation = std::max(2, static_cast<int>(std::ceil(finest_grid / sampling)));
   const double rate = sampling * c.decimation;
 
-  const Physics base = draw_law(stream, law, device);
+  c.physics = draw_law(stream, law, device);
   c.told_model = model_of(law);
-  if (task.level == Level::wrong_base) {
+  if (task.level == Level::wrong_base || (task.level == Level::beside && draws.chance(0.5))) {
     const WrongBase wrong = wrong_base_for(law, stream);
     c.told_model = wrong.model;
     c.acceptable = wrong.acceptable;
@@ -267,59 +393,9 @@ Concealed make_concealed(const Task& task, std::uint64_t seed) {
   }
   if (driven) c.told_by_current = driven_parameters(c.told_model);
 
-  // Without anything hidden: the peak force to which sizes refer, and the law's own derivatives.
-  const Forces without = clean_forces(base, c.excitation.tests, rate, c.decimation);
-  std::vector<double> peaks;
-  for (const auto& force : without) peaks.push_back(peak_of(force));
-  c.peaks = peaks;
-  Device sized = device;
-  sized.force = *std::ranges::max_element(peaks);
-
-  c.physics = base;
-  if (!task.effects.empty()) {
-    const std::vector<Forces> derivatives = law_derivatives(base, c.excitation.tests, rate, c.decimation, without);
-    for (std::size_t k = 0; k < task.effects.size(); ++k) {
-      const HiddenEffect& effect = hidden_effect(task.effects[k]);
-      const Stream shape = stream.child("shape").child(effect.id);
-      Draws size(stream.child("size"), effect.id);
-      HiddenTruth truth;
-      truth.id = task.effects[k];
-      truth.excited = task.level != Level::unexcited;
-      const double wanted = draw_share(size, task.level, c.chain.noise);
-      Device at = sized;
-      if (!truth.excited) at.amplitude *= size.uniform(1.5, 2.0);
-      Calibration found{size.log_uniform(0.05, 0.3), 0.0, {}};
-      if (truth.excited) {
-        found = calibrate(effect, base, at, shape, c, without, wanted);
-      } else {
-        Physics with = base;
-        found.strength = std::clamp(found.strength, effect.least, effect.most);
-        effect.put(with, at, found.strength, Draws(shape));
-        found.change = difference(clean_forces(with, c.excitation.tests, rate, c.decimation), without);
-        found.share = largest_change(found.change) / sized.force;
-      }
-      truth.share = found.share;
-      truth.strength = found.strength;
-      Physics alone = base;
-      effect.put(alone, at, found.strength, Draws(shape));
-      truth.parameters = effect.parameters(alone);
-      effect.put(c.physics, at, found.strength, Draws(shape));
-      truth.change_nrmse = nrmse(found.change, peaks);
-      const Forces left = left_over(found.change, derivatives, peaks, false);
-      c.left = c.left.empty() ? left : combined(c.left, 1.0, left);
-      truth.left_nrmse = nrmse(left, peaks);
-      truth.left_nrmse_single = nrmse(left_over(found.change, derivatives, peaks, true), peaks);
-      // Independent samples fewer by (1 + r) / (1 - r) for the coloured part of the noise.
-      const double r = c.chain.coloured_share * c.chain.correlation;
-      const double sigma = c.chain.noise * sized.force;
-      double energy = 0.0;
-      for (const auto& recording : left) {
-        for (const double value : recording) energy += value * value;
-      }
-      truth.detectability = energy / (sigma * sigma) * (1.0 - r) / (1.0 + r);
-      c.truths.push_back(std::move(truth));
-    }
-  }
+  const Workshop workshop(c, c.physics, device);
+  c.peaks = workshop.peaks();
+  hide_causes(c, workshop, stream);
 
   std::vector<Physics> per_test(c.excitation.tests.size(), c.physics);
   if (c.disturbance == "scatter between recordings") {
@@ -334,10 +410,10 @@ Concealed make_concealed(const Task& task, std::uint64_t seed) {
     }
   }
   std::vector<Track> tracks;
+  c.range.force = 0.0;
   for (std::size_t r = 0; r < per_test.size(); ++r) {
     tracks.push_back(simulate(per_test[r], c.excitation.tests[r], rate));
-    c.range.force = r == 0 ? peak_of(clean_force(per_test[r], tracks[r], c.decimation))
-                           : std::max(c.range.force, peak_of(clean_force(per_test[r], tracks[r], c.decimation)));
+    c.range.force = std::max(c.range.force, peak_of(clean_force(per_test[r], tracks[r], c.decimation)));
   }
   c.range.amplitude = device.amplitude + std::abs(device.middle);
   c.range.speed = device.speed;
@@ -347,6 +423,29 @@ Concealed make_concealed(const Task& task, std::uint64_t seed) {
                                    stream.child("noise").child(static_cast<std::uint64_t>(r))));
   }
   return c;
+}
+
+// A damper that a test rig would be stopped for: a force that is no number or many times that of the damper as drawn,
+// or a cause that should be excited and changes next to nothing.
+bool is_sane(const Concealed& c) {
+  const double peak = *std::ranges::max_element(c.peaks);
+  if (!(c.range.force < 6.0 * peak)) return false;
+  for (const Measured& recording : c.recordings) {
+    if (!std::ranges::all_of(recording.force, [](double f) { return std::isfinite(f); })) return false;
+  }
+  return std::ranges::all_of(c.truths, [](const HiddenTruth& truth) { return !truth.excited || truth.share > 1e-4; });
+}
+
+}  // namespace
+
+Concealed make_concealed(const Task& task, std::uint64_t seed) {
+  const Stream stream = Stream(seed).child("campaign").child(static_cast<std::uint64_t>(task.number));
+  constexpr std::uint64_t attempts = 8;
+  for (std::uint64_t k = 0; k < attempts; ++k) {
+    Concealed c = attempt(task, stream.child(k));
+    if (is_sane(c)) return c;
+  }
+  throw WorkError(fmt::format("campaign {}: no damper with these causes runs", task.number));
 }
 
 }  // namespace hysteron::challenge

@@ -15,6 +15,7 @@ namespace hysteron::challenge {
 
 struct HiddenTruth {
   std::string id;
+  std::string form;    // "effect/form"; of a foreign cause its id
   double share = 0.0;  // RMS of the change of force in the recording it changes most, over the campaign's peak
   double strength = 0.0;
   std::vector<TrueParameter> parameters;
@@ -24,6 +25,7 @@ struct HiddenTruth {
   double left_nrmse = 0.0;
   double left_nrmse_single = 0.0;
   double detectability = 0.0;
+  double power_over_strongest = 1.0;  // change_nrmse^2 over that of the strongest effect of the catalogue
   bool excited = true;
 };
 

@@ -107,7 +107,9 @@ nlohmann::json answer_of(const Concealed& concealed) {
                            {"roles_given", concealed.roles_given},
                            {"velocity_given", concealed.velocity_given},
                            {"effects", nlohmann::json::array()},
+                           {"forms", nlohmann::json::array()},
                            {"recordings", nlohmann::json::array()}};
+  double foreign_power = 0.0;
   for (const HiddenTruth& truth : concealed.truths) {
     nlohmann::json parameters = nlohmann::json::array();
     for (const TrueParameter& parameter : truth.parameters) {
@@ -115,6 +117,7 @@ nlohmann::json answer_of(const Concealed& concealed) {
     }
     const HiddenEffect& effect = hidden_effect(truth.id);
     answer["effects"].push_back({{"id", truth.id},
+                                 {"form", truth.form},
                                  {"foreign", effect.foreign},
                                  {"excited", truth.excited},
                                  {"share_of_peak", truth.share},
@@ -123,10 +126,15 @@ nlohmann::json answer_of(const Concealed& concealed) {
                                  {"change_nrmse", truth.change_nrmse},
                                  {"left_nrmse", truth.left_nrmse},
                                  {"left_nrmse_single", truth.left_nrmse_single},
-                                 {"detectability", truth.detectability}});
+                                 {"detectability", truth.detectability},
+                                 {"power_over_strongest", truth.power_over_strongest}});
+    answer["forms"].push_back(truth.form);
+    if (effect.foreign) foreign_power += truth.power_over_strongest;
   }
+  // Foreign causes beside effects of the catalogue: their power over that of the strongest effect.
+  if (concealed.task.level == Level::beside) answer["foreign_power_over_strongest"] = foreign_power;
   // What the told law lacks of the true one sits somewhere too.
-  if (!concealed.left.empty() && concealed.task.level != Level::wrong_base) {
+  if (!concealed.left.empty() && concealed.told_model == model_of(concealed.physics.law)) {
     answer["places"] = places_of(concealed.recordings, concealed.left, concealed.peaks);
   }
   answer["noise"] = {

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <initializer_list>
@@ -14,15 +13,16 @@ namespace hysteron::challenge {
 // Advances y from t to end by y' = rate(t, y). `step` is the trial step, kept between calls; `scale` the size of each
 // state at which an error of `tolerance` is allowed. Steps never fall below 1e-9 of a second, so that a jump of the
 // right-hand side is crossed in bounded work.
-template <std::size_t N, class Rate>
-void advance(std::array<double, N>& y, double t, double end, double& step, double tolerance,
-             const std::array<double, N>& scale, Rate&& rate) {
-  using State = std::array<double, N>;
+// State: an array of numbers with size().
+template <class State, class Rate>
+void advance(State& y, double t, double end, double& step, double tolerance, const State& scale, Rate&& rate) {
   constexpr double smallest = 1e-9;
-  const auto combine = [](const State& from, double h, std::initializer_list<std::pair<double, const State*>> terms) {
+  const std::size_t size = y.size();
+  const auto combine = [size](const State& from, double h,
+                              std::initializer_list<std::pair<double, const State*>> terms) {
     State result = from;
     for (const auto& [weight, k] : terms) {
-      for (std::size_t n = 0; n < N; ++n) result[n] += h * weight * (*k)[n];
+      for (std::size_t n = 0; n < size; ++n) result[n] += h * weight * (*k)[n];
     }
     return result;
   };
@@ -52,7 +52,7 @@ void advance(std::array<double, N>& y, double t, double end, double& step, doubl
                                 {11.0 / 84.0, &k6}});
     const State k7 = rate(t + h, next);
     double error = 0.0;
-    for (std::size_t n = 0; n < N; ++n) {
+    for (std::size_t n = 0; n < size; ++n) {
       const double e = h * (71.0 / 57600.0 * k1[n] - 71.0 / 16695.0 * k3[n] + 71.0 / 1920.0 * k4[n] -
                             17253.0 / 339200.0 * k5[n] + 22.0 / 525.0 * k6[n] - 1.0 / 40.0 * k7[n]);
       error = std::max(error, std::abs(e) / scale[n]);

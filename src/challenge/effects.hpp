@@ -1,4 +1,5 @@
-// What can be hidden in a campaign: every effect of the catalogue, and causes that are in no catalogue.
+// What can be hidden in a campaign: every effect of the catalogue in several forms, none with the catalogue's equation,
+// and causes that are in no catalogue.
 #pragma once
 
 #include <span>
@@ -23,33 +24,40 @@ struct Device {
   double energy = 1.0;        // J, dissipated in the longest recording, roughly
 };
 
-struct TrueParameter {
-  std::string name;
-  double value;
-  std::string unit;
-};
-
 enum class Group { dead_zone, phase, curvature, even, slow, drive_path, friction, stop, stiffness };
+
+// One equation of a cause. Its id is "effect/form"; a foreign cause has one form, of its own id.
+struct HiddenForm {
+  std::string id;
+  std::string_view words;  // what sets it apart, for lists
+  InSeries chain;
+  // At a strength; shape parameters are drawn from the stream, the same for every strength.
+  PartPointer (*make)(const Device& device, double strength, Draws shape);
+};
 
 struct HiddenEffect {
   std::string_view id;
   Group group;  // two effects of a pair come from different groups
-  bool foreign;
-  bool series;    // at most one series element
-  Needs needs;    // what excites it
-  Needs starved;  // what keeps it unexcited
-  bool can_starve;
-  bool needs_velocity_channel;
-  std::vector<Law> laws;  // where it is not already in the law
-  double least, most;     // strength
-  // Puts the effect in; shape parameters are drawn from the stream, the same for every strength.
-  void (*put)(Physics& physics, const Device& device, double strength, Draws shape);
-  // Its parameters as the catalogue has them, where they are comparable.
-  std::vector<TrueParameter> (*parameters)(const Physics& physics);
+  bool foreign = false;
+  Needs needs = {};    // what excites it
+  Needs starved = {};  // what keeps it unexcited
+  bool can_starve = false;
+  bool needs_velocity_channel = false;
+  std::vector<Law> laws = {};          // where it is not already in the law
+  double least = 1e-4, most = 1.0;     // strength
+  std::vector<HiddenForm> forms = {};  // at least one
 };
 
 [[nodiscard]] std::span<const HiddenEffect> hidden_effects();
 // InputError with the known ids when there is none of this name.
 [[nodiscard]] const HiddenEffect& hidden_effect(std::string_view id);
+
+// A form with its effect.
+struct FormOf {
+  const HiddenEffect* effect;
+  const HiddenForm* form;
+};
+// Of an id "effect/form", or of a foreign cause's id; InputError when there is none.
+[[nodiscard]] FormOf hidden_form(std::string_view id);
 
 }  // namespace hysteron::challenge

@@ -7,16 +7,17 @@
 
 namespace hysteron::challenge {
 
-// Coil lag with different time constants up and down, exact over each step; then the play of the magnetic circuit;
-// then saturation (2/pi) i_s atan(pi i / (2 i_s)). On a grid of 10 kHz that begins at `begin`.
+// The command through supply, coil, remanence and saturation as the parts have them, on a grid of 10 kHz that begins at
+// `begin`; without such parts the command itself.
 class Field {
  public:
   Field(const Physics& physics, const Drive& drive, double begin, double end);
   [[nodiscard]] double at(double t) const;
 
  private:
+  const Drive& drive_;
   double begin_;
-  std::vector<double> values_;
+  std::vector<double> values_;  // empty: the command
 };
 
 }  // namespace hysteron::challenge

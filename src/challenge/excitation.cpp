@@ -243,6 +243,7 @@ Excitation draw_excitation(const Stream& stream, Design design, const Needs& nee
   double total = 0.0;
   for (std::size_t k = 0; k < result.tests.size(); ++k) {
     Run& test = result.tests[k];
+    test.number = k;
     test.motion.offset = middle;
     if (needs.long_runs && k % 4 == 0) test.duration = draws.uniform(12.0, 20.0);
     if (from_rest) {

@@ -51,7 +51,8 @@ struct Run {
   double peak_speed = 0;      // m/s
   double peak_acceleration = 0;
   bool held_out = false;
-  std::string kind;  // "sine", "multisine", "triangle"
+  std::string kind;        // "sine", "multisine", "triangle"
+  std::size_t number = 0;  // of the test in its campaign
 };
 
 enum class Design { sines, broadband, mixed };

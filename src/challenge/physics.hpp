@@ -1,14 +1,14 @@
-// The true damper of a concealed campaign: a law, everything that may be added to it, and its simulation.
+// The true damper of a concealed campaign: a law, the mechanisms that are added to it, and its simulation.
 // Written from the physics, apart from models/ and simulate/: other normal forms, other state equations, other
 // integrator, series elements with a force balance instead of a filtered motion.
 #pragma once
 
 #include <limits>
-#include <string>
 #include <string_view>
 #include <vector>
 
 #include "challenge/excitation.hpp"
+#include "challenge/part.hpp"
 
 namespace hysteron::challenge {
 
@@ -38,57 +38,18 @@ struct Physics {
   // alpha/x_b
   double x_b = 1e-3, ratio = 1.0, v_st = 1e-2, s1 = 0.0;
 
-  // Parallel to the rod.
-  double offset = 0.0, stiffness = 0.0, cubic = 0.0, viscous = 0.0, mass = 0.0, drift = 0.0;
-  double gas_force = 0.0, gas_swept = 0.0, gas_exponent = 1.2;  // p0 A, A / V0
-  double stop_force = 0.0, stop_up = never, stop_low = never, stop_depth = 1e-3,
-         stop_power = 1.5;                                                          // force at the depth
-  double seal_coulomb = 0.0, seal_static = 0.0, seal_speed = 1e-2, bristle = 4e-5;  // LuGre bristles
-  double film_speed = 0.0;  // above zero friction on a film in place of bristles
-  double coulomb = 0.0;
-  double pre_force = 0.0, pre_length = 1e-3;  // sliding bristles with a long knee
+  // Beside the law, in any number; in series at most what can_stand_in_series() takes.
+  std::vector<PartPointer> parts;
 
-  // In the fluid.
-  double quadratic = 0.0;
-  double thinning = 0.0, thin_speed = 0.1, thin_power = 1.0;  // Cross law: c (1 - th + th / (1 + |v/v_c|^m))
-  double asymmetry = 0.0;
-  double heat_rate = 0.0, heat_capacity = 1.0, cooling_time = 60.0, heat_yield_share = 1.0;
-  double wear = 0.0;                                           // loss per joule
-  double rest_excess = 0.0, rest_length = 0.0;                 // first travel
-  double pinch = 0.0, pinch_centre = 0.0, pinch_width = 1e-2;  // loss of force around a place of the stroke
-  double cavitation = never, refill_time = 0.1;                // force at which the fluid column parts, for v < 0
-
-  // In series with the damper; at most one.
-  double gap = 0.0, contact_stiffness = 0.0, contact_damping = 0.0;
-  double series_stiffness = never;
-  double series_dashpot = never;
-  double pocket_length = 0.0, pocket_force = 0.0, pocket_exponent = 1.2;
-
-  // From command to field.
-  double coil_rise = 0.0, coil_fall = 0.0;  // s
-  double saturation = never;                // A
-  double remanence = 0.0;                   // A, half width of the play
-
-  // Measuring chain.
-  double force_delay = 0.0;   // s
-  double velocity_lag = 0.0;  // s, of the recorded velocity
-  double acting_lag = 0.0;    // s, of the velocity that acts: what a law fed with the recorded velocity would see
-
-  // In no catalogue.
-  double place_friction = 0.0, place_centre = 0.0, place_length = 1.0;
-  double knee_growth = 0.0;  // of the yield displacement, per unit of drive
-  double mount_force = 0.0, mount_length = 1e-2, mount_fast = 0.02, mount_slow = 0.2;
-  double swing_damping = 0.0, swing_length = 1e-2;
-  double supply = 0.0, supply_period = 3.0, supply_phase = 0.0;
-  double slip_lock = 0.0, slip_centre = 0.0, slip_width = 0.3;  // of the hysteresis, where it passes zero
-  double valve = 0.0, valve_speed = 0.1;
+  // The velocity that acts is this late: what a law fed with a late velocity channel would see. For sizes only.
+  double acting_delay = 0.0;  // s
 
   double force_scale = 1e3, length_scale = 1e-2;  // of the device, for error control
-
-  [[nodiscard]] bool has_series() const {
-    return gap > 0.0 || series_stiffness < never || series_dashpot < never || pocket_length > 0.0;
-  }
 };
+
+// Whether a force balance can be found with these parts in series: one; two elastic ones; or an elastic one and a
+// dashpot.
+[[nodiscard]] bool can_stand_in_series(const std::vector<InSeries>& chain);
 
 // All channels on a grid of `rate` Hz that begins `lead` seconds before the recording.
 struct Track {

@@ -55,7 +55,8 @@ void in_parallel(std::size_t count, const Steps& steps, const std::string& stage
 json settings_of(const std::vector<Task>& tasks, std::uint64_t seed) {
   json list = json::array();
   for (const Task& task : tasks) {
-    list.push_back({{"number", task.number}, {"level", name_of(task.level)}, {"effects", task.effects}});
+    list.push_back(
+        {{"number", task.number}, {"level", name_of(task.level)}, {"effects", task.effects}, {"forms", task.forms}});
   }
   // The tasks themselves would tell the answers; their hash tells whether they are the same.
   return {{"schema", "hysteron.challenge-settings/1"},

@@ -57,7 +57,7 @@ TEST(Concealed, ChangesTheForceByTheDrawnShare) {
 }
 
 TEST(Concealed, InertiaAtOneFrequencyIsTakenUpByTheLaw) {
-  const Concealed c = make_concealed({2, Level::unexcited, {"inertia"}}, 3);
+  const Concealed c = make_concealed({2, Level::unexcited, {"inertia"}, {"inertia/sprung-fixture"}}, 3);
   EXPECT_GT(c.truths.at(0).change_nrmse, 1e-3);
   EXPECT_LT(c.truths.at(0).detectability, 1.0);
 }
@@ -109,7 +109,17 @@ TEST(Plan, EveryEffectOfTheCatalogueAndEveryLevelOccurs) {
     levels.insert(task.level);
     controls += task.level == Level::none ? 1 : 0;
     if (task.level == Level::plain) seen.insert(task.effects.begin(), task.effects.end());
-    EXPECT_EQ(task.effects.size() == 2, task.level == Level::pairs);
+    ASSERT_EQ(task.forms.size(), task.effects.size());
+    if (task.level == Level::pairs) {
+      EXPECT_EQ(task.effects.size(), 2U);
+    }
+    if (task.level == Level::plain) {
+      EXPECT_EQ(task.effects.size(), 1U);
+    }
+    if (task.level != Level::beside) continue;
+    const auto foreign = std::ranges::count_if(task.effects, [](const auto& id) { return id.starts_with("foreign:"); });
+    const auto known = static_cast<std::ptrdiff_t>(task.effects.size()) - foreign;
+    EXPECT_TRUE(foreign >= 1 && foreign <= 3 && known >= 1 && known <= 3) << task.number;
   }
   for (const char* id : {"offset-force",
                          "gas-spring",
@@ -142,7 +152,40 @@ TEST(Plan, EveryEffectOfTheCatalogueAndEveryLevelOccurs) {
     EXPECT_TRUE(seen.contains(id)) << id;
   }
   EXPECT_EQ(levels.size(), static_cast<std::size_t>(level_count));
-  EXPECT_GE(controls, 60);
+  EXPECT_GE(controls, 50);
+}
+
+TEST(Plan, FormsAndForeignCausesCanBeLeftOut) {
+  const FormChoice one{.only = {"shear-thinning/cross", "clearance/hertz"}, .foreign = {"foreign:cogging"}};
+  for (const Task& task : plan(40, {}, {}, 2, one)) {
+    for (const std::string& form : task.forms) {
+      EXPECT_TRUE(form == "shear-thinning/cross" || form == "clearance/hertz" || form == "foreign:cogging") << form;
+    }
+  }
+  const FormChoice all_but{.without = {"inertia/of-place", "foreign:cogging"}};
+  std::set<std::string> seen;
+  for (const Task& task : plan(400, {}, {}, 2, all_but)) seen.insert(task.forms.begin(), task.forms.end());
+  EXPECT_FALSE(seen.contains("inertia/of-place"));
+  EXPECT_FALSE(seen.contains("foreign:cogging"));
+  EXPECT_TRUE(seen.contains("inertia/entrained"));
+}
+
+TEST(Concealed, ForeignCausesHaveTheirPowerBesideTheStrongestEffect) {
+  for (const int number : {1, 2, 3}) {
+    const Task task{number, Level::beside, {"gas-spring", "foreign:place-friction", "foreign:cogging"}};
+    const nlohmann::json answer = answer_of(make_concealed(task, 9));
+    ASSERT_EQ(answer.at("forms").size(), 3U);
+    EXPECT_EQ(answer.at("effects")[0].at("power_over_strongest"), 1.0);
+    double sum = 0.0;
+    for (const std::size_t k : {1, 2}) {
+      const double power = answer.at("effects")[k].at("power_over_strongest");
+      // Found within 3 % of the size, 6 % of the power.
+      EXPECT_GT(power, 0.05 * 0.93);
+      EXPECT_LT(power, 2.0 * 1.07);
+      sum += power;
+    }
+    EXPECT_NEAR(answer.at("foreign_power_over_strongest").get<double>(), sum, 1e-12);
+  }
 }
 
 TEST(Plan, RefusesUnknownNamesAndEmptySelections) {

@@ -9,6 +9,13 @@
 
 #include "challenge/chain.hpp"
 #include "challenge/dormand_prince.hpp"
+#include "challenge/forms_electric.hpp"
+#include "challenge/forms_fluid.hpp"
+#include "challenge/forms_foreign.hpp"
+#include "challenge/forms_friction.hpp"
+#include "challenge/forms_series.hpp"
+#include "challenge/forms_slow.hpp"
+#include "challenge/forms_springs.hpp"
 
 namespace hysteron::challenge {
 namespace {
@@ -47,6 +54,12 @@ Physics bingham() {
   p.c_a = 2000.0;
   p.force_scale = 1000.0;
   return p;
+}
+
+// Puts a part into the damper.
+template <class Form, class... Values>
+void add(Physics& p, Values... values) {
+  p.parts.push_back(std::make_shared<const Form>(values...));
 }
 
 double largest_difference(const std::vector<double>& a, const std::vector<double>& b) {
@@ -99,9 +112,7 @@ TEST(Truth, ModifiedBoucWenTurnsIntoBoucWenForAStiffDashpot) {
 
 TEST(Truth, ResultDoesNotHangOnTheGrid) {
   Physics p = bouc_wen();
-  p.gap = 4e-4;
-  p.contact_stiffness = 1e7;
-  p.contact_damping = 2e3;
+  add<DampedContact>(p, 4e-4, 1e7, 2e3);
   const Motioned test = sine(5e-3, 2.0, 1.0);
   const Track coarse = simulate(p, test, 2000.0);
   const Track fine = simulate(p, test, 8000.0);
@@ -114,9 +125,7 @@ TEST(Truth, ResultDoesNotHangOnTheGrid) {
 
 TEST(Truth, GapGivesAPlateauOfItsOwnWidthAtZeroForce) {
   Physics p = bouc_wen();
-  p.gap = 1e-3;
-  p.contact_stiffness = 1e7;
-  p.contact_damping = 2e3;
+  add<DampedContact>(p, 1e-3, 1e7, 2e3);
   for (const double amplitude : {5e-3, 1e-2}) {
     const Track track = simulate(p, sine(amplitude, 1.0, 2.0), rate);
     double low = 1.0;
@@ -136,7 +145,7 @@ TEST(Truth, SeriesSpringTakesItsShareOfTheStroke) {
   // Bingham at rest holds, so below the yield force the rod moves the spring alone, F = k x, but for the creep of its
   // rounded step: at 100 N 0.125 mm/s, 2 um in a quarter of the period.
   Physics p = bingham();
-  p.series_stiffness = 1e6;
+  add<KelvinVoigtCompliance>(p, 1e6, 0.0);
   const Track track = simulate(p, sine(1e-4, 20.0, 0.5), rate);
   EXPECT_NEAR(*std::ranges::max_element(track.force), 100.0, 2.0);
 }
@@ -144,25 +153,24 @@ TEST(Truth, SeriesSpringTakesItsShareOfTheStroke) {
 TEST(Truth, SeriesDashpotHalvesTheViscousForceOfItsEqual) {
   Physics p = bingham();
   p.alpha_a = 0.0;
-  p.series_dashpot = 2000.0;
+  add<CheckedLeak>(p, 2000.0, 1.0);
   const Track track = simulate(p, sine(5e-3, 1.0, 1.0), rate);
   for (std::size_t k = 0; k < track.force.size(); k += 97) EXPECT_NEAR(track.force[k], 1000.0 * track.v[k], 1e-6);
 }
 
 TEST(Truth, AirPocketIsSoftAndHardens) {
   Physics p = bingham();
-  p.pocket_length = 1e-3;
-  p.pocket_force = 50.0;
+  add<AdiabaticPocket>(p, 1e-3, 50.0);
   const Track track = simulate(p, sine(5e-3, 1.0, 2.0), rate);
   Physics without = bingham();
   const Track plain = simulate(without, sine(5e-3, 1.0, 2.0), rate);
   // After the upper reversal the damper holds while the pocket gives way: the force passes zero after a travel of
-  // L (1 - (1 + F / P)^(-1 / kappa)), 0.83 to 0.91 L for F of 400 to 800 N. At full speed it is that of the damper.
+  // L (1 - (1 + F / P)^(-1 / kappa)), 0.79 to 0.87 L for F of 400 to 800 N. At full speed it is that of the damper.
   std::size_t k = track.lead + static_cast<std::size_t>(1.25 * rate);
   const double top = track.x[k];
   while (track.force[k] > 0.0) ++k;
-  EXPECT_GT(top - track.x[k], 0.83e-3);
-  EXPECT_LT(top - track.x[k], 1.0e-3);
+  EXPECT_GT(top - track.x[k], 0.79e-3);
+  EXPECT_LT(top - track.x[k], 0.9e-3);
   const std::size_t fastest = track.lead + static_cast<std::size_t>(1.5 * rate);
   EXPECT_NEAR(track.force[fastest], plain.force[fastest], 0.02 * std::abs(plain.force[fastest]));
 }
@@ -171,19 +179,17 @@ TEST(Truth, ParallelForcesAddUp) {
   const Motioned test = sine(1e-2, 2.0, 1.0);
   const Track plain = simulate(bouc_wen(), test, rate);
   Physics p = bouc_wen();
-  p.mass = 3.0;
-  p.cubic = 1e8;
-  p.offset = 20.0;
-  p.stop_force = 400.0;
-  p.stop_up = p.stop_low = 8e-3;
-  p.stop_depth = 2e-3;
-  p.drift = 50.0;
+  add<MassOfPlace>(p, 3.0, 0.0, 1e-2);
+  add<QuinticSpring>(p, 100.0, 1e-2, 0.0);
+  add<SettlingPreload>(p, 20.0, 0.0, 1.0);
+  add<LossyStop>(p, StopPlaces{8e-3, 8e-3}, 400.0, 2e-3, 0.0);
+  add<SettlingDrift>(p, 50e3, 1e3);
   const Track with = simulate(p, test, rate);
   for (std::size_t k = 0; k < plain.force.size(); k += 101) {
     const double t = (static_cast<double>(k) - static_cast<double>(plain.lead)) / rate;
     const Kinematics m = test.motion.at(t);
     const double past = std::max(std::abs(m.x) - 8e-3, 0.0) / 2e-3;
-    const double expected = 3.0 * m.a + 1e8 * m.x * m.x * m.x + 20.0 + 50.0 * std::max(t, 0.0) +
+    const double expected = 3.0 * m.a + 1e8 * m.x * m.x * m.x + 20.0 + 50e3 * -std::expm1(-std::max(t, 0.0) / 1e3) +
                             400.0 * std::pow(past, 1.5) * (m.x < 0.0 ? -1.0 : 1.0);
     EXPECT_NEAR(with.force[k] - plain.force[k], expected, 0.05) << t;
   }
@@ -194,10 +200,9 @@ TEST(Truth, StopsOutOfReachAndLagOfAConstantCurrentChangeNothing) {
   Physics p = bouc_wen();
   p.alpha_b = 300.0;
   const Track plain = simulate(p, test, rate);
-  p.stop_force = 1e5;
-  p.stop_up = p.stop_low = 1.01e-2;
-  p.coil_rise = p.coil_fall = 0.05;
-  p.remanence = 0.3;
+  add<ClosingStop>(p, StopPlaces{1.01e-2, 1.01e-2}, 1e5, 1e-3);
+  add<EddyCoil>(p, 0.05, 0.2, 0.3);
+  add<JilesRemanence>(p, 0.3);
   EXPECT_EQ(largest_difference(simulate(p, test, rate).force, plain.force), 0.0);
 }
 
@@ -206,8 +211,7 @@ TEST(Truth, CoilLagFollowsAStepExponentially) {
   p.c_a = 0.0;
   p.alpha_a = 0.0;
   p.alpha_b = 1000.0;
-  p.coil_rise = 0.05;
-  p.coil_fall = 0.1;
+  add<EddyCoil>(p, 0.05, 0.1, 0.0);
   Motioned test = sine(2e-2, 0.5, 0.9);  // the speed keeps its sign until 0.5 s
   test.motion.sines[0].phase = -1.4;
   test.lead = 0.01;
@@ -216,7 +220,7 @@ TEST(Truth, CoilLagFollowsAStepExponentially) {
   const auto at = [&](double t) { return track.force[track.lead + static_cast<std::size_t>(std::lround(t * rate))]; };
   EXPECT_NEAR(at(0.25), 1000.0 * (1.0 - std::exp(-1.0)), 3.0);
   const double top = 1000.0 * (1.0 - std::exp(-6.0));
-  EXPECT_NEAR(at(0.6), top * std::exp(-1.0), 3.0);
+  EXPECT_NEAR(at(0.55), top * std::exp(-1.0), 3.0);
 }
 
 TEST(Truth, RemanenceKeepsTheFieldAboveAfterAStepDown) {
@@ -224,49 +228,47 @@ TEST(Truth, RemanenceKeepsTheFieldAboveAfterAStepDown) {
   p.c_a = 0.0;
   p.alpha_a = 0.0;
   p.alpha_b = 1000.0;
-  p.remanence = 0.1;
   Motioned test = sine(2e-2, 0.5, 0.9);
   test.motion.sines[0].phase = -1.4;
   test.drive = {{0.0, 0.2, 0.5}, {0.2, 1.0, 0.2}, 1e-4};
-  const Track track = simulate(p, test, rate);
-  const auto at = [&](double t) { return track.force[track.lead + static_cast<std::size_t>(std::lround(t * rate))]; };
-  EXPECT_NEAR(at(0.4), 900.0, 1.0);
-  EXPECT_NEAR(at(0.8), 300.0, 1.0);
+  const auto levels = [&](const PartPointer& part) {
+    Physics with = p;
+    with.parts = {part};
+    const Track track = simulate(with, test, rate);
+    const auto at = [&](double t) { return track.force[track.lead + static_cast<std::size_t>(std::lround(t * rate))]; };
+    return std::pair(at(0.4), at(0.8));
+  };
+  // Plays of 0.025, 0.075, 0.125 and 0.175 A lag by their mean.
+  const auto [up, down] = levels(std::make_shared<PlaysRemanence>(0.1));
+  EXPECT_NEAR(up, 900.0, 1.0);
+  EXPECT_NEAR(down, 300.0, 1.0);
+  // Over a path of 0.8 A the field follows all but exp(-8), and lags by 0.1 A.
+  const auto [risen, fallen] = levels(std::make_shared<JilesRemanence>(0.1));
+  EXPECT_NEAR(risen, 900.0, 2.0);
+  EXPECT_NEAR(fallen, 300.0, 2.0);
+  // d = 0.8 A from the last turn.
+  const auto [above, below] = levels(std::make_shared<LastExtremeRemanence>(0.1));
+  EXPECT_NEAR(above, 1000.0 - 100.0 * 0.8 / 0.9, 1.0);
+  EXPECT_NEAR(below, 200.0 + 100.0 * 0.8 / 0.9, 1.0);
 }
 
-TEST(Truth, CavitationLimitsOneSideAndDwells) {
+TEST(Truth, PartedColumnLimitsOneSideAndDwells) {
   Physics p = bingham();
-  p.cavitation = 850.0;
+  add<PartedColumn>(p, 850.0, 1e7, 1e-4);
   const Track track = simulate(p, sine(1e-2, 2.0, 1.0), rate);
-  EXPECT_NEAR(*std::ranges::min_element(track.force), -850.0, 1e-6);
+  EXPECT_NEAR(*std::ranges::min_element(track.force), -850.0, 1.0);
   EXPECT_GT(*std::ranges::max_element(track.force), 1000.0);
-  // 5 ms after the lower reversal the void is not yet filled.
-  EXPECT_EQ(track.force[track.lead + static_cast<std::size_t>(0.38 * rate)], 0.0);
-}
-
-// The damper's spring slackens while the void closes: no pull comes back in the stroke that closed it.
-TEST(Truth, NoPullAfterTheVoidHasClosed) {
-  Physics p = bouc_wen();
-  p.cavitation = 700.0;
-  const Motioned test = sine(1e-2, 1.0, 3.0);
-  const Track track = simulate(p, test, rate);
-  bool dwelt = false;
-  for (std::size_t k = 1; k < track.force.size(); ++k) {
-    dwelt = track.v[k] > 0.0 && (dwelt || track.force[k] == 0.0);
-    if (dwelt) {
-      EXPECT_GE(track.force[k], -1e-6 * p.force_scale) << k;
-    }
-  }
+  // 5 ms after the lower reversal the void has not closed.
+  EXPECT_NEAR(track.force[track.lead + static_cast<std::size_t>(0.38 * rate)], 0.0, 1.0);
 }
 
 TEST(Truth, HeatAndWearLowerTheForceMonotonically) {
   for (const bool heat : {true, false}) {
     Physics p = bouc_wen();
     if (heat) {
-      p.heat_rate = 0.02;
-      p.heat_capacity = 5.0;
+      add<YieldHeat>(p, 250.0, 60.0, 1.0);
     } else {
-      p.wear = 0.01;
+      add<EnergyWear>(p, 0.8, 100.0);
     }
     const Track track = simulate(p, sine(1e-2, 2.0, 3.0), rate);
     double before = 1e9;
@@ -281,12 +283,70 @@ TEST(Truth, HeatAndWearLowerTheForceMonotonically) {
   }
 }
 
+// Two springs in a row are one of their compliances' sum; a spring and a dashpot in a row creep by F / c.
+TEST(Truth, ElementsInARowAddTheirStretches) {
+  const Motioned test = sine(5e-3, 1.0, 1.0);
+  Physics two = bouc_wen();
+  add<AeratedOil>(two, 2e6, 1e3);  // so long that it is linear
+  add<AeratedOil>(two, 2e6, 1e3);
+  Physics one = bouc_wen();
+  add<KelvinVoigtCompliance>(one, 1e6, 0.0);
+  EXPECT_LT(largest_difference(simulate(two, test, rate).force, simulate(one, test, rate).force), 0.5);
+  // Behind a stiff spring the dashpot is as it is alone, once the spring is stretched: 10 um at 1 kN, where the knee
+  // has a slope of 1.6 N/um.
+  Physics row = bouc_wen();
+  add<CheckedLeak>(row, 2e4, 1.0);
+  add<AeratedOil>(row, 1e8, 1e3);
+  Physics alone = bouc_wen();
+  add<CheckedLeak>(alone, 2e4, 1.0);
+  const Track stiff = simulate(row, test, rate);
+  const Track rigid = simulate(alone, test, rate);
+  const Track without = simulate(bouc_wen(), test, rate);
+  double difference = 0.0;
+  double effect = 0.0;
+  for (std::size_t k = stiff.lead; k < stiff.force.size(); ++k) {
+    difference = std::max(difference, std::abs(stiff.force[k] - rigid.force[k]));
+    effect = std::max(effect, std::abs(without.force[k] - rigid.force[k]));
+  }
+  EXPECT_LT(difference, 25.0);
+  EXPECT_GT(effect, 100.0);
+}
+
+TEST(Truth, OnlyWhatAForceBalanceAllowsStandsInSeries) {
+  using enum InSeries;
+  EXPECT_TRUE(can_stand_in_series({none, whole, none}));
+  EXPECT_TRUE(can_stand_in_series({elastic, elastic}));
+  EXPECT_TRUE(can_stand_in_series({dashpot, none, elastic}));
+  EXPECT_FALSE(can_stand_in_series({dashpot, dashpot}));
+  EXPECT_FALSE(can_stand_in_series({whole, elastic}));
+  EXPECT_FALSE(can_stand_in_series({elastic, elastic, elastic}));
+}
+
+TEST(Truth, MechanismsOfEveryKindRunTogether) {
+  Physics p = bouc_wen();
+  p.alpha_b = 300.0;
+  add<AeratedOil>(p, 3e6, 1e-3);
+  add<CheckedLeak>(p, 5e4, 1.5);
+  add<DampingHeat>(p, 100.0, 60.0, 0.5);
+  add<DampingAsymmetry>(p, 0.2);
+  add<SealLugre>(p, 20.0, 40.0, 5e-3, 4e-5);
+  add<EddyCoil>(p, 0.02, 0.1, 0.3);
+  add<RigRinging>(p, 0.3, 150.0, 0.05);
+  add<ForceBessel>(p, 0.003);
+  const Track track = simulate(p, sine(1e-2, 2.0, 2.0), rate);
+  for (const double f : track.force) {
+    ASSERT_TRUE(std::isfinite(f));
+    ASSERT_LT(std::abs(f), 2500.0);
+  }
+  EXPECT_GT(*std::ranges::max_element(track.force), 800.0);
+}
+
 TEST(Chain, DelayShiftsTheForceAndTheFilterNothingElse) {
   Physics p = bouc_wen();
   const Motioned test = sine(1e-2, 1.0, 1.0);
   const Track track = simulate(p, test, rate);
   const std::vector<double> now = clean_force(p, track, 8);
-  p.force_delay = 0.01;
+  add<ForceTransport>(p, 0.01);
   const std::vector<double> late = clean_force(p, track, 8);
   for (std::size_t k = 5; k < now.size(); ++k) EXPECT_NEAR(late[k], now[k - 5], 1e-6);
 }
@@ -318,17 +378,10 @@ TEST(Chain, LagOfTheVelocityChannelLeavesTheForceAlone) {
   chain.velocity_noise = 0.0;
   const Range range{1000.0, 1e-2, 0.1, 1.0};
   const Measured plain = measure(p, track, 8, chain, range, Stream(1));
-  p.velocity_lag = 0.01;
-  const Measured lagged = measure(p, track, 8, chain, range, Stream(1));
-  EXPECT_EQ(plain.force, lagged.force);
-  // A first-order lag of a slow sine is a delay of atan(w tau) / w.
-  const double w = 2.0 * std::numbers::pi;
-  const double shift = std::atan(w * 0.01) / w;
-  const std::size_t k = 300;
-  const double gain = std::cos(std::atan(w * 0.01));
-  EXPECT_NEAR(lagged.v[k],
-              gain * (plain.v[k] * std::cos(w * shift) + 1e-2 * w * std::sin(w * plain.time[k]) * std::sin(w * shift)),
-              2e-4);
+  add<VelocityTransport>(p, 0.01);
+  const Measured late = measure(p, track, 8, chain, range, Stream(1));
+  EXPECT_EQ(plain.force, late.force);
+  for (std::size_t k = 5; k < plain.v.size(); ++k) EXPECT_NEAR(late.v[k], plain.v[k - 5], 1e-9);
 }
 
 }  // namespace
