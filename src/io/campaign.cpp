@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/printable.hpp"
 #include "io/campaign_file.hpp"
 #include "io/csv.hpp"
 #include "io/file.hpp"
@@ -146,7 +147,7 @@ Recording load_recording(const fs::path& path, const ReadOptions& options) {
                          ", expected .csv, .txt, .tsv, .dat or .mat, or a folder of recordings");
   }
   Recording recording = is_mat ? parse_mat(bytes, path.string(), options) : parse_csv(bytes, path.string(), options);
-  recording.file = path.filename().string();
+  recording.file = valid_utf8(path.filename().string());
   recording.sha256 = sha256_hex(bytes);
   return recording;
 }
@@ -167,7 +168,7 @@ Campaign load_campaign(const std::vector<std::string>& data, const ReadOptions& 
   tell_apart(items);
   for (const auto& item : items) {
     campaign.recordings.push_back(load_recording(item.path, options));
-    campaign.recordings.back().file = item.name;
+    campaign.recordings.back().file = valid_utf8(item.name);
     campaign.roles.push_back(item.role);
   }
   return campaign;

@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <cstdlib>
 
+#include "core/printable.hpp"
+
 namespace hysteron {
 namespace {
 
@@ -69,12 +71,6 @@ char32_t take(std::string_view& text) {
 
 bool is_placeholder(std::string_view text) {
   return text.empty() || text == "-" || text == "–" || text == "—" || text == "n/a";
-}
-
-std::string one_line(std::string text) {
-  std::replace_if(
-      text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r' || c == '\t'; }, ' ');
-  return text;
 }
 
 }  // namespace
@@ -182,7 +178,7 @@ std::string table(const std::vector<std::string>& header, const std::vector<std:
   if (columns == 0) return {};
   std::vector<std::size_t> width(columns, 0);
   const auto measure = [&](const std::vector<std::string>& cells) {
-    for (std::size_t c = 0; c < cells.size(); ++c) width[c] = std::max(width[c], display_width(one_line(cells[c])));
+    for (std::size_t c = 0; c < cells.size(); ++c) width[c] = std::max(width[c], display_width(printable(cells[c])));
   };
   measure(header);
   for (const auto& row : rows) measure(row);
@@ -191,7 +187,7 @@ std::string table(const std::vector<std::string>& header, const std::vector<std:
   const auto print = [&](const std::vector<std::string>& cells) {
     std::string line;
     for (std::size_t c = 0; c < columns; ++c) {
-      const std::string cell = c < cells.size() ? one_line(cells[c]) : std::string{};
+      const std::string cell = c < cells.size() ? printable(cells[c]) : std::string{};
       const std::string padding(width[c] - display_width(cell), ' ');
       if (c > 0) line += "  ";
       line += numeric[c] ? padding + cell : cell + padding;
