@@ -152,8 +152,8 @@ class Assigner {
 
   void assign(Quantity quantity, std::size_t i, const std::string& unit) {
     const std::string& text = unit.empty() ? columns_[i].unit : unit;
-    source(quantity) = {static_cast<int>(i),
-                        text.empty() ? UnitConversion{} : parse_unit(quantity, text, file_, line_)};
+    source(quantity) = {static_cast<int>(i), text.empty() ? UnitConversion{} : parse_unit(quantity, text, file_, line_),
+                        text.empty()};
     taken_[i] = true;
   }
 

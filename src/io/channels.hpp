@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -13,11 +14,21 @@
 
 namespace hysteron {
 
+// What a reader wants known of a file that it reads all the same.
+struct Remark {
+  enum class Kind { implausible };
+  std::string file;
+  Kind kind;
+  std::string key;   // the same for the same remark on another file
+  std::string text;  // one line
+};
+
 struct ReadOptions {
   // Channel -> column, e.g. "force" -> "CH1 [kgf]": the column's full text or name; a unit given here overrides
   // the file's. In MAT files also a column number "3 [kN]" or "MATRIX:3 [kN]", counted from 1.
   std::map<std::string, std::string> columns;
   bool force_required = true;
+  std::function<void(const Remark&)> remark = {};
 };
 
 // A column as the file names it.
@@ -32,6 +43,7 @@ struct Column {
 struct Source {
   int column = -1;
   UnitConversion unit;
+  bool assumed = false;  // the file gives no unit: SI
 };
 
 using Sources = std::array<Source, quantity_count>;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "io/plausible.hpp"
 #include "io/text.hpp"
 
 namespace hysteron {
@@ -96,7 +97,9 @@ class CsvReader {
     check_text();
     read_header();
     read_rows();
-    return make_recording(std::move(channels_));
+    Recording recording = make_recording(std::move(channels_));
+    remark_on_sizes(recording, sources_, columns_, options_, file_);
+    return recording;
   }
 
  private:

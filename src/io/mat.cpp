@@ -10,6 +10,7 @@
 #include "io/file.hpp"
 #include "io/mat5.hpp"
 #include "io/mat73.hpp"
+#include "io/plausible.hpp"
 #include "io/text.hpp"
 
 namespace hysteron {
@@ -38,7 +39,9 @@ class MatReader {
       if (sources[i].column >= 0) channels[i] = read(sources[i]);
     }
     check(channels, sources);
-    return make_recording(std::move(channels));
+    Recording recording = make_recording(std::move(channels));
+    remark_on_sizes(recording, sources, columns_, options_, file_);
+    return recording;
   }
 
  private:

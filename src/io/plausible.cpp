@@ -1,0 +1,154 @@
+#include "io/plausible.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "io/text.hpp"
+
+namespace hysteron {
+namespace {
+
+// What is believed of a quantity: `stated` where the file gives its unit, `assumed` where SI was taken for want of one.
+// From the dampers of watches and instruments to those of bridges, and beyond.
+struct Range {
+  double low;
+  double high;
+};
+struct Believed {
+  Range stated;
+  Range assumed;
+};
+constexpr Believed stroke_m{{1e-6, 5.0}, {1e-5, 1.0}};
+constexpr Believed speed_m_s{{0.0, 50.0}, {0.0, 10.0}};
+constexpr Believed force_n{{1e-2, 5e7}, {1.0, 1e7}};
+constexpr Believed power_w{{1e-7, 1e8}, {1e-4, 1e7}};
+constexpr Believed current_a{{0.0, 1000.0}, {0.0, 50.0}};
+constexpr Believed voltage_v{{0.0, 10000.0}, {0.0, 1000.0}};
+constexpr Believed temperature_c{{-100.0, 400.0}, {-60.0, 200.0}};
+// A movement through more than a millimetre that is slower than a millimetre a second, where seconds were assumed.
+constexpr double slow_m_s = 1e-3;
+constexpr double far_m = 1e-3;
+// Velocity over the slope of the displacement.
+constexpr Range slope{0.5, 2.0};
+
+double largest(const std::vector<double>& values) {
+  double result = 0.0;
+  for (const double value : values) result = std::max(result, std::fabs(value));
+  return result;
+}
+
+class Remarks {
+ public:
+  Remarks(const Sources& sources, const std::vector<Column>& columns, const ReadOptions& options,
+          const std::string& file)
+      : sources_(sources), columns_(columns), options_(options), file_(file) {}
+
+  // `what` is such as "a stroke of 20 m".
+  void judge(Quantity quantity, const Believed& believed, double value, const std::string& what) {
+    const Source& source = sources_[static_cast<std::size_t>(quantity)];
+    if (source.column < 0) return;
+    const Range range = source.assumed ? believed.assumed : believed.stated;
+    // A channel that is zero throughout is not one of a wrong unit.
+    if (value == 0.0 || (value >= range.low && value <= range.high)) return;
+    const std::string name(quantity_name(quantity));
+    if (source.assumed) {
+      const auto units = accepted_units(quantity);
+      tell(name, fmt::format("{} has no unit and was taken in {}: {} is not of a damper's size; give the unit, as in "
+                             "--column {}=\"{} [UNIT]\"",
+                             name, units.substr(0, units.find(',')), what, name, column(source)));
+    } else {
+      tell(name, fmt::format("{} is not of a damper's size: check the unit of column '{}'", what, column(source)));
+    }
+  }
+
+  void tell(const std::string& key, const std::string& text) {
+    told_ = true;
+    options_.remark({file_, Remark::Kind::implausible, key, text});
+  }
+
+  [[nodiscard]] bool told() const { return told_; }
+  [[nodiscard]] bool assumed(Quantity quantity) const { return sources_[static_cast<std::size_t>(quantity)].assumed; }
+
+ private:
+  [[nodiscard]] std::string column(const Source& source) const {
+    return columns_[static_cast<std::size_t>(source.column)].text;
+  }
+
+  const Sources& sources_;
+  const std::vector<Column>& columns_;
+  const ReadOptions& options_;
+  const std::string& file_;
+  bool told_ = false;
+};
+
+// Least squares of v dt against dx over two samples: noise of both falls out of the mean.
+double velocity_over_slope(const Recording& r) {
+  double square = 0.0;
+  double product = 0.0;
+  for (std::size_t n = 1; n + 1 < r.size(); ++n) {
+    const double way = r.velocity[n] * (r.time[n + 1] - r.time[n - 1]);
+    square += way * way;
+    product += way * (r.displacement[n + 1] - r.displacement[n - 1]);
+  }
+  return product == 0.0 ? 1.0 : square / product;
+}
+
+}  // namespace
+
+void remark_on_sizes(const Recording& recording, const Sources& sources, const std::vector<Column>& columns,
+                     const ReadOptions& options, const std::string& file) {
+  if (!options.remark) return;
+  Remarks remarks(sources, columns, options, file);
+  const auto [low, high] = std::ranges::minmax(recording.displacement);
+  const double stroke = high - low;
+  const double speed = largest(recording.velocity);
+  const double force = largest(recording.force);
+  remarks.judge(Quantity::displacement, stroke_m, stroke, fmt::format("a stroke of {:.3g} m", stroke));
+  if (!recording.force.empty()) {
+    remarks.judge(Quantity::force, force_n, force, fmt::format("a force of {:.3g} N", force));
+  }
+  const auto& drive = recording.drive;
+  const bool voltage = recording.drive_kind == DriveKind::voltage;
+  remarks.judge(voltage ? Quantity::voltage : Quantity::current, voltage ? voltage_v : current_a, largest(drive),
+                fmt::format("a {} of {:.3g} {}", voltage ? "voltage" : "current", largest(drive), voltage ? "V" : "A"));
+  if (!recording.temperature.empty()) {
+    const auto [cold, hot] = std::ranges::minmax(recording.temperature);
+    const double far = std::fabs(cold) > std::fabs(hot) ? cold : hot;
+    remarks.judge(Quantity::temperature, temperature_c, far, fmt::format("a temperature of {:.3g} degC", far));
+  }
+  if (recording.velocity_measured) {
+    remarks.judge(Quantity::velocity, speed_m_s, speed, fmt::format("a speed of {:.3g} m/s", speed));
+  } else if (!remarks.told()) {
+    remarks.judge(Quantity::time, speed_m_s, speed,
+                  fmt::format("a speed of {:.3g} m/s, from displacement and time,", speed));
+  }
+  if (!remarks.told() && remarks.assumed(Quantity::time) && stroke > far_m && speed < slow_m_s) {
+    remarks.tell("time",
+                 fmt::format("time has no unit and was taken in s: a speed of {:.3g} m/s at most for a stroke of "
+                             "{:.3g} m; give the unit, as in time [ms]",
+                             speed, stroke));
+  }
+  double power = 0.0;
+  for (std::size_t n = 0; n < recording.force.size(); ++n) {
+    power = std::max(power, std::fabs(recording.force[n] * recording.velocity[n]));
+  }
+  if (!remarks.told() && !recording.force.empty()) {
+    remarks.judge(Quantity::force, power_w, power, fmt::format("a power of {:.3g} W, force times velocity,", power));
+  }
+  if (recording.velocity_measured) {
+    const double ratio = velocity_over_slope(recording);
+    if (ratio < 0.0) {
+      remarks.tell("slope", "the velocity runs against the displacement: check their signs");
+    } else if (ratio < slope.low || ratio > slope.high) {
+      remarks.tell(
+          "slope",
+          fmt::format(
+              "the velocity is {:.3g} times the slope of the displacement over time: check the units of the three",
+              ratio));
+    }
+  }
+}
+
+}  // namespace hysteron

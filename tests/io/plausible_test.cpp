@@ -1,0 +1,73 @@
+#include "io/plausible.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "io/csv.hpp"
+
+namespace hysteron {
+namespace {
+
+// What is remarked of 2 Hz, 10 mm, 800 N recorded in units whose factors to SI are given; header as the file has it.
+std::vector<std::string> remarks(const std::string& header, double x_unit, double force_unit, double v_unit = 0.0,
+                                 double t_unit = 1.0) {
+  std::string text = header + "\n";
+  for (int n = 0; n < 200; ++n) {
+    const double t = 0.005 * n;
+    const double phase = 4.0 * std::numbers::pi * t;
+    const double v = 0.01 * 4.0 * std::numbers::pi * std::cos(phase);
+    text += std::to_string(t / t_unit) + "," + std::to_string(0.01 * std::sin(phase) / x_unit) + "," +
+            std::to_string(800.0 * std::tanh(20.0 * v) / force_unit);
+    text += v_unit != 0.0 ? "," + std::to_string(v / v_unit) + "\n" : "\n";
+  }
+  std::vector<std::string> result;
+  ReadOptions options;
+  options.remark = [&](const Remark& remark) { result.push_back(remark.text); };
+  (void)parse_csv(text, "a.csv", options);
+  return result;
+}
+
+void expect_one(const std::vector<std::string>& said, const std::string& beginning) {
+  ASSERT_EQ(said.size(), 1U) << beginning;
+  EXPECT_TRUE(said[0].starts_with(beginning)) << said[0];
+}
+
+TEST(Plausible, NothingIsSaidOfADamper) {
+  EXPECT_TRUE(remarks("time [s],displacement [mm],force [N]", 1e-3, 1.0).empty());
+  EXPECT_TRUE(remarks("time [ms],displacement [in],force [lbf],velocity [mm/s]", 0.0254, 4.448, 1e-3, 1e-3).empty());
+  EXPECT_TRUE(remarks("time,displacement,force", 1.0, 1.0).empty());
+}
+
+TEST(Plausible, MillimetresWithoutAUnitAreNotMetresWithoutAWord) {
+  expect_one(remarks("time,displacement,force", 1e-3, 1.0),
+             "displacement has no unit and was taken in m: a stroke of 20 m is not of a damper's size");
+}
+
+TEST(Plausible, KilonewtonsWithoutAUnit) {
+  expect_one(remarks("time,displacement [mm],force", 1e-3, 1e3),
+             "force has no unit and was taken in N: a force of 0.79 N");
+}
+
+TEST(Plausible, MillisecondsWithoutAUnit) {
+  expect_one(remarks("time,displacement [mm],force [N]", 1e-3, 1.0, 0.0, 1e-3), "time has no unit and was taken in s");
+}
+
+TEST(Plausible, AWrongUnit) {
+  expect_one(remarks("time [s],displacement [m],force [N]", 1e-3, 1.0),
+             "a stroke of 20 m is not of a damper's size: check the unit of column 'displacement [m]'");
+  expect_one(remarks("time [s],displacement [mm],force [mN]", 1e-3, 1e3), "a force of 0.00079 N");
+}
+
+TEST(Plausible, AVelocityThatIsNotTheSlope) {
+  expect_one(remarks("time [s],displacement [mm],force [N],velocity [m/s]", 1e-3, 1.0, 0.1),
+             "the velocity is 10 times the slope of the displacement");
+  expect_one(remarks("time [s],displacement [mm],force [N],velocity [m/s]", 1e-3, 1.0, -1.0),
+             "the velocity runs against the displacement");
+}
+
+}  // namespace
+}  // namespace hysteron
