@@ -159,7 +159,7 @@ const channels = {
   displacement: { key: "displacement_mm", label: "Displacement [mm]", short: "x [mm]", word: "displacement" },
   velocity: { key: "velocity_mm_s", label: "Velocity [mm/s]", short: "v [mm/s]", word: "velocity" },
 };
-const roleWords = { fit: "fitted", validate: "held out" };
+const roleWords = { fit: "fitted", validate: "held out", checked: "held out in the check, then fitted" };
 const roleOf = (r) => roleWords[r.role] || r.role || "–";
 const hasBaseline = recordings.some((r) => list(r.baseline_n).length > 0);
 const residual = (r) => list(r.force_n).map((f, i) => (isNumber(f) && isNumber(r.predicted_n[i]) ? f - r.predicted_n[i] : null));
@@ -986,12 +986,15 @@ function verdictLine() {
     const told = found.length === 1 ? prose(found[0].sentence || found[0].id) : found.length ? `${d.verdict === "ambiguous" ? "Candidates" : "Found"}: ${found.map((e) => e.id).join(", ")}.` : "";
     return `${verdictWords[d.verdict] || d.verdict} ${told}`;
   }
-  const fitted = recordings.filter((r) => r.role === "fit").length;
   const held = recordings.filter((r) => r.role === "validate").length;
+  const checked = recordings.filter((r) => r.role === "checked").length;
+  const fitted = recordings.length - held;
+  const check = held ? ` and checked on ${held} held out`
+    : checked ? `; the held-out error is that of a fit without ${checked} of them` : "; no recording was held out";
   const flagged = parameters.filter((p) => p.at_bound || p.identifiable === false).length;
   const model = report.model ? report.model.title || report.model.id : "Model";
   return `${model}: ${plural(parameters.length, "parameter")} fitted to ${plural(fitted, "recording")}` +
-    `${held ? ` and checked on ${held} held out` : "; no recording was held out"}; ` +
+    `${check}; ` +
     `${flagged ? `${plural(flagged, "parameter")} to be taken with caution` : "no parameter is at a bound or unidentifiable"}.`;
 }
 
@@ -1023,7 +1026,7 @@ page();
 drawConvergence();
 // Show first what most needs a look: the worst held-out recording, or the worst of all.
 const candidates = recordings.map((r, i) => ({ r, i }));
-const held = candidates.filter(({ r }) => r.role === "validate");
+const held = candidates.filter(({ r }) => r.role === "validate" || r.role === "checked");
 const first = (held.length ? held : candidates).reduce((a, b) => ((b.r.nrmse ?? 0) > (a.r.nrmse ?? 0) ? b : a), (held.length ? held : candidates)[0]);
 if (first) select(first.i);
 

@@ -5,6 +5,7 @@
 
 #include "app/command.hpp"
 #include "app/study_output.hpp"
+#include "app/values.hpp"
 #include "core/error.hpp"
 #include "mpi/mpi_peers.hpp"
 #include "report/study.hpp"
@@ -105,7 +106,7 @@ void add_bench(CLI::App& program) {
   command->add_option("STUDY", options->study, "study file (TOML), see docs/studies.md")->required();
   command->add_option("--out", options->out, "folder of the records; an earlier call's is continued")->required();
   command->add_option("--threads", options->threads, "runs beside each other; 0 takes OMP_NUM_THREADS or all cores")
-      ->check(CLI::Range(0, 1024))
+      ->transform(whole_number(0, 1024))
       ->capture_default_str();
   command->add_option("--shard", options->shard, "I/N: only the I-th of N parts of the runs, see `hysteron merge`");
   command->add_flag("--dry-run", options->dry, "says what would be run and writes nothing");

@@ -13,6 +13,7 @@
 #include <optional>
 
 #include "app/command.hpp"
+#include "app/values.hpp"
 #include "challenge/effects.hpp"
 #include "challenge/hide.hpp"
 #include "challenge/hide_run.hpp"
@@ -196,7 +197,7 @@ void add_challenge(CLI::App& program) {
   command->add_option("--by-current", options->by_current, "laws of its parameters in the drive, with --in")
       ->needs(data);
   command->add_option("--campaigns", options->campaigns, "number of campaigns")
-      ->check(CLI::Range(1, 9999))
+      ->transform(whole_number(1, 9999))
       ->capture_default_str();
   command
       ->add_option("--level", options->levels,
@@ -214,13 +215,13 @@ void add_challenge(CLI::App& program) {
       ->delimiter(',')
       ->excludes(data);
   command->add_option("--seed", options->seed, "seed of everything that is drawn")
-      ->check(CLI::NonNegativeNumber)
+      ->transform(seed_number())
       ->capture_default_str();
   command->add_option("--jobs", options->jobs, "campaigns at a time")
-      ->check(CLI::Range(1, 1024))
+      ->transform(whole_number(1, 1024))
       ->capture_default_str();
   command->add_option("--threads", options->threads, "threads of one diagnosis")
-      ->check(CLI::Range(1, 1024))
+      ->transform(whole_number(1, 1024))
       ->capture_default_str();
   command->add_flag("--quiet", options->quiet, "no progress on standard error");
   command->add_flag("--generate-only", options->generate_only, "stop after the answers are sealed");

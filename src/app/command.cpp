@@ -3,11 +3,14 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
 
+#include "app/values.hpp"
 #include "core/error.hpp"
+#include "core/printable.hpp"
 #include "fit/parallel.hpp"
 #include "io/campaign.hpp"
 #include "io/campaign_file.hpp"
@@ -30,7 +33,7 @@ void add_data_options(CLI::App& command, DataOptions& options) {
       ->allow_extra_args(false);
 }
 
-Campaign load(const DataOptions& options, bool force_required) {
+Campaign load(const DataOptions& options, bool force_required, std::vector<std::string>* warnings) {
   ReadOptions read;
   read.force_required = force_required;
   for (const std::string& mapping : options.columns) {
@@ -38,17 +41,34 @@ Campaign load(const DataOptions& options, bool force_required) {
     if (equals == std::string::npos || equals == 0 || equals + 1 == mapping.size()) {
       throw InputError("--column: '" + mapping + "' is not a mapping, expected CHANNEL=NAME, e.g. force=\"CH1 [kgf]\"");
     }
-    read.columns[mapping.substr(0, equals)] = mapping.substr(equals + 1);
+    if (!read.columns.emplace(mapping.substr(0, equals), mapping.substr(equals + 1)).second) {
+      throw InputError("--column: '" + mapping.substr(0, equals) + "' is mapped twice, expected each channel once");
+    }
   }
-  return load_campaign(options.data, read);
+  std::vector<Remark> remarks;
+  read.remark = [&](const Remark& remark) { remarks.push_back(remark); };
+  Campaign campaign = load_campaign(options.data, read);
+  std::vector<std::string> said;
+  for (const Remark& remark : remarks) {
+    if (std::ranges::find(said, remark.key) != said.end()) continue;
+    said.push_back(remark.key);
+    const auto alike = std::ranges::count(remarks, remark.key, &Remark::key) - 1;
+    const std::string text = remark.text + (alike > 0 ? fmt::format(" ({} more recordings alike)", alike) : "");
+    fmt::print(stderr, "warning: {}: {}\n", printable(remark.file), printable(text));
+    // Result files hold no paths.
+    if (warnings != nullptr) {
+      warnings->push_back(valid_utf8(std::filesystem::path(remark.file).filename().string()) + ": " + text);
+    }
+  }
+  return campaign;
 }
 
 void add_common_options(CLI::App& command, CommonOptions& options) {
   command.add_option("--seed", options.seed, "seed of every random stream")
-      ->check(CLI::NonNegativeNumber)
+      ->transform(seed_number())
       ->capture_default_str();
   command.add_option("--threads", options.threads, "worker threads; 0 takes OMP_NUM_THREADS or all cores")
-      ->check(CLI::Range(0, 1024))
+      ->transform(whole_number(0, 1024))
       ->capture_default_str();
   command.add_flag("--quiet", options.quiet, "no progress on standard error");
   command
@@ -60,7 +80,7 @@ void add_common_options(CLI::App& command, CommonOptions& options) {
       ->check(CLI::IsMember({"per-recording", "pooled"}))
       ->capture_default_str();
   command.add_option("--tolerance", options.tolerance, "relative force error allowed to the integration")
-      ->check(CLI::Range(1e-10, 1e-2))
+      ->check(real_number(1e-10, 1e-2))
       ->capture_default_str();
 }
 
@@ -85,7 +105,9 @@ std::map<std::string, int> parse_orders(const std::string& option, const std::st
       throw InputError(option + ": '" + word + "' is wrong, expected PARAMETER:ORDER with an order from 0 to " +
                        std::to_string(highest_order) + ", e.g. alpha:1,c0:1");
     }
-    result[word.substr(0, colon)] = order[0] - '0';
+    if (!result.emplace(word.substr(0, colon), order[0] - '0').second) {
+      throw InputError(option + ": '" + word.substr(0, colon) + "' is given twice, expected each parameter once");
+    }
     begin = end + 1;
   }
   return result;
@@ -98,6 +120,8 @@ void catch_interrupts() {
   action.sa_handler = [](int) { interrupt_seen = 1; };
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
+  // A file beyond the limit of its size is then an error of writing it, and no temporary file is left.
+  std::signal(SIGXFSZ, SIG_IGN);
 }
 
 ProgressLine::ProgressLine(bool quiet) : quiet_(quiet), terminal_(isatty(STDERR_FILENO) == 1) {}
@@ -137,7 +161,10 @@ void ProgressLine::finish() {
   stage_.clear();
 }
 
-std::string json_text(const nlohmann::json& value) { return value.dump(2) + "\n"; }
+std::string json_text(const nlohmann::json& value) {
+  // Names are made UTF-8 where they come in; a finished result is not lost for one that was forgotten.
+  return value.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+}
 
 nlohmann::json environment(int threads, double seconds) {
   char host[256] = {};
@@ -151,7 +178,7 @@ void remember_command(int count, char** arguments) {
   typed = "hysteron";
   // --threads and --out do not change results and would make identical runs differ.
   for (int k = 1; k < count; ++k) {
-    std::string word = arguments[k];
+    std::string word = valid_utf8(arguments[k]);
     if (word == "--threads" || word == "--out") {
       ++k;
       continue;

@@ -19,7 +19,8 @@ struct DataOptions {
   std::vector<std::string> columns;  // force="CH1 [kgf]"
 };
 void add_data_options(CLI::App& command, DataOptions& options);
-Campaign load(const DataOptions& options, bool force_required = true);
+// What the readers remark is said on standard error, once for all recordings alike, and put into `warnings`.
+Campaign load(const DataOptions& options, bool force_required = true, std::vector<std::string>* warnings = nullptr);
 
 struct CommonOptions {
   std::uint64_t seed = 1;

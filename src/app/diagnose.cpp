@@ -8,6 +8,7 @@
 #include "app/command.hpp"
 #include "app/model_file.hpp"
 #include "app/page.hpp"
+#include "app/values.hpp"
 #include "core/error.hpp"
 #include "diagnose/account.hpp"
 #include "diagnose/record.hpp"
@@ -136,6 +137,7 @@ void run(const Options& options) {
   diagnose_with.candidates = options.effects;
   // Wrong names are told before any work.
   make_model(diagnose_with.model, {});
+  refuse_repeats("--effects", options.effects);
   for (const std::string& effect : options.effects) {
     make_model(diagnose_with.model, {effect});
   }
@@ -260,7 +262,7 @@ void add_diagnose(CLI::App& program) {
       ->delimiter(',')
       ->allow_extra_args(false);
   command->add_option("--most-effects", options->most_effects, "effects the augmented model may have")
-      ->check(CLI::Range(1, 7))
+      ->transform(whole_number(1, 7))
       ->capture_default_str();
   command->add_flag("--json", options->json, "diagnosis.json on standard output too");
   command->add_option("--out", options->out, "folder for diagnosis.json, model.json, report.html")->required();

@@ -6,11 +6,14 @@
 #include <memory>
 
 #include "app/command.hpp"
+#include "app/finite.hpp"
 #include "app/model_file.hpp"
 #include "app/page.hpp"
 #include "app/stages.hpp"
 #include "app/track.hpp"
+#include "app/values.hpp"
 #include "core/error.hpp"
+#include "core/printable.hpp"
 #include "io/output.hpp"
 #include "report/html.hpp"
 #include "report/terminal.hpp"
@@ -56,6 +59,8 @@ std::pair<std::string, std::string> split_pair(const std::string& option, const 
 
 IdentifyOptions identify_options(const FitOptions& options, const Campaign& campaign) {
   IdentifyOptions result;
+  refuse_repeats("--solver", options.solvers);
+  refuse_repeats("--effects", options.effects);
   if (!options.solvers.empty()) {
     result.solvers = options.solvers;
   }
@@ -70,7 +75,9 @@ IdentifyOptions identify_options(const FitOptions& options, const Campaign& camp
       options.by_frequency.empty() ? campaign.by_frequency : parse_orders("--by-frequency", options.by_frequency);
   for (const std::string& text : options.fix) {
     const auto [name, value] = split_pair("--fix", text, "PARAMETER=VALUE in SI units");
-    result.layout.fix[name] = parse_number("--fix", value);
+    if (!result.layout.fix.emplace(name, parse_number("--fix", value)).second) {
+      throw InputError("--fix: '" + name + "' is given twice, expected each parameter once");
+    }
   }
   for (const std::string& text : options.bounds) {
     const auto [name, range] = split_pair("--bounds", text, "PARAMETER=LOWER:UPPER in SI units");
@@ -83,11 +90,15 @@ IdentifyOptions identify_options(const FitOptions& options, const Campaign& camp
     if (!(lower < upper)) {
       throw InputError("--bounds: '" + text + "' is empty, expected LOWER below UPPER");
     }
-    result.layout.bounds[name] = {lower, upper};
+    if (!result.layout.bounds.emplace(name, std::pair(lower, upper)).second) {
+      throw InputError("--bounds: '" + name + "' is given twice, expected each parameter once");
+    }
   }
   for (const std::string& text : options.settings) {
     const auto [name, value] = split_pair("--set", text, "SETTING=NUMBER, see `hysteron describe SOLVER`");
-    result.settings[name] = parse_number("--set", value);
+    if (!result.settings.emplace(name, parse_number("--set", value)).second) {
+      throw InputError("--set: '" + name + "' is given twice, expected each setting once");
+    }
   }
   return result;
 }
@@ -132,7 +143,8 @@ json final_json(const Identification& result) {
 
 void run(const FitOptions& options) {
   const auto begun = std::chrono::steady_clock::now();
-  const Campaign campaign = load(options.data);
+  std::vector<std::string> remarks;
+  const Campaign campaign = load(options.data, true, &remarks);
   const std::string model = options.model.empty() ? campaign.model : options.model;
   if (model.empty()) {
     throw InputError("no model: expected --model NAME or a model in campaign.toml, see `hysteron list models`");
@@ -154,7 +166,13 @@ void run(const FitOptions& options) {
                               run.cost < diverged_cost ? format_number(run.cost, 4) : "-"));
     return !interrupted();
   };
-  const Identification result = identify(campaign, model, identify_with, show);
+  Identification result = identify(campaign, model, identify_with, show);
+  // An error that is not finite is none; the recordings it comes from are named below.
+  const auto drop_if_not_finite = [](std::optional<double>& error) {
+    if (error && !std::isfinite(*error)) error.reset();
+  };
+  drop_if_not_finite(result.nrmse_heldout);
+  for (SolverOutcome& outcome : result.solvers) drop_if_not_finite(outcome.nrmse_heldout);
   std::optional<TwoStage> two;
   if (options.stages == "two" && !interrupted()) {
     try {
@@ -168,11 +186,15 @@ void run(const FitOptions& options) {
   make_output_folder(options.out);
 
   std::vector<Prediction> predictions;
+  std::string diverged;
   for (const Recording& recording : campaign.recordings) {
     const Target target = make_target(recording, identify_with.objective);
     Prediction prediction;
     prediction.force = predict(result.layout.model(), result.layout.held(), result.terms, target);
     prediction.score = score(prediction.force, recording, identify_with.objective.normalisation);
+    if (const auto time = diverges_at(prediction.force, recording)) {
+      diverged += fmt::format("{}{} from {:g} s on", diverged.empty() ? "" : ", ", recording.file, *time);
+    }
     predictions.push_back(std::move(prediction));
   }
   const auto was_heldout = [&](std::size_t k) { return std::ranges::find(result.heldout, k) != result.heldout.end(); };
@@ -180,10 +202,19 @@ void run(const FitOptions& options) {
     return std::string(was_heldout(k) && result.roles_given ? "validate" : "fit");
   };
 
+  const auto shown_role = [&](std::size_t k) { return was_heldout(k) && !result.roles_given ? "checked" : role(k); };
+
   const std::string normalisation(word_of(identify_with.objective.normalisation));
-  json warnings = result.warnings;
+  json warnings = remarks;
+  for (const std::string& warning : result.warnings) {
+    warnings.push_back(warning);
+  }
   if (interrupted()) {
     warnings.push_back("interrupted: the solvers did not use their whole budget");
+  }
+  if (!diverged.empty()) {
+    diverged = "the simulation of the fitted model does not stay finite: " + diverged;
+    warnings.push_back(diverged);
   }
   json heldout_files = json::array();
   std::string heldout_names;
@@ -263,7 +294,7 @@ void run(const FitOptions& options) {
                                       : "")}});
   page["recordings"] = json::array();
   for (std::size_t k = 0; k < predictions.size(); ++k) {
-    page["recordings"].push_back(recording_json(campaign.recordings[k], predictions[k], role(k)));
+    page["recordings"].push_back(recording_json(campaign.recordings[k], predictions[k], shown_role(k)));
   }
   page["data"] = data;
   page["notes"] = {
@@ -329,8 +360,12 @@ void run(const FitOptions& options) {
     fmt::print(", {} on held-out recordings", format_number(*result.nrmse_heldout, 4));
   }
   fmt::print("\nreport: {}\n", (out / "report.html").string());
-  for (const auto& warning : warnings) {
-    fmt::print(stderr, "warning: {}\n", warning.get<std::string>());
+  // The remarks have been made when the recordings were read.
+  for (std::size_t k = remarks.size(); k < warnings.size(); ++k) {
+    fmt::print(stderr, "warning: {}\n", printable(warnings[k].get<std::string>()));
+  }
+  if (!diverged.empty()) {
+    throw WorkError(diverged);
   }
 }
 
@@ -348,7 +383,7 @@ void add_fit(CLI::App& program) {
       ->delimiter(',')
       ->allow_extra_args(false);
   command->add_option("--budget", options->budget, "evaluations each solver may use")
-      ->check(CLI::Range(std::size_t{1}, std::size_t{1000000000}))
+      ->transform(whole_number(1, 1000000000))
       ->capture_default_str();
   command->add_option("--by-current", options->by_current,
                       "parameters that are polynomials in the drive, e.g. alpha:1,c0:1");

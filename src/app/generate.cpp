@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "app/command.hpp"
+#include "app/values.hpp"
 #include "core/error.hpp"
 #include "datasets/dataset.hpp"
 #include "io/output.hpp"
@@ -37,7 +38,7 @@ void add_generate(CLI::App& program) {
   command->add_option("--out", options->out, "folder to write")->required();
   command->add_option("--only", options->only, "only recordings whose name contains this, e.g. 2.0Hz");
   command->add_option("--seed", options->seed, "seed of the noise")
-      ->check(CLI::NonNegativeNumber)
+      ->transform(seed_number())
       ->capture_default_str();
   command->footer("Example:\n  hysteron generate rd8040-twin --out twin --only 2.0Hz");
   command->callback([options] {

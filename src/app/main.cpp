@@ -1,10 +1,16 @@
 // The command line: exit status 0 done, 1 the work failed, 2 wrong input, 130 interrupted.
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
+#include <cerrno>
 #include <cstdio>
+#include <iostream>
+#include <system_error>
 
 #include "app/command.hpp"
 #include "core/error.hpp"
+#include "core/printable.hpp"
 #include "mpi/mpi_peers.hpp"
 #include "plugin/plugin.hpp"
 
@@ -47,7 +53,7 @@ int run(int count, char** arguments) {
   // Of several processes with one command line the first speaks.
   const auto started = launched();
   const auto complain = [&](const std::string& message) {
-    if (!started || started->rank == 0) fmt::print(stderr, "error: {}\n", message);
+    if (!started || started->rank == 0) fmt::print(stderr, "error: {}\n", printable(message));
   };
   app::add_fit(program);
   app::add_simulate(program);
@@ -82,7 +88,8 @@ int run(int count, char** arguments) {
     complain("out of memory");
     return 1;
   } catch (const std::exception& error) {
-    complain(std::string("internal: ") + error.what());
+    // {fmt} throws where standard output cannot be written, which main says.
+    if (std::ferror(stdout) == 0) complain(std::string("internal: ") + error.what());
     return 1;
   }
   return app::interrupted() ? 130 : 0;
@@ -90,9 +97,30 @@ int run(int count, char** arguments) {
 
 }  // namespace
 
+// A standard descriptor that is closed would be given to the first file opened, which then gets what is printed.
+void occupy_standard_descriptors() {
+  for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (fcntl(descriptor, F_GETFD) != -1) continue;
+    // The lowest free number is this one. Results that nobody can read are a failure, messages are not.
+    if (open(descriptor == STDOUT_FILENO ? "/dev/full" : "/dev/null", O_RDWR) != descriptor) std::_Exit(1);
+  }
+}
+
+// Results are on standard output, or the work has failed.
+int flushed(int status) {
+  errno = 0;
+  std::cout.flush();
+  const bool good = std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout.good();
+  if (good || status == 2) return status;
+  fmt::print(stderr, "error: standard output cannot be written{}\n",
+             errno == 0 ? "" : " (" + std::system_category().message(errno) + ")");
+  return status == 0 ? 1 : status;
+}
+
 int main(int count, char** arguments) {
   try {
-    return run(count, arguments);
+    occupy_standard_descriptors();
+    return flushed(run(count, arguments));
   } catch (...) {
     std::fputs("error: internal: no more is known\n", stderr);
     return 1;

@@ -1,10 +1,16 @@
 #include "app/model_file.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <set>
 
 #include "app/command.hpp"
+#include "app/values.hpp"
 #include "core/error.hpp"
+#include "core/printable.hpp"
 #include "core/suggest.hpp"
 #include "io/file.hpp"
 
@@ -66,19 +72,98 @@ json model_json(const Identification& result, const Campaign& campaign, const Id
             {"solver", result.solvers[result.chosen].run.solver}}}};
 }
 
-StoredModel read_model(const std::string& path) {
-  const std::string text = read_file(path);
-  json root;
+namespace {
+
+// Of a term of a parameter: "N/m", "N/m/A", "N/m/A/A/Hz".
+std::string unit_of(const Parameter& card, int drive_power, int frequency_power, DriveKind drive) {
+  std::string unit(card.unit);
+  for (int k = 0; k < drive_power; ++k) unit += drive == DriveKind::voltage ? "/V" : "/A";
+  for (int k = 0; k < frequency_power; ++k) unit += "/Hz";
+  return unit;
+}
+
+// A power of the drive or the frequency: a whole number from 0 to 9.
+int power_of(const json& entry, const char* key, const std::string& name) {
+  if (!entry.contains(key)) return 0;
+  const json& power = entry.at(key);
+  if (!power.is_number_integer() || power < 0 || power > 9) {
+    throw InputError("parameter '" + name + "' has " + key + " " + power.dump() +
+                     ", expected a whole number from 0 to 9");
+  }
+  return power.get<int>();
+}
+
+// Order of a parameter's law in by_current or by_frequency, if the file states one.
+std::optional<int> stated_order(const json& root, const char* key, const std::string& name) {
+  if (!root.contains(key) || !root.at(key).contains(name)) return std::nullopt;
+  const json& order = root.at(key).at(name);
+  if (!order.is_number_integer() || order < 0 || order > 9) {
+    throw InputError(std::string(key) + " of '" + name + "' is " + order.dump() +
+                     ", expected a whole number from 0 to 9");
+  }
+  return order.get<int>();
+}
+
+// The terms of every parameter fill the grid of its powers, and are as many as its stated laws say.
+void check_terms(const json& root, const StoredModel& stored) {
+  const std::vector<std::string> names = stored.model.parameter_names();
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    int drive = -1;
+    int frequency = -1;
+    std::size_t count = 0;
+    for (const Term& term : stored.terms) {
+      if (term.parameter != k) continue;
+      ++count;
+      drive = std::max(drive, term.drive_power);
+      frequency = std::max(frequency, term.frequency_power);
+    }
+    if (count == 0) throw InputError("parameter '" + names[k] + "' is missing");
+    const int by_drive = stated_order(root, "by_current", names[k]).value_or(drive);
+    const int by_frequency = stated_order(root, "by_frequency", names[k]).value_or(frequency);
+    if (drive > by_drive || frequency > by_frequency) {
+      throw InputError("parameter '" + names[k] + "' has more terms than its law in by_current or by_frequency");
+    }
+    for (int p = 0; p <= by_drive; ++p) {
+      for (int q = 0; q <= by_frequency; ++q) {
+        const bool there = std::ranges::any_of(stored.terms, [&](const Term& term) {
+          return term.parameter == k && term.drive_power == p && term.frequency_power == q;
+        });
+        if (!there) throw InputError("parameter '" + term_name(names[k], p, q) + "' is missing");
+      }
+    }
+  }
+}
+
+// Reads JSON; a key given twice in one object is refused, since readers differ in which of the two they keep.
+json parse_json(const std::string& path, const std::string& text) {
+  const auto line_at = [&](std::size_t byte) {
+    const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(byte, text.size()));
+    return 1 + static_cast<int>(std::count(text.begin(), end, '\n'));
+  };
+  std::vector<std::set<std::string>> open;
+  const auto look = [&](int /*depth*/, json::parse_event_t event, json& value) {
+    if (event == json::parse_event_t::object_start) {
+      open.emplace_back();
+    } else if (event == json::parse_event_t::object_end) {
+      open.pop_back();
+    } else if (event == json::parse_event_t::key && !open.back().insert(value.get<std::string>()).second) {
+      throw InputError(path, 0, "key '" + value.get<std::string>() + "' is given twice in one object, expected once");
+    }
+    return true;
+  };
   try {
-    root = json::parse(text);
+    return json::parse(text, look);
   } catch (const json::parse_error& error) {
-    const auto line =
-        1 +
-        std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(std::min(error.byte, text.size())), '\n');
-    throw InputError(path, static_cast<int>(line), "not valid JSON, expected a model.json written by hysteron");
+    throw InputError(path, line_at(error.byte), "not valid JSON, expected a model.json written by hysteron");
   } catch (const json::out_of_range&) {
     throw InputError(path, 0, "holds a number beyond the range of a double, expected a model.json written by hysteron");
   }
+}
+
+}  // namespace
+
+StoredModel read_model(const std::string& path) {
+  const json root = parse_json(path, read_file(path));
   const auto wrong = [&](const std::string& what) { return InputError(path, 0, what); };
   if (!root.is_object() || !root.contains("schema") || !root["schema"].is_string()) {
     throw wrong("no schema, expected \"hysteron.model/1\"");
@@ -88,48 +173,65 @@ StoredModel read_model(const std::string& path) {
   }
   StoredModel result;
   try {
-    result.model = make_model(root.at("model").get<std::string>(), root.value("effects", std::vector<std::string>{}));
+    const auto effects = root.value("effects", std::vector<std::string>{});
+    refuse_repeats("effects", effects);
+    result.model = make_model(root.at("model").get<std::string>(), effects);
     const std::vector<std::string> names = result.model.parameter_names();
-    for (const Parameter& card : result.model.parameters()) {
+    const std::vector<Parameter> cards = result.model.parameters();
+    for (const Parameter& card : cards) {
       result.held.push_back(card.initial);
     }
-    std::vector<bool> seen(names.size(), false);
     for (const json& entry : root.at("parameters")) {
       const auto name = entry.value("parameter", entry.at("name").get<std::string>());
       const auto found = std::ranges::find(names, name);
       if (found == names.end()) {
-        throw wrong("model " + root.at("model").get<std::string>() + " has no parameter '" + name + "'" +
-                    suggestion(name, names));
+        throw InputError("model " + root.at("model").get<std::string>() + " has no parameter '" + name + "'" +
+                         suggestion(name, names));
       }
       const auto index = static_cast<std::size_t>(found - names.begin());
       const auto value = entry.at("value").get<double>();
       if (!std::isfinite(value)) {
-        throw wrong("parameter '" + name + "' is not finite");
+        throw InputError("parameter '" + name + "' is not finite");
       }
-      const int drive_power = entry.value("drive_power", 0);
-      const int frequency_power = entry.value("frequency_power", 0);
-      if (drive_power < 0 || drive_power > 9 || frequency_power < 0 || frequency_power > 9) {
-        throw wrong("parameter '" + name + "' has a power outside 0 to 9");
-      }
+      const int drive_power = power_of(entry, "drive_power", name);
+      const int frequency_power = power_of(entry, "frequency_power", name);
       if (std::ranges::any_of(result.terms, [&](const Term& term) {
             return term.parameter == index && term.drive_power == drive_power &&
                    term.frequency_power == frequency_power;
           })) {
-        throw wrong("parameter '" + term_name(name, drive_power, frequency_power) + "' is given twice");
+        throw InputError("parameter '" + term_name(name, drive_power, frequency_power) + "' is given twice");
+      }
+      const std::string unit = entry.value("unit", unit_of(cards[index], drive_power, frequency_power, result.drive));
+      if (drive_power > 0 && result.drive == DriveKind::none) {
+        result.drive = unit.find("/V") == std::string::npos ? DriveKind::current : DriveKind::voltage;
+      }
+      const std::string expected = unit_of(cards[index], drive_power, frequency_power, result.drive);
+      if (unit != expected) {
+        throw InputError("parameter '" + term_name(name, drive_power, frequency_power) + "' has the unit '" + unit +
+                         "', expected '" + expected + "'");
       }
       result.terms.push_back({index, drive_power, frequency_power, value});
-      seen[index] = true;
     }
-    const auto fixed = result.model.parameters();
-    for (std::size_t k = 0; k < names.size(); ++k) {
-      if (!seen[k] && !fixed[k].fixed) {
-        throw wrong("parameter '" + names[k] + "' is missing");
-      }
-    }
+    check_terms(root, result);
   } catch (const json::exception&) {
     throw wrong("not a complete model, expected the members model and parameters of hysteron.model/1");
+  } catch (const InputError& error) {
+    throw wrong(error.what());
   }
   return result;
+}
+
+void check_drive(const StoredModel& stored, const std::string& path, const Recording& recording) {
+  if (stored.drive == DriveKind::none || stored.drive == recording.drive_kind) return;
+  const auto word = [](DriveKind kind) { return std::string(kind == DriveKind::voltage ? "voltage" : "current"); };
+  if (recording.drive_kind == DriveKind::none) {
+    fmt::print(stderr, "warning: {}: no {} column, and parameters of {} follow the {}: taken as zero\n",
+               printable(recording.file), word(stored.drive), printable(path), word(stored.drive));
+    return;
+  }
+  throw InputError(recording.file, 0,
+                   "records a " + word(recording.drive_kind) + ", expected a " + word(stored.drive) +
+                       ": parameters of " + path + " follow the " + word(stored.drive));
 }
 
 }  // namespace hysteron::app

@@ -7,6 +7,7 @@
 
 #include "app/command.hpp"
 #include "app/study_output.hpp"
+#include "app/values.hpp"
 #include "core/error.hpp"
 #include "core/suggest.hpp"
 #include "io/output.hpp"
@@ -119,14 +120,14 @@ void add_reproduce(CLI::App& program) {
       program.add_subcommand("reproduce", "makes a published table again, beside the published numbers");
   command->add_option("TABLE", options->table, "an id of `hysteron list tables`")->required();
   command->add_option("--seeds", options->seeds, "repeats of every run, default the table's")
-      ->check(CLI::Range(1, 100000));
+      ->transform(whole_number(1, 100000));
   command->add_option("--budget", options->budget, "evaluations of a run, default the table's")
-      ->check(CLI::Range(10, 1000000000));
+      ->transform(whole_number(10, 1000000000));
   command->add_option("--data", options->data, "recordings instead of the stand-in: table-v, table-vi, table-vii")
       ->allow_extra_args();
   command->add_option("--out", options->out, "folder for records, report and table; an interrupted call is continued");
   command->add_option("--threads", options->threads, "runs beside each other; 0 takes OMP_NUM_THREADS or all cores")
-      ->check(CLI::Range(0, 1024))
+      ->transform(whole_number(0, 1024))
       ->capture_default_str();
   command->add_flag("--quiet", options->quiet, "no progress on standard error");
   command->add_flag("--json", options->json, "JSON on standard output");

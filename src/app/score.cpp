@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "app/command.hpp"
+#include "app/finite.hpp"
 #include "app/model_file.hpp"
 #include "report/terminal.hpp"
 
@@ -29,9 +30,11 @@ void add_score(CLI::App& program) {
     const Campaign campaign = load(options->data);
     std::vector<Score> scores;
     for (const Recording& recording : campaign.recordings) {
-      const Target target = make_target(recording, objective);
-      scores.push_back(
-          score(predict(stored.model, stored.held, stored.terms, target), recording, objective.normalisation));
+      check_drive(stored, options->model, recording);
+      const std::vector<double> force =
+          predict(stored.model, stored.held, stored.terms, make_target(recording, objective));
+      require_finite(force, recording);
+      scores.push_back(score(force, recording, objective.normalisation));
     }
     const double total = overall(scores, campaign.recordings, objective.normalisation, objective.weighting);
     if (options->json) {

@@ -6,7 +6,9 @@
 #include <memory>
 
 #include "app/command.hpp"
+#include "app/finite.hpp"
 #include "app/model_file.hpp"
+#include "app/values.hpp"
 #include "core/error.hpp"
 #include "core/suggest.hpp"
 #include "fit/start.hpp"
@@ -52,7 +54,11 @@ std::vector<double> given_quantities(const Preset& preset, const std::vector<std
                        "' is not QUANTITY=NUMBER with a quantity of the preset, see `hysteron describe " +
                        std::string(preset.id) + "`");
     }
-    given[static_cast<std::size_t>(found - preset.quantities.begin())] = value;
+    double& quantity = given[static_cast<std::size_t>(found - preset.quantities.begin())];
+    if (!std::isnan(quantity)) {
+      throw InputError("--set: '" + std::string(found->name) + "' is given twice, expected each quantity once");
+    }
+    quantity = value;
   }
   std::string missing;
   for (std::size_t k = 0; k < given.size(); ++k) {
@@ -136,13 +142,14 @@ void add_simulate(CLI::App& program) {
   command->add_option("--set", options->set, "QUANTITY=NUMBER of the preset, in its printed unit; repeatable")
       ->delimiter(',')
       ->allow_extra_args(false);
-  command->add_option("--drive", options->drive,
-                      "constant current or voltage for the preset, instead of the recording's");
+  command
+      ->add_option("--drive", options->drive, "constant current or voltage for the preset, instead of the recording's")
+      ->check(real_number(-1e9, 1e9));
   command->add_option("--column", options->data.columns, "channel=NAME [UNIT] of a column; repeatable")
       ->allow_extra_args(false);
   command->add_option("--out", options->out, "CSV to write: time [s],force [N]")->required();
   command->add_option("--tolerance", options->tolerance, "relative force error allowed to the integration")
-      ->check(CLI::Range(1e-10, 1e-2))
+      ->check(real_number(1e-10, 1e-2))
       ->capture_default_str();
   command->footer(
       "Examples:\n"
@@ -178,8 +185,10 @@ void add_simulate(CLI::App& program) {
     } else {
       ObjectiveOptions objective;
       objective.tolerance = options->tolerance;
+      check_drive(stored, options->words[0], recording);
       force = predict(stored.model, stored.held, stored.terms, make_target(recording, objective));
     }
+    require_finite(force, recording);
     write_file_atomically(options->out, csv_of_prediction(recording.time, force));
   });
 }

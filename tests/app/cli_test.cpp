@@ -18,61 +18,20 @@
 #include <thread>
 #include <vector>
 
-#include "app/program.hpp"
+#include "app/program_fixture.hpp"
 
 namespace hysteron {
 namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
+using testing::csv;
 using testing::finish;
 using testing::Outcome;
+using testing::Program;
 using testing::read;
 using testing::start;
-
-void write(const fs::path& path, const std::string& text) {
-  fs::create_directories(path.parent_path());
-  std::ofstream(path, std::ios::binary) << text;
-}
-
-std::string csv(double frequency, double current, int samples = 80, double factor = 1.0) {
-  std::string text = "time [s],displacement [m],velocity [m/s],force [N],current [A]\n";
-  const double omega = 2.0 * std::numbers::pi * frequency;
-  for (int n = 0; n < samples; ++n) {
-    const double t = 2.0 / frequency * n / (samples - 1);
-    const double x = 0.02 * std::sin(omega * t);
-    const double v = 0.02 * omega * std::cos(omega * t);
-    const double force = factor * ((800.0 + 600.0 * current) * v + 3000.0 * x + 120.0 * std::tanh(40.0 * v));
-    std::stringstream row;
-    row.precision(12);
-    row << t << ',' << x << ',' << v << ',' << force << ',' << current << '\n';
-    text += row.str();
-  }
-  return text;
-}
-
-class Program : public ::testing::Test {
- protected:
-  void SetUp() override {
-    std::string name = (fs::temp_directory_path() / "hysteron-cli-XXXXXX").string();
-    ASSERT_NE(mkdtemp(name.data()), nullptr);
-    folder_ = name;
-    write(folder_ / "data/r1.csv", csv(1.0, 0.2));
-    write(folder_ / "data/r2.csv", csv(2.0, 0.8));
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
-  Outcome run(const std::vector<std::string>& words) const { return testing::run(words, folder_); }
-
-  // A fitted model in `fitted/`.
-  void fit() const {
-    const Outcome outcome = run({"fit", "data", "--model", "bouc-wen", "--by-current", "c0:1", "--budget", "400",
-                                 "--quiet", "--out", "fitted"});
-    ASSERT_EQ(outcome.status, 0) << outcome.err;
-  }
-
-  fs::path folder_;
-};
+using testing::write;
 
 const char* const result_files[] = {"model.json", "fit.json", "report.html"};
 
@@ -370,9 +329,23 @@ std::vector<Wrong> wrong_command_lines() {
       {"threads -1", fit_with({"--threads", "-1"})},
       {"seed is not a number", fit_with({"--seed", "lucky"})},
       {"seed negative", fit_with({"--seed", "-3"})},
+      {"seed beyond 64 bits", fit_with({"--seed", "18446744073709551616"})},
+      {"seed broken", fit_with({"--seed", "1.5"})},
+      {"budget broken", fit_with({"--budget", "1.5"})},
+      {"budget beyond its range", fit_with({"--budget", "1e10"})},
       {"normalisation", fit_with({"--normalisation", "peak"})},
       {"weighting", fit_with({"--weighting", "equal"})},
       {"tolerance", fit_with({"--tolerance", "0"})},
+      {"tolerance nan", fit_with({"--tolerance", "nan"})},
+      {"effect twice", fit_with({"--effects", "inertia,inertia"})},
+      {"solver twice", fit_with({"--solver", "pso,pso"})},
+      {"law twice", fit_with({"--by-current", "alpha:1,alpha:2"})},
+      {"--fix twice", fit_with({"--fix", "alpha=1", "--fix", "alpha=2"})},
+      {"--bounds twice", fit_with({"--bounds", "alpha=1:5", "--bounds", "alpha=1:6"})},
+      {"--set twice", fit_with({"--solver", "pso", "--set", "particles=10", "--set", "particles=20"})},
+      {"--column twice", fit_with({"--column", "force=force [N]", "--column", "force=current [A]"})},
+      {"effect twice in a diagnosis",
+       {"diagnose", "data", "--model", "bouc-wen", "--effects", "inertia,inertia", "--out", "out"}},
       {"--fix unknown", fit_with({"--fix", "alfa=1"})},
       {"--fix without a value", fit_with({"--fix", "alpha"})},
       {"--fix text", fit_with({"--fix", "alpha=big"})},
@@ -477,6 +450,13 @@ TEST_F(Refusal, OfWrongCommandLines) { check(wrong_command_lines()); }
 
 TEST_F(Refusal, OfWrongRecordingsAndCampaigns) { check(wrong_recordings()); }
 
+void erase_term(json& model, const std::string& name) {
+  json& rows = model["parameters"];
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    if (rows[k].at("name") == name) rows.erase(k);
+  }
+}
+
 TEST_F(Refusal, OfWrongModelFiles) {
   fit();
   const std::string good = read(folder_ / "fitted/model.json");
@@ -489,6 +469,8 @@ TEST_F(Refusal, OfWrongModelFiles) {
   number_too_large.replace(number_too_large.find("12345.0"), 7, "1e9999");
   std::string not_a_number = number_too_large;
   not_a_number.replace(not_a_number.find("1e9999"), 6, "NaN");
+  std::string twice = good;
+  twice.replace(twice.find("\"value\""), 7, "\"value\": 1.0, \"value\"");
   const std::vector<std::pair<std::string, std::string>> texts{
       {"empty", ""},
       {"not JSON", "time,force\n1,2\n"},
@@ -509,6 +491,18 @@ TEST_F(Refusal, OfWrongModelFiles) {
       {"parameter is a number", changed([](json& m) { m["parameters"][0] = 7; })},
       {"power too high", changed([](json& m) { m["parameters"][0]["drive_power"] = 99; })},
       {"parameter given twice", changed([](json& m) { m["parameters"].push_back(m["parameters"][0]); })},
+      {"power is broken", changed([](json& m) { m["parameters"][1]["drive_power"] = 1.5; })},
+      {"power is text", changed([](json& m) { m["parameters"][1]["drive_power"] = "1"; })},
+      {"wrong unit", changed([](json& m) { m["parameters"][0]["unit"] = "kN"; })},
+      {"unit is a number", changed([](json& m) { m["parameters"][0]["unit"] = 1; })},
+      {"law without one of its terms", changed([](json& m) { erase_term(m, "c0*i"); })},
+      {"law without its constant", changed([](json& m) { erase_term(m, "c0"); })},
+      {"law with more terms than stated", changed([](json& m) { m["by_current"]["c0"] = 0; })},
+      {"order is broken", changed([](json& m) { m["by_current"]["c0"] = 1.5; })},
+      {"effect twice", changed([](json& m) {
+         m["effects"] = {"offset-force", "offset-force"};
+       })},
+      {"key twice", twice},
       {"value is NaN", not_a_number},
       {"value too large", number_too_large},
   };
@@ -522,6 +516,35 @@ TEST_F(Refusal, OfWrongModelFiles) {
          {"score: folder instead of a model", {"score", "data", "data"}},
          {"score: missing data", {"score", "fitted/model.json", "none"}},
          {"score: zero force", {"score", "fitted/model.json", "zero.csv"}, {{"zero.csv", csv(1.0, 0.2, 80, 0.0)}}}});
+}
+
+TEST_F(Refusal, OfAVoltageWhereTheModelFollowsACurrent) {
+  fit();
+  std::string text = csv(1.0, 0.2);
+  text.replace(text.find("current [A]"), 11, "voltage [V]");
+  write(folder_ / "v.csv", text);
+  const Outcome outcome = run({"score", "fitted/model.json", "v.csv"});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_EQ(
+      outcome.err,
+      "error: v.csv: records a voltage, expected a current: parameters of fitted/model.json follow the current\n");
+  text.replace(text.find("voltage [V]"), 11, "aside");
+  write(folder_ / "n.csv", text);
+  const Outcome none = run({"score", "fitted/model.json", "n.csv"});
+  EXPECT_EQ(none.status, 0);
+  EXPECT_EQ(none.err,
+            "warning: n.csv: no current column, and parameters of fitted/model.json follow the current: taken as "
+            "zero\n");
+}
+
+TEST_F(Program, BudgetsMayBeWrittenAsPowersOfTen) {
+  for (const std::string budget : {"300", "3e2", "+300", "0.3e3", "300.0"}) {
+    ASSERT_EQ(run({"fit", "data", "--model", "viscous", "--solver", "pso", "--budget", budget, "--quiet", "--out", "b"})
+                  .status,
+              0)
+        << budget;
+    EXPECT_EQ(json::parse(read(folder_ / "b/fit.json")).at("solvers")[0].at("budget"), 300) << budget;
+  }
 }
 
 TEST_F(Refusal, OfAnOutputThatIsAFile) {

@@ -1,0 +1,78 @@
+#include "app/values.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <set>
+
+#include "core/error.hpp"
+
+namespace hysteron::app {
+namespace {
+
+// "100000", "1e5", "+7", "2.5e3": the digits with the point moved, exactly.
+std::optional<std::uint64_t> whole_of(std::string_view text) {
+  if (text.starts_with('+')) text.remove_prefix(1);
+  const auto e = text.find_first_of("eE");
+  std::string digits(text.substr(0, e));
+  int exponent = 0;
+  if (e != std::string_view::npos) {
+    std::string_view power = text.substr(e + 1);
+    if (power.starts_with('+')) power.remove_prefix(1);
+    const auto read = std::from_chars(power.data(), power.data() + power.size(), exponent);
+    if (power.empty() || read.ec != std::errc{} || read.ptr != power.data() + power.size()) return std::nullopt;
+    if (exponent < 0 || exponent > 20) return std::nullopt;
+  }
+  if (const auto point = digits.find('.'); point != std::string::npos) {
+    exponent -= static_cast<int>(digits.size() - point - 1);
+    digits.erase(point, 1);
+  }
+  for (; exponent < 0 && digits.ends_with('0'); ++exponent) digits.pop_back();
+  if (exponent < 0 || digits.empty()) return std::nullopt;
+  digits.append(static_cast<std::size_t>(exponent), '0');
+  std::uint64_t value = 0;
+  const auto read = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  if (read.ec != std::errc{} || read.ptr != digits.data() + digits.size()) return std::nullopt;
+  return value;
+}
+
+}  // namespace
+
+CLI::Validator whole_number(std::uint64_t low, std::uint64_t high) {
+  const std::string range = fmt::format("{} to {}", low, high);
+  return {[=](std::string& text) {
+            const auto value = whole_of(text);
+            if (!value || *value < low || *value > high) {
+              return fmt::format("'{}' is not a whole number from {}", text, range);
+            }
+            text = std::to_string(*value);
+            return std::string{};
+          },
+          range};
+}
+
+CLI::Validator seed_number() { return whole_number(0, std::numeric_limits<std::uint64_t>::max()).description(""); }
+
+CLI::Validator real_number(double low, double high) {
+  const std::string range = fmt::format("{:g} to {:g}", low, high);
+  return {[=](std::string& text) {
+            const char* begin = text.c_str();
+            char* end = nullptr;
+            const double value = std::strtod(begin, &end);
+            const bool good = end != begin && *end == '\0' && std::isfinite(value) && value >= low && value <= high;
+            return good ? std::string{} : fmt::format("'{}' is not a number from {}", text, range);
+          },
+          range};
+}
+
+void refuse_repeats(const std::string& option, const std::vector<std::string>& words) {
+  std::set<std::string> seen;
+  for (const std::string& word : words) {
+    if (!seen.insert(word).second) throw InputError(option + ": '" + word + "' is given twice, expected each once");
+  }
+}
+
+}  // namespace hysteron::app

@@ -1,0 +1,23 @@
+// Values of options: what a word of the command line must be.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace hysteron::app {
+
+// A whole number from `low` to `high`, also written 1e5; anything else, and what no integer of the program holds, is
+// refused rather than rounded or clamped.
+[[nodiscard]] CLI::Validator whole_number(std::uint64_t low, std::uint64_t high);
+// Of 64 bits, 0 included.
+[[nodiscard]] CLI::Validator seed_number();
+
+// A finite number from `low` to `high`.
+[[nodiscard]] CLI::Validator real_number(double low, double high);
+
+// InputError when a word is there twice.
+void refuse_repeats(const std::string& option, const std::vector<std::string>& words);
+
+}  // namespace hysteron::app

@@ -1,0 +1,160 @@
+// No result without its being one: what diverges, what cannot be written, names that are no text, magnitudes that
+// cannot be. Every test runs HYSTERON_PROGRAM in a temporary folder of its own.
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "app/program_fixture.hpp"
+
+namespace hysteron {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using testing::csv;
+using testing::Outcome;
+using testing::Program;
+using testing::read;
+using testing::write;
+
+using Results = Program;
+
+// The fitted model with one parameter so large that its force is beyond every number.
+void spoil(const fs::path& from, const fs::path& to) {
+  json model = json::parse(read(from));
+  for (json& parameter : model["parameters"]) {
+    if (parameter["parameter"] == "alpha") parameter["value"] = 1e308;
+  }
+  write(to, model.dump());
+}
+
+TEST_F(Results, DivergenceIsAFailureAndWritesNothing) {
+  fit();
+  spoil(folder_ / "fitted/model.json", folder_ / "wild.json");
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"simulate", "wild.json", "data/r1.csv", "--out", "p.csv"},
+        {"score", "wild.json", "data"},
+        {"score", "wild.json", "data", "--json"}}) {
+    const Outcome outcome = run(words);
+    EXPECT_EQ(outcome.status, 1) << words[0];
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_TRUE(outcome.err.starts_with("error: r1.csv: the simulation does not stay finite from ")) << outcome.err;
+    EXPECT_FALSE(fs::exists(folder_ / "p.csv"));
+  }
+}
+
+TEST_F(Results, FullStandardOutputIsAFailure) {
+  if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
+  fit();
+  const auto full = [] { dup2(open("/dev/full", O_WRONLY), STDOUT_FILENO); };
+  const auto closed = [] { close(STDOUT_FILENO); };
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"--help"},
+        {"fit", "--help"},
+        {"--version"},
+        {"list", "models"},
+        {"list", "solvers", "--json"},
+        {"describe", "bouc-wen"},
+        {"score", "fitted/model.json", "data"},
+        {"fit", "data", "--model", "viscous", "--budget", "50", "--quiet", "--out", "again"}}) {
+    for (const auto& stdout_is : {std::function<void()>(full), std::function<void()>(closed)}) {
+      const Outcome outcome = run(words, stdout_is);
+      EXPECT_EQ(outcome.status, 1) << words[0];
+      EXPECT_NE(outcome.err.find("error: standard output cannot be written"), std::string::npos) << words[0];
+    }
+  }
+  EXPECT_TRUE(fs::exists(folder_ / "again/model.json"));
+}
+
+TEST_F(Results, NamesThatAreNoTextLoseNoFit) {
+  fs::remove_all(folder_ / "data");
+  write(folder_ / "data/r\xE9.csv", csv(1.0, 0.2));
+  write(folder_ / "data/r\xE8.csv", csv(1.0, 0.8));
+  const Outcome outcome = run({"fit", "data", "--model", "viscous", "--budget", "50", "--quiet", "--out", "out\xE9"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const json model = json::parse(read(folder_ / "out\xE9/model.json"));
+  EXPECT_EQ(model.at("fitted_on")[0].at("file"), "r\\xE8.csv");
+  EXPECT_EQ(model.at("fitted_on")[1].at("file"), "r\\xE9.csv");
+  EXPECT_NE(outcome.out.find("r\\xE8.csv"), std::string::npos);
+  EXPECT_EQ(run({"score", "out\xE9/model.json", "data", "--json"}).status, 0);
+}
+
+TEST_F(Results, NamesDoNotCommandATerminal) {
+  write(folder_ / "data/\x1B[2J.csv", csv(1.5, 0.4));
+  const Outcome outcome = run({"fit", "data", "--model", "viscous", "--budget", "50", "--quiet", "--out", "out"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("\\x1B[2J.csv"), std::string::npos);
+  const Outcome wrong = run({"fit", "\x1B[2J.csv", "--model", "viscous", "--out", "other"});
+  EXPECT_EQ(wrong.status, 2);
+  for (const std::string& text : {outcome.out, outcome.err, wrong.out, wrong.err}) {
+    EXPECT_EQ(text.find('\x1B'), std::string::npos) << text;
+  }
+}
+
+TEST_F(Results, MillimetresReadAsMetresAreRemarked) {
+  for (const char* name : {"data/r1.csv", "data/r2.csv"}) {
+    std::string text = csv(1.0, name[6] == '1' ? 0.2 : 0.8);
+    text = "time,displacement,force\n" + [&] {
+      std::string rows;
+      std::istringstream lines(text);
+      std::string line;
+      std::getline(lines, line);
+      while (std::getline(lines, line)) {
+        std::istringstream cells(line);
+        std::string t, x, v, f;
+        std::getline(cells, t, ',');
+        std::getline(cells, x, ',');
+        std::getline(cells, v, ',');
+        std::getline(cells, f, ',');
+        rows += t + "," + std::to_string(1e3 * std::stod(x)) + "," + f + "\n";
+      }
+      return rows;
+    }();
+    write(folder_ / name, text);
+  }
+  const Outcome outcome = run({"fit", "data", "--model", "viscous", "--budget", "50", "--quiet", "--out", "out"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(std::ranges::count(outcome.err, '\n'), 1) << outcome.err;
+  EXPECT_TRUE(
+      outcome.err.starts_with("warning: data/r1.csv: displacement has no unit and was taken in m: a stroke of 40 m"))
+      << outcome.err;
+  EXPECT_NE(outcome.err.find("(1 more recordings alike)"), std::string::npos) << outcome.err;
+  EXPECT_TRUE(json::parse(read(folder_ / "out/fit.json")).at("warnings")[0].get<std::string>().starts_with("r1.csv: "));
+}
+
+TEST_F(Results, NoTemporaryFileIsLeftWhereFilesMayNotGrow) {
+  const Outcome outcome = run({"fit", "data", "--model", "viscous", "--budget", "50", "--quiet", "--out", "out"}, [] {
+    const rlimit few{512, 512};
+    setrlimit(RLIMIT_FSIZE, &few);
+  });
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_TRUE(outcome.err.starts_with("error: out/model.json: cannot be written: File too large")) << outcome.err;
+  for (const auto& entry : fs::recursive_directory_iterator(folder_ / "out")) ADD_FAILURE() << entry.path();
+}
+
+TEST_F(Results, HeldOutRecordingsAreCalledSo) {
+  for (int k = 3; k <= 5; ++k) write(folder_ / ("data/r" + std::to_string(k) + ".csv"), csv(1.0, 0.1 * k));
+  ASSERT_EQ(run({"fit", "data", "--model", "viscous", "--budget", "50", "--quiet", "--out", "out"}).status, 0);
+  const json fitted = json::parse(read(folder_ / "out/fit.json"));
+  const std::string page = read(folder_ / "out/report.html");
+  const std::string mark = "<script type=\"application/json\" id=\"report-data\">";
+  const auto from = page.find(mark) + mark.size();
+  const json shown = json::parse(page.substr(from, page.find("</script>", from) - from));
+  std::size_t checked = 0;
+  for (std::size_t k = 0; k < fitted.at("recordings").size(); ++k) {
+    const bool held = fitted["recordings"][k].at("held_out_in_check");
+    EXPECT_EQ(shown.at("recordings")[k].at("role"), held ? "checked" : "fit");
+    checked += held ? 1 : 0;
+  }
+  EXPECT_EQ(checked, 1U);
+}
+
+}  // namespace
+}  // namespace hysteron
