@@ -24,6 +24,7 @@
 #include "io/file.hpp"
 #include "io/output.hpp"
 #include "report/hidden.hpp"
+#include "report/markdown.hpp"
 
 namespace hysteron::app {
 namespace {
@@ -43,15 +44,14 @@ struct Options {
   bool quiet = false;
   bool generate_only = false;
   bool score_only = false;
+  bool list = false;
+  bool as_json = false;
 };
 
 std::vector<challenge::Task> tasks_of(const Options& options) {
   std::vector<challenge::Level> levels;
   for (const std::string& name : options.levels) levels.push_back(challenge::level_of(name));
   for (const std::string& id : options.effects) static_cast<void>(challenge::hidden_effect(id));
-  for (const auto* list : {&options.choice.only, &options.choice.without, &options.choice.foreign}) {
-    for (const std::string& id : *list) static_cast<void>(challenge::hidden_form(id));
-  }
   return challenge::plan(options.campaigns, levels, options.effects, options.seed, options.choice);
 }
 
@@ -137,24 +137,44 @@ void write_hidden(const std::filesystem::path& out, const std::string& hash) {
   fmt::print("{}", text);
 }
 
-void write_simulated(const std::filesystem::path& out, const std::string& hash) {
-  const nlohmann::json result = challenge::score_all(out, hash);
-  write_file_atomically(out / "challenge.json", json_text(result));
+// A score of some forms only stands beside that of all campaigns.
+void write_simulated(const std::filesystem::path& out, const std::string& hash, const challenge::FormChoice& choice) {
+  const nlohmann::json result = challenge::score_all(out, hash, choice);
+  const bool some = !(choice.only.empty() && choice.without.empty() && choice.foreign.empty());
+  write_file_atomically(out / (some ? "selected.json" : "challenge.json"), json_text(result));
   const std::string text = challenge_markdown(result);
-  write_file_atomically(out / "challenge.md", text);
-  write_file_atomically(out / "report.html", challenge_html(result));
+  write_file_atomically(out / (some ? "selected.md" : "challenge.md"), text);
+  write_file_atomically(out / (some ? "selected.html" : "report.html"), challenge_html(result));
   fmt::print("{}", text);
 }
 
+// Every effect with its forms, and the foreign causes.
+void print_list(bool as_json) {
+  nlohmann::json list = nlohmann::json::array();
+  std::vector<std::vector<std::string>> rows;
+  for (const challenge::HiddenEffect& effect : challenge::hidden_effects()) {
+    for (const challenge::HiddenForm& form : effect.forms) {
+      list.push_back({{"effect", effect.id}, {"form", form.id}, {"words", form.words}, {"foreign", effect.foreign}});
+      rows.push_back({effect.foreign ? "(none)" : std::string(effect.id), form.id, std::string(form.words)});
+    }
+  }
+  fmt::print("{}", as_json ? json_text(list) : markdown_table({"effect", "form", "what it is"}, rows));
+}
+
 void run(const Options& options) {
+  if (options.list) return print_list(options.as_json);
+  if (options.out.empty()) throw InputError("--out is required");
   const std::filesystem::path out(options.out);
   const bool hidden = !options.data.empty();
   // What is wrong with the options is said before a folder is made.
+  for (const auto* list : {&options.choice.only, &options.choice.without, &options.choice.foreign}) {
+    for (const std::string& id : *list) static_cast<void>(challenge::hidden_form(id));
+  }
   std::optional<Hidden> hiding;
   std::vector<challenge::Task> tasks;
   if (hidden && !options.score_only) {
     hiding = hidden_of(options);
-  } else if (!hidden) {
+  } else if (!hidden && !options.score_only) {
     tasks = tasks_of(options);
   }
   make_output_folder(options.out);
@@ -179,7 +199,9 @@ void run(const Options& options) {
       if (failed > 0) fmt::print(stderr, "{} diagnoses failed, see {}/diagnoses/*/failed.txt\n", failed, options.out);
     }
   }
-  (hidden ? write_hidden : write_simulated)(out, hash);
+  if (hidden) return write_hidden(out, hash);
+  // Campaigns that were made of some forms are all scored.
+  write_simulated(out, hash, options.score_only ? options.choice : challenge::FormChoice{});
 }
 
 }  // namespace
@@ -188,8 +210,7 @@ void add_challenge(CLI::App& program) {
   auto options = std::make_shared<Options>();
   CLI::App* command = program.add_subcommand(
       "challenge", "makes campaigns with concealed physics, seals the answers, diagnoses, opens the seal, scores");
-  command->add_option("--out", options->out, "folder to write; what an interrupted call left is gone on with")
-      ->required();
+  command->add_option("--out", options->out, "folder to write; what an interrupted call left is gone on with");
   CLI::Option* data = command->add_option(
       "--in", options->data, "hide effects in these recordings of a real damper instead of simulating one");
   command->add_option("--model", options->model, "base damper law, with --in; default campaign.toml's, else bouc-wen")
@@ -223,14 +244,21 @@ void add_challenge(CLI::App& program) {
   command->add_option("--threads", options->threads, "threads of one diagnosis")
       ->transform(whole_number(1, 1024))
       ->capture_default_str();
+  CLI::Option* list = command->add_flag("--list", options->list, "list effects, forms and foreign causes, and stop");
+  command->add_flag("--json", options->as_json, "the list as JSON")->needs(list);
   command->add_flag("--quiet", options->quiet, "no progress on standard error");
   command->add_flag("--generate-only", options->generate_only, "stop after the answers are sealed");
-  command->add_flag("--score-only", options->score_only, "open the seal and score what has been diagnosed")
+  command
+      ->add_flag("--score-only", options->score_only,
+                 "open the seal and score what has been diagnosed; with --forms, --without-forms or --foreign only "
+                 "campaigns of "
+                 "these, into selected.json, .md and .html")
       ->excludes("--generate-only");
   command->footer(
       "Examples:\n"
       "  hysteron challenge --out challenge --campaigns 300 --seed 1\n"
       "  hysteron challenge --out some --campaigns 10 --level plain --effect clearance,inertia --generate-only\n"
+      "  hysteron challenge --out challenge --score-only --forms clearance/hertz,inertia/entrained\n"
       "  hysteron challenge --in recordings/ --model bouc-wen --by-current alpha:1,c0:1 --out hidden");
   command->callback([options] { run(*options); });
 }

@@ -65,6 +65,17 @@ json settings_of(const std::vector<Task>& tasks, std::uint64_t seed) {
           {"tasks_sha256", sha256_hex(list.dump())}};
 }
 
+// Whether a campaign is one of those that a choice asks for.
+bool holds_chosen(const json& answer, const FormChoice& choice) {
+  bool wanted = choice.only.empty() && choice.foreign.empty();
+  for (const auto& form : answer.value("forms", std::vector<std::string>{})) {
+    const auto in = [&](const std::vector<std::string>& list) { return std::ranges::find(list, form) != list.end(); };
+    if (in(choice.without)) return false;
+    wanted = wanted || in(choice.only) || in(choice.foreign);
+  }
+  return wanted;
+}
+
 }  // namespace
 
 std::string make_all(const std::filesystem::path& out, const std::vector<Task>& tasks, std::uint64_t seed,
@@ -111,11 +122,12 @@ int diagnose_all(const std::filesystem::path& out, const Diagnose& diagnose, con
   return failed;
 }
 
-json score_all(const std::filesystem::path& out, const std::string& hash) {
+json score_all(const std::filesystem::path& out, const std::string& hash, const FormChoice& choice) {
   const json answers = open_seal(out, hash);
   json campaigns = json::array();
   int left = 0;
   for (const json& answer : answers.at("campaigns")) {
+    if (!holds_chosen(answer, choice)) continue;
     const auto folder = out / "diagnoses" / answer.at("campaign").get<std::string>();
     const auto path = folder / "diagnosis.json";
     json diagnosis;

@@ -35,7 +35,9 @@ std::string make_all(const std::filesystem::path& out, const std::vector<Task>& 
 int diagnose_all(const std::filesystem::path& out, const Diagnose& diagnose, const Steps& steps);
 
 // Opens the seal, holding it against `hash` (empty: the one of seal.sha256), and scores what was diagnosed or failed:
-// challenge.json's content, with "not_diagnosed" counting the rest.
-[[nodiscard]] nlohmann::json score_all(const std::filesystem::path& out, const std::string& hash);
+// challenge.json's content, with "not_diagnosed" counting the rest. With a choice only campaigns that hold one of its
+// forms or foreign causes, and none of those left out.
+[[nodiscard]] nlohmann::json score_all(const std::filesystem::path& out, const std::string& hash,
+                                       const FormChoice& choice = {});
 
 }  // namespace hysteron::challenge

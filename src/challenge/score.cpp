@@ -55,27 +55,73 @@ Causes causes_of(const json& answer) {
   return causes;
 }
 
+// Grades of the schema hysteron.diagnosis/2; schema 1 has names without a grade.
+enum class Grade { established, supported, suggested, ungraded };
+
+Grade grade_of(const json& effect, bool suggestion) {
+  if (suggestion) return Grade::suggested;
+  const std::string word = effect.value("grade", "");
+  if (word == "established") return Grade::established;
+  if (word == "supported") return Grade::supported;
+  return word == "suggested" ? Grade::suggested : Grade::ungraded;
+}
+
+json word_of(Grade grade) {
+  switch (grade) {
+    case Grade::established:
+      return "established";
+    case Grade::supported:
+      return "supported";
+    case Grade::suggested:
+      return "suggested";
+    case Grade::ungraded:
+      break;
+  }
+  return nullptr;
+}
+
+// One statement of a diagnosis: an id with those it cannot be told from.
+struct Claim {
+  std::string id;
+  Names set;  // with the id
+  Grade grade = Grade::ungraded;
+  bool name = false;  // counts as a name, alone or as a set: supported or better; of schema 1 under missing-physics
+  bool right = false;
+  json confidence;
+};
+
 struct Claims {
+  std::vector<Claim> all;
   Names definite;           // ids named without a rival
   std::vector<Names> sets;  // declared sets of candidates
-  Names wrong;              // definite names, and ids of sets under missing-physics, that hold no accepted name
+  Names wrong;              // names, alone or as a set, that hold no accepted cause
 };
 
 Claims claims_of(const json& diagnosis, const Names& accepted) {
   Claims claims;
   const bool asserted = diagnosis.at("verdict") == "missing-physics";
-  for (const json& effect : diagnosis.at("effects")) {
-    const auto id = effect.at("id").get<std::string>();
-    Names set = names_in(effect.value("indistinguishable_from", json::array()));
-    const bool alone = set.empty();
-    set.insert(id);
-    if (alone && asserted) {
-      claims.definite.insert(id);
-    } else {
-      claims.sets.push_back(set);
+  const auto add = [&](const json& effect, bool suggestion) {
+    Claim claim;
+    claim.id = effect.at("id").get<std::string>();
+    claim.set = names_in(effect.value("indistinguishable_from", json::array()));
+    const bool alone = claim.set.empty();
+    claim.set.insert(claim.id);
+    claim.grade = grade_of(effect, suggestion);
+    claim.name = claim.grade == Grade::ungraded ? asserted : claim.grade != Grade::suggested;
+    claim.right = meet(claim.set, accepted);
+    claim.confidence = number_of(effect, "confidence");
+    if (claim.grade != Grade::suggested) {
+      if (alone && claim.name) {
+        claims.definite.insert(claim.id);
+      } else {
+        claims.sets.push_back(claim.set);
+      }
     }
-    if (asserted && !meet(set, accepted)) claims.wrong.insert(id);
-  }
+    if (claim.name && !claim.right) claims.wrong.insert(claim.id);
+    claims.all.push_back(std::move(claim));
+  };
+  for (const json& effect : diagnosis.at("effects")) add(effect, false);
+  for (const json& effect : diagnosis.value("suggestions", json::array())) add(effect, true);
   return claims;
 }
 
@@ -90,10 +136,8 @@ Outcome outcome_of(const json& answer, const json& diagnosis, const Causes& caus
       return Outcome::in_set;
     }
     if (has_sets) return Outcome::abstained;
-    if (causes.foreign) {
-      if (verdict == "unattributed") return Outcome::right;
-      return causes.any_detectable ? Outcome::missed : Outcome::right;
-    }
+    // Refused: no name, and not complete.
+    if (causes.foreign) return verdict != "complete" || !causes.any_detectable ? Outcome::right : Outcome::missed;
     if (answer.at("level") == "wrong-base") return Outcome::right;
     return verdict == "complete" ? Outcome::right : Outcome::abstained;
   }
@@ -106,7 +150,9 @@ Outcome outcome_of(const json& answer, const json& diagnosis, const Causes& caus
       ++listed;
     }
   }
-  if (named == causes.detectable.size()) return Outcome::right;
+  // Beside foreign causes one effect found is what can be asked for.
+  if (named == causes.detectable.size() || (named > 0 && answer.at("level") == "beside")) return Outcome::right;
+  if (listed > 0 && answer.at("level") == "beside") return Outcome::in_set;
   if (named + listed == causes.detectable.size()) return Outcome::in_set;
   if (named + listed > 0) return Outcome::part;
   return verdict == "complete" ? Outcome::missed : Outcome::abstained;
@@ -186,6 +232,9 @@ json score_campaign(const json& answer, const json& diagnosis) {
                  {"design", answer.at("design")},
                  {"disturbance", answer.at("disturbance")},
                  {"truth", json::array()},
+                 {"forms", answer.value("forms", json::array())},
+                 {"foreign_power_over_strongest", number_of(answer, "foreign_power_over_strongest")},
+                 {"answer", json::array()},
                  {"detectable", causes.any_detectable},
                  {"share_of_peak", causes.share},
                  {"left_over_noise", causes.left / answer.at("noise").at("share_of_peak").get<double>()},
@@ -212,14 +261,18 @@ json score_campaign(const json& answer, const json& diagnosis) {
   result["detected"] = diagnosis.at("verdict") != "complete";
   result["wrong_names"] = claims.wrong;
   result["places"] = places(answer, diagnosis);
-  for (const json& effect : diagnosis.at("effects")) {
-    const auto id = effect.at("id").get<std::string>();
-    if (claims.definite.contains(id)) {
-      result["named"].push_back(
-          {{"id", id}, {"confidence", number_of(effect, "confidence")}, {"right", accepted.contains(id)}});
-    } else {
-      result["candidates"].push_back(id);
+  for (const Claim& claim : claims.all) {
+    const bool alone = claim.set.size() == 1;
+    json stated = {{"id", claim.id}, {"confidence", claim.confidence}, {"right", claim.right}};
+    if (alone && claim.name) {
+      result["named"].push_back(stated);
+    } else if (claim.grade != Grade::suggested) {
+      result["candidates"].push_back(claim.id);
     }
+    stated["grade"] = word_of(claim.grade);
+    stated["name"] = claim.name;
+    stated["set"] = claim.set;
+    result["answer"].push_back(std::move(stated));
   }
   result["parameters"] = parameter_errors(answer, diagnosis);
   const json baseline = diagnosis.value("baseline", json::object());

@@ -8,12 +8,13 @@
 namespace hysteron::challenge {
 
 enum class Outcome {
-  right,      // every detectable cause named; or rightly complete; or a foreign cause refused (unattributed)
+  right,      // every detectable cause named, beside foreign ones at least one; or rightly complete; or foreign causes
+              // refused (no name, and not complete)
   part,       // of two causes one is named, no name is wrong
   in_set,     // the cause is in a declared set of candidates
-  abstained,  // unattributed, or a set of candidates without the cause, where a name was possible or nothing is missing
+  abstained,  // no name, where a name was possible or nothing is missing
   missed,     // complete although the cause could be seen
-  wrong,      // a definite name, or a set under the verdict missing-physics, that holds no cause
+  wrong,      // a name, alone or as a set, that holds no cause
   failed      // no diagnosis
 };
 [[nodiscard]] std::string_view name_of(Outcome outcome);
@@ -26,10 +27,13 @@ inline constexpr double detectable_from = 100.0;
 // whole: the least density at which a place is stated.
 inline constexpr double place_from = 1.25;
 
-// One campaign: an answer as answer_of() writes it and a diagnosis as the contract has it (null: none).
-// {"campaign","level","truth":[ids],"detectable","outcome","detected","verdict","named":[{"id","confidence","right"}],
-//  "wrong_names":[ids],"places":[{"where","stated","true","right"}],"parameters":[{"effect","name","true","found","relative_error","inside_ci95"}],
-//  "nrmse_heldout_before","nrmse_heldout_after","floor","share_of_peak","left_over_noise"}
+// One campaign: an answer as answer_of() writes it and a diagnosis as the contract has it (null: none). Names are the
+// effects of grade supported or better, or without a grade (schema 1); suggestions are never names.
+// {"campaign","level","truth":[ids],"forms":[ids],"foreign_power_over_strongest","detectable","outcome","detected","verdict",
+//  "answer":[{"id","set","grade","confidence","name","right"}],"named":[those of them that are names without a rival],
+//  "candidates":[ids],"wrong_names":[ids],"places":[{"where","stated","true","right"}],
+//  "parameters":[{"effect","name","true","found","relative_error","inside_ci95"}],"nrmse_heldout_before",
+//  "nrmse_heldout_after","floor","share_of_peak","left_over_noise"}
 [[nodiscard]] nlohmann::json score_campaign(const nlohmann::json& answer, const nlohmann::json& diagnosis);
 
 // Rates with Clopper-Pearson bounds over all, per level, effect and size; confusion matrix; reliability of the stated

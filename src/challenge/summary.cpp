@@ -91,22 +91,25 @@ json confusion(const json& campaigns) {
   return result;
 }
 
-json reliability(const json& campaigns) {
-  constexpr std::array<double, 7> edges = {0.0, 0.5, 0.8, 0.9, 0.95, 0.99, 1.0};
+// Stated probability against frequency, bin by bin: names and suggestions together, a set right where it holds a cause.
+json reliability(const json& campaigns, const Filter& filter) {
+  constexpr std::array<double, 9> edges = {0.0, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95, 0.99, 1.0};
   json result = json::array();
   for (std::size_t b = 0; b + 1 < edges.size(); ++b) {
     int trials = 0;
     int right = 0;
     double sum = 0.0;
     for (const json& c : campaigns) {
-      for (const json& named : c.at("named")) {
-        if (!named.at("confidence").is_number()) continue;
-        const double confidence = named.at("confidence").get<double>();
+      if (!filter(c)) continue;
+      for (const json& stated : c.at("answer")) {
+        const bool counts = stated.at("name").get<bool>() || stated.at("grade").is_string();
+        if (!counts || !stated.at("confidence").is_number()) continue;
+        const double confidence = stated.at("confidence").get<double>();
         const bool last = b + 2 == edges.size();
         if (confidence < edges[b] || (last ? confidence > edges[b + 1] : confidence >= edges[b + 1])) continue;
         ++trials;
         sum += confidence;
-        right += named.at("right").get<bool>() ? 1 : 0;
+        right += stated.at("right").get<bool>() ? 1 : 0;
       }
     }
     json row = {{"from", edges[b]}, {"to", edges[b + 1]}, {"right", rate(right, trials)}};
@@ -114,6 +117,20 @@ json reliability(const json& campaigns) {
     result.push_back(std::move(row));
   }
   return result;
+}
+
+// Names at supported or better over all campaigns, alone or as sets.
+json names_stated(const json& campaigns) {
+  int all = 0;
+  int right = 0;
+  for (const json& c : campaigns) {
+    for (const json& stated : c.at("answer")) {
+      if (!stated.at("name").get<bool>()) continue;
+      ++all;
+      right += stated.at("right").get<bool>() ? 1 : 0;
+    }
+  }
+  return rate(right, all);
 }
 
 // Detection and naming over the size of single causes of the catalogue.
@@ -209,7 +226,8 @@ json summarise(const json& campaigns) {
                  {"levels", json::array()},
                  {"effects", json::array()},
                  {"disturbances", json::array()}};
-  for (const char* level : {"plain", "buried", "absorbed", "pairs", "wrong-base", "foreign", "none", "unexcited"}) {
+  for (const char* level :
+       {"plain", "buried", "absorbed", "pairs", "wrong-base", "foreign", "beside", "none", "unexcited"}) {
     json row = outcomes(campaigns, of_level(level));
     if (row.at("campaigns") == 0) continue;
     row["level"] = level;
@@ -220,6 +238,25 @@ json summarise(const json& campaigns) {
   for (const json& c : campaigns) {
     for (const json& id : c.at("truth")) ids[id.get<std::string>()] = 1;
     if (c.at("level") == "none") disturbances[c.at("disturbance").get<std::string>()] = 1;
+  }
+  // Every form where it was hidden, alone or not; right: a name, alone or as a set, holds its effect.
+  std::map<std::string, std::pair<int, int>> forms;
+  for (const json& c : campaigns) {
+    for (std::size_t k = 0; k < c.at("forms").size(); ++k) {
+      const auto form = c.at("forms").at(k).get<std::string>();
+      if (form.starts_with("foreign:")) continue;
+      const auto& answer = c.at("answer");
+      const bool found = std::any_of(answer.begin(), answer.end(), [&](const json& stated) {
+        const json& set = stated.at("set");
+        return stated.at("name").get<bool>() && std::find(set.begin(), set.end(), c.at("truth").at(k)) != set.end();
+      });
+      forms[form].first += found ? 1 : 0;
+      ++forms[form].second;
+    }
+  }
+  result["forms"] = json::array();
+  for (const auto& [form, counts] : forms) {
+    result["forms"].push_back({{"form", form}, {"named", rate(counts.first, counts.second)}});
   }
   for (const auto& [id, ignored] : ids) {
     json row = outcomes(campaigns, [&, name = id](const json& c) {
@@ -247,7 +284,19 @@ json summarise(const json& campaigns) {
   result["detectable_plain"] =
       outcomes(campaigns, [](const json& c) { return c.at("level") == "plain" && c.at("detectable").get<bool>(); });
   result["confusion"] = confusion(campaigns);
-  result["reliability"] = reliability(campaigns);
+  result["names"] = names_stated(campaigns);
+  result["catalogue"] = outcomes(campaigns, [](const json& c) {
+    const json& truth = c.at("truth");
+    return c.at("detectable").get<bool>() && std::any_of(truth.begin(), truth.end(), [](const json& id) {
+             return !id.get<std::string>().starts_with("foreign:");
+           });
+  });
+  result["reliability"] = reliability(campaigns, [](const json&) { return true; });
+  result["reliability_by_level"] = json::array();
+  for (const json& level : result.at("levels")) {
+    const std::string name = level.at("level");
+    result["reliability_by_level"].push_back({{"level", name}, {"bins", reliability(campaigns, of_level(name))}});
+  }
   result["by_share_of_peak"] = by_size(campaigns, "share_of_peak", {0.0, 0.02, 0.04, 0.08, 0.15, 1e9});
   result["by_left_over_noise"] = by_size(campaigns, "left_over_noise", {0.0, 0.1, 0.3, 1.0, 3.0, 1e9});
   result["parameters"] = parameters(campaigns);

@@ -19,6 +19,7 @@ struct Table {
   std::string remark;
   std::vector<std::string> header;
   std::vector<std::vector<std::string>> rows;
+  bool linked = false;  // the first cell is a campaign, whose report it leads to
 };
 
 std::string percent(const json& rate) {
@@ -54,6 +55,7 @@ std::vector<std::string> outcome_cells(const json& row) {
 Table outcome_table(const json& rows, const std::string& title, const std::string& remark, const char* key) {
   Table table{title, remark, with(with({key}, outcome_header), {"right [95 %]", "wrong [95 %]"}), {}};
   for (const json& row : rows) {
+    if (row.at("campaigns") == 0) continue;
     table.rows.push_back(with(with({row.at(key).get<std::string>()}, outcome_cells(row)),
                               {percent(row.at("rate_right")), percent(row.at("rate_wrong"))}));
   }
@@ -65,6 +67,7 @@ std::string edge(double value) { return value >= 1e9 ? "above" : fmt::format("{:
 Table size_table(const json& rows, const std::string& title, const std::string& remark) {
   Table table{title, remark, with(with({"from", "to"}, outcome_header), {"detected [95 %]", "right [95 %]"}), {}};
   for (const json& row : rows) {
+    if (row.at("campaigns") == 0) continue;
     table.rows.push_back(
         with(with({edge(row.at("from").get<double>()), edge(row.at("to").get<double>())}, outcome_cells(row)),
              {percent(row.at("rate_detected")), percent(row.at("rate_right"))}));
@@ -113,16 +116,39 @@ std::vector<Table> tables_of(const json& result) {
   }
   tables.push_back(std::move(confusion));
 
-  Table reliability{"Reliability of the stated confidence",
-                    "Every definite name.",
-                    {"confidence from", "to", "names", "mean confidence", "right [95 %]"},
-                    {}};
-  for (const json& row : s.at("reliability")) {
-    reliability.rows.push_back({number(row.at("from")), number(row.at("to")),
-                                std::to_string(row.at("right").at("trials").get<int>()),
-                                number(row.at("mean_confidence")), percent(row.at("right"))});
+  Table reliability{
+      "Reliability of the stated probability",
+      "Names and suggestions; a set is right where it holds a cause. Off: frequency less stated probability, in "
+      "bins of 30 or more.",
+      {"level", "stated from", "to", "stated", "names", "true [95 %]", "off"},
+      {}};
+  const auto add_bins = [&](const std::string& level, const json& bins) {
+    for (const json& row : bins) {
+      const int trials = row.at("right").at("trials").get<int>();
+      if (trials == 0) continue;
+      const double mean = row.at("mean_confidence").get<double>();
+      reliability.rows.push_back(
+          {level, number(row.at("from")), number(row.at("to")), fmt::format("{:.3f}", mean), std::to_string(trials),
+           percent(row.at("right")),
+           trials < 30 ? "-"
+                       : fmt::format("{:+.1f} points", 100.0 * (row.at("right").at("rate").get<double>() - mean))});
+    }
+  };
+  add_bins("all", s.at("reliability"));
+  for (const json& level : s.at("reliability_by_level")) {
+    add_bins(level.at("level").get<std::string>(), level.at("bins"));
   }
   tables.push_back(std::move(reliability));
+
+  Table forms{"Forms",
+              "Of the effects, wherever they were hidden.",
+              {"form", "campaigns", "named, alone or in a set [95 %]"},
+              {}};
+  for (const json& row : s.at("forms")) {
+    forms.rows.push_back({row.at("form").get<std::string>(), std::to_string(row.at("named").at("trials").get<int>()),
+                          percent(row.at("named"))});
+  }
+  tables.push_back(std::move(forms));
 
   Table parameters{"Parameters",
                    "Of causes that were named or listed, where truth and catalogue mean the same quantity.",
@@ -146,31 +172,88 @@ std::vector<Table> tables_of(const json& result) {
   return tables;
 }
 
+// "gas-spring 0.97 established (with asymmetry), not there"
+std::string statement(const json& stated) {
+  std::string text = stated.at("id").get<std::string>();
+  if (stated.at("confidence").is_number()) text += fmt::format(" {:.2f}", stated.at("confidence").get<double>());
+  if (stated.at("grade").is_string()) text += " " + stated.at("grade").get<std::string>();
+  std::string others;
+  for (const json& id : stated.at("set")) {
+    if (id != stated.at("id")) others += (others.empty() ? "" : ", ") + id.get<std::string>();
+  }
+  if (!others.empty()) text += " (or " + others + ")";
+  if (!stated.at("right").get<bool>()) text += ", not there";
+  return text;
+}
+
 Table campaign_table(const json& result) {
-  Table table{
-      "Every campaign",
-      "",
-      {"campaign", "level", "truth", "size", "verdict", "named", "candidates", "outcome", "before", "after", "floor"},
-      {}};
-  const auto joined = [](const json& list) {
-    std::string text;
-    for (const json& entry : list) {
-      text += (text.empty() ? "" : ", ") +
-              (entry.is_object() ? entry.at("id").get<std::string>() : entry.get<std::string>());
-    }
-    return text;
-  };
+  Table table{"Every campaign",
+              "",
+              {"campaign", "level", "truth", "size", "verdict", "answer", "outcome", "before", "after", "floor"},
+              {}};
+  table.linked = true;
   for (const json& c : result.at("campaigns")) {
-    std::string truth = joined(c.at("truth"));
+    std::string truth;
+    const json& causes = c.at("forms").size() == c.at("truth").size() ? c.at("forms") : c.at("truth");
+    for (const json& cause : causes) truth += (truth.empty() ? "" : ", ") + cause.get<std::string>();
     if (truth.empty()) truth = c.at("disturbance").get<std::string>();
+    if (truth.empty()) truth = "nothing";
     if (!c.at("truth").empty() && !c.at("detectable").get<bool>()) truth += " (cannot be seen)";
+    std::string answer;
+    for (const json& stated : c.at("answer")) answer += (answer.empty() ? "" : "; ") + statement(stated);
     table.rows.push_back(
         {c.at("campaign").get<std::string>(), c.at("level").get<std::string>(), truth, number(c.at("share_of_peak")),
-         c.at("verdict").is_string() ? c.at("verdict").get<std::string>() : "-", joined(c.at("named")),
-         joined(c.at("candidates")), c.at("outcome").get<std::string>(), number(c.at("nrmse_heldout_before"), "{:.4f}"),
+         c.at("verdict").is_string() ? c.at("verdict").get<std::string>() : "-", answer.empty() ? "-" : answer,
+         c.at("outcome").get<std::string>(), number(c.at("nrmse_heldout_before"), "{:.4f}"),
          number(c.at("nrmse_heldout_after"), "{:.4f}"), number(c.at("floor"), "{:.4f}")});
   }
   return table;
+}
+
+std::string report_of(const std::string& campaign) { return "diagnoses/" + campaign + "/report.html"; }
+
+std::string counted(const json& rate) {
+  const int trials = rate.at("trials").get<int>();
+  if (trials == 0) return "0 of 0";
+  return fmt::format("{} of {} ({:.0f} %)", rate.at("hits").get<int>(), trials, 100.0 * rate.at("rate").get<double>());
+}
+
+// Three sentences: what is found, what is said wrongly, what a stated probability is worth.
+std::string headline(const json& result) {
+  const json& s = result.at("summary");
+  const json& known = s.at("catalogue");
+  std::string text = fmt::format(
+      "Effects of the catalogue that can be seen were named without a wrong name in {} campaigns, and stand in a "
+      "declared set in {} more. ",
+      counted(known.at("rate_right")), known.at("in_set").get<int>());
+  const json& names = s.at("names");
+  std::string foreign = "foreign causes alone were not put";
+  for (const json& level : s.at("levels")) {
+    if (level.at("level") == "foreign")
+      foreign = "foreign causes alone were refused in " + counted(level.at("rate_right"));
+  }
+  text += fmt::format("Of {} names {} are not in the truth; nothing missing got a name in {} campaigns; {}. ",
+                      names.at("trials").get<int>(), names.at("trials").get<int>() - names.at("hits").get<int>(),
+                      counted(s.at("negative_controls").at("definite_name")), foreign);
+  int sure = 0;
+  int sure_right = 0;
+  int all = 0;
+  int right = 0;
+  double stated = 0.0;
+  for (const json& bin : s.at("reliability")) {
+    const int trials = bin.at("right").at("trials").get<int>();
+    all += trials;
+    right += bin.at("right").at("hits").get<int>();
+    if (trials > 0) stated += trials * bin.at("mean_confidence").get<double>();
+    if (bin.at("from").get<double>() < 0.95) continue;
+    sure += trials;
+    sure_right += bin.at("right").at("hits").get<int>();
+  }
+  text += fmt::format(
+      "Of names stated with 0.95 or more {} of {} are true; of all names and suggestions {} of {}, where "
+      "{:.1f} were promised.",
+      sure_right, sure, right, all, stated);
+  return text;
 }
 
 std::string heading(const json& result) {
@@ -185,11 +268,16 @@ std::string heading(const json& result) {
 }  // namespace
 
 std::string challenge_markdown(const json& result) {
-  std::string text = "# Concealed physics\n\n" + heading(result) + ".\n";
-  for (const Table& table : tables_of(result)) {
+  std::string text = "# Concealed physics\n\n" + headline(result) + "\n\n" + heading(result) + ".\n";
+  std::vector<Table> tables = tables_of(result);
+  tables.push_back(campaign_table(result));
+  for (Table& table : tables) {
     if (table.rows.empty()) continue;
     text += "\n## " + table.title + "\n\n";
     if (!table.remark.empty()) text += table.remark + "\n\n";
+    if (table.linked) {
+      for (auto& row : table.rows) row[0] = "[" + row[0] + "](" + report_of(row[0]) + ")";
+    }
     text += markdown_table(table.header, table.rows);
   }
   return text;
@@ -204,7 +292,8 @@ std::string challenge_html(const json& result) {
   page +=
       "\nmain{max-width:75rem;margin:0 auto;padding:1rem}section{overflow-x:auto;margin:1.5rem 0}"
       "td,th{text-align:left;padding:.15rem .6rem;border-bottom:1px solid var(--grid)}\n</style></head><body><main>\n";
-  page += "<h1>Concealed physics</h1>\n<p>" + html_escape(heading(result)) + "</p>\n";
+  page += "<h1>Concealed physics</h1>\n<p><strong>" + html_escape(headline(result)) + "</strong></p>\n<p>" +
+          html_escape(heading(result)) + "</p>\n";
   std::vector<Table> tables = tables_of(result);
   tables.push_back(campaign_table(result));
   for (const Table& table : tables) {
@@ -216,7 +305,11 @@ std::string challenge_html(const json& result) {
     page += "</tr></thead><tbody>\n";
     for (const auto& row : table.rows) {
       page += "<tr>";
-      for (const std::string& cell : row) page += "<td>" + html_escape(cell) + "</td>";
+      for (std::size_t k = 0; k < row.size(); ++k) {
+        const std::string cell = html_escape(row[k]);
+        page += table.linked && k == 0 ? "<td><a href=\"" + report_of(cell) + "\">" + cell + "</a></td>"
+                                       : "<td>" + cell + "</td>";
+      }
       page += "</tr>\n";
     }
     page += "</tbody></table></section>\n";

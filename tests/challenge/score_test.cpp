@@ -89,6 +89,54 @@ TEST(Score, ForeignCausesAreToBeRefused) {
   EXPECT_EQ(outcome(truth, diagnosis("complete")), "missed");
 }
 
+json graded(const std::string& id, const std::string& grade, double confidence,
+            const std::vector<std::string>& rivals = {}) {
+  return {{"id", id}, {"grade", grade}, {"confidence", confidence}, {"indistinguishable_from", rivals}};
+}
+
+json diagnosis_2(const std::string& verdict, const json& effects, const json& suggestions) {
+  json result = diagnosis(verdict, effects);
+  result["schema"] = "hysteron.diagnosis/2";
+  result["suggestions"] = suggestions;
+  return result;
+}
+
+TEST(Score, SuggestionsAreNoNames) {
+  const json truth = answer("plain", {"inertia"});
+  const json wrong_suggestion = json::array({graded("asymmetry", "suggested", 0.6)});
+  const json row = score_campaign(
+      truth, diagnosis_2("missing-physics", json::array({graded("inertia", "supported", 0.85)}), wrong_suggestion));
+  EXPECT_EQ(row.at("outcome"), "right");
+  ASSERT_EQ(row.at("answer").size(), 2U);
+  EXPECT_EQ(row.at("answer")[0].at("grade"), "supported");
+  EXPECT_EQ(row.at("answer")[0].at("right"), true);
+  EXPECT_EQ(row.at("answer")[1].at("name"), false);
+  EXPECT_EQ(row.at("answer")[1].at("right"), false);
+  EXPECT_EQ(outcome(truth, diagnosis_2("unattributed", json::array(), wrong_suggestion)), "abstained");
+  EXPECT_EQ(outcome(answer("none", {}), diagnosis_2("complete", json::array(), wrong_suggestion)), "right");
+  // A set that is graded is a name, whatever the verdict.
+  const auto with_set = [](const std::vector<std::string>& rivals) {
+    return diagnosis_2("ambiguous", json::array({graded("degradation", "established", 0.97, rivals)}), json::array());
+  };
+  EXPECT_EQ(outcome(truth, with_set({"inertia"})), "in a set");
+  EXPECT_EQ(outcome(truth, with_set({"self-heating"})), "wrong");
+}
+
+TEST(Score, BesideForeignCausesOneNameIsEnough) {
+  const json truth = answer("beside", {"inertia", "end-stop", "foreign:cogging"});
+  const auto said = [&](const json& effects) {
+    return outcome(truth, diagnosis_2("missing-physics", effects, json::array()));
+  };
+  EXPECT_EQ(said(json::array({graded("inertia", "supported", 0.9)})), "right");
+  EXPECT_EQ(said(json::array({graded("sensor-delay", "supported", 0.9, {"inertia"})})), "in a set");
+  EXPECT_EQ(said(json::array({graded("inertia", "supported", 0.9), graded("asymmetry", "supported", 0.8)})), "wrong");
+  EXPECT_EQ(outcome(truth, diagnosis_2("unattributed", json::array(), json::array())), "abstained");
+  EXPECT_EQ(outcome(truth, diagnosis("complete")), "missed");
+  const json alone = answer("foreign", {"foreign:cogging"});
+  EXPECT_EQ(outcome(alone, diagnosis_2("ambiguous", json::array(), json::array({graded("inertia", "suggested", 0.5)}))),
+            "right");
+}
+
 TEST(Score, NegativeControlsAndWrongBases) {
   EXPECT_EQ(outcome(answer("none", {}), diagnosis("complete")), "right");
   EXPECT_EQ(outcome(answer("none", {}), diagnosis("unattributed")), "abstained");
@@ -137,9 +185,27 @@ TEST(Summary, CountsWhatWasScored) {
       EXPECT_EQ(row.at("right").at("hits"), 1);
     }
   }
+  // Suggestions enter the reliability, at their level.
+  json graded_campaigns = json::array();
+  for (int k = 0; k < 4; ++k) {
+    graded_campaigns.push_back(
+        score_campaign(answer("plain", {"inertia"}),
+                       diagnosis_2("unattributed", json::array(),
+                                   json::array({graded(k < 3 ? "inertia" : "offset-force", "suggested", 0.75)}))));
+  }
+  const json rows = summarise(graded_campaigns).at("reliability_by_level")[0];
+  EXPECT_EQ(rows.at("level"), "plain");
+  for (const json& row : rows.at("bins")) {
+    EXPECT_EQ(row.at("right").at("trials"), row.at("from") == 0.7 ? 4 : 0);
+    if (row.at("from") == 0.7) {
+      EXPECT_EQ(row.at("right").at("hits"), 3);
+    }
+  }
   const json result = {{"seed", 1}, {"seal", "00"}, {"summary", summary}, {"campaigns", campaigns}};
   const std::string text = challenge_markdown(result);
   EXPECT_NE(text.find("asymmetry 1"), std::string::npos);
+  EXPECT_NE(text.find("Of 2 names 1 are not in the truth"), std::string::npos);
+  EXPECT_NE(text.find("(diagnoses/campaign-0001/report.html)"), std::string::npos);
   const std::string page = challenge_html(result);
   EXPECT_NE(page.find("campaign-0001"), std::string::npos);
   EXPECT_EQ(page.find("http"), std::string::npos);
