@@ -1,0 +1,282 @@
+// What the cards of laws and effects say, asked as the diagnosis asks, against what is meant: entry by entry.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "diagnose/diagnose.hpp"
+#include "diagnose/search/relatives.hpp"
+
+namespace hysteron {
+namespace {
+
+using Names = std::vector<std::string>;
+using NameSet = std::set<std::string>;
+
+Names ids_of(std::span<const Part* const> catalogue) {
+  Names result;
+  for (const Part* part : catalogue) {
+    result.emplace_back(part->id);
+  }
+  return result;
+}
+
+NameSet effects_that(bool (*is)(const std::string&)) {
+  NameSet result;
+  for (const std::string& id : ids_of(effect_catalogue())) {
+    if (is(id)) {
+      result.insert(id);
+    }
+  }
+  return result;
+}
+
+// Orders above zero of the laws of a layout.
+std::map<std::string, int> orders_of(const Layout& layout) {
+  std::map<std::string, int> result;
+  for (const ParameterLaw& law : layout.laws()) {
+    if (law.drive_nodes.size() > 1) {
+      result[layout.names()[law.parameter]] = static_cast<int>(law.drive_nodes.size()) - 1;
+    }
+  }
+  return result;
+}
+
+Workbench bench_with(const std::map<std::string, int>& by_current) {
+  DataScale scale;
+  scale.drive_high = 1.0;
+  LayoutOptions layout;
+  layout.by_current = by_current;
+  return {scale, {}, layout, {}, 1, [] { return false; }};
+}
+
+const std::map<std::string, Names> yield_forces = {{"algebraic-hysteresis", {"alpha"}},
+                                                   {"asymmetric-sigmoid", {"f_t"}},
+                                                   {"baber-noori", {"alpha"}},
+                                                   {"bingham", {"fc"}},
+                                                   {"bouc-wen", {"alpha"}},
+                                                   {"extended-bingham", {"fc"}},
+                                                   {"guo-hu", {"f_y"}},
+                                                   {"hyperbolic-tangent", {"alpha"}},
+                                                   {"lugre", {"alpha"}},
+                                                   {"modified-bouc-wen", {"alpha"}},
+                                                   {"modified-dahl", {"alpha"}},
+                                                   {"nonlinear-biviscous", {"fy"}},
+                                                   {"polynomial-hysteresis", {}},
+                                                   {"preisach", {"f_y"}},
+                                                   {"quasi-static-flow", {}},
+                                                   {"viscous", {}}};
+
+const std::map<std::string, Names> dampings = {{"algebraic-hysteresis", {"c0"}},
+                                               {"asymmetric-sigmoid", {"c_c", "c_e"}},
+                                               {"baber-noori", {"c0"}},
+                                               {"bingham", {"c0"}},
+                                               {"bouc-wen", {"c0"}},
+                                               {"extended-bingham", {"c0", "c1"}},
+                                               {"guo-hu", {"c0"}},
+                                               {"hyperbolic-tangent", {"c0"}},
+                                               {"lugre", {"c0", "c1"}},
+                                               {"modified-bouc-wen", {"c0", "c1"}},
+                                               {"modified-dahl", {"c0"}},
+                                               {"nonlinear-biviscous", {"c0"}},
+                                               {"polynomial-hysteresis", {}},
+                                               {"preisach", {"c0"}},
+                                               {"quasi-static-flow", {}},
+                                               {"viscous", {"c0"}}};
+
+TEST(Cards, YieldForceAndDampingsOfEveryLawFollowADriveThatVaries) {
+  Recording low;
+  low.drive = {0.0};
+  Recording high;
+  high.drive = {1.0};
+  NameSet laws;
+  for (const std::string& law : ids_of(model_catalogue())) {
+    laws.insert(law);
+    ASSERT_TRUE(yield_forces.contains(law) && dampings.contains(law)) << law << " is new: say what follows the drive";
+    std::map<std::string, int> meant;
+    for (const Names& names : {yield_forces.at(law), dampings.at(law)}) {
+      for (const std::string& name : names) {
+        meant[name] = 1;
+      }
+    }
+    EXPECT_EQ(base_laws(law, {low, high}), meant) << law;
+    EXPECT_TRUE(base_laws(law, {low, low}).empty()) << law;
+  }
+  EXPECT_EQ(laws.size(), yield_forces.size());
+}
+
+TEST(Cards, AYieldForceTakesOverTheLawOfOneThatAnotherLawLacks) {
+  const Workbench bench = bench_with({{"of_another_law", 2}});
+  for (const std::string& law : ids_of(model_catalogue())) {
+    std::map<std::string, int> meant;
+    for (const std::string& name : yield_forces.at(law)) {
+      meant[name] = 2;
+    }
+    EXPECT_EQ(orders_of(bench.layout({law, {}, {}})), meant) << law;
+  }
+}
+
+TEST(Cards, ADampingOfAnEffectFollowsTheDriveAsTheLawsOwn) {
+  const std::map<std::string, std::string> meant = {
+      {"self-heating", "c_h"}, {"shear-thinning", "c_t"}, {"viscous-damping", "c"}};
+  const Workbench damped = bench_with({{"c0", 2}});
+  const Workbench hardened = bench_with({{"alpha", 2}});
+  for (const std::string& effect : ids_of(effect_catalogue())) {
+    std::map<std::string, int> orders = {{"c0", 2}};
+    if (const auto at = meant.find(effect); at != meant.end()) {
+      orders[effect + "." + at->second] = 2;
+    }
+    EXPECT_EQ(orders_of(damped.layout({"bouc-wen", {effect}, {}})), orders) << effect;
+    EXPECT_EQ(orders_of(hardened.layout({"bouc-wen", {effect}, {}})), (std::map<std::string, int>{{"alpha", 2}}))
+        << effect;
+  }
+}
+
+TEST(Cards, WhatALawHasOfItsOwn) {
+  const std::map<std::string, NameSet> laws_without = {
+      {"offset-force", {"modified-bouc-wen", "polynomial-hysteresis"}},
+      {"linear-stiffness",
+       {"asymmetric-sigmoid", "bingham", "extended-bingham", "guo-hu", "nonlinear-biviscous", "polynomial-hysteresis",
+        "preisach", "quasi-static-flow"}},
+      {"viscous-damping", {"extended-bingham", "modified-bouc-wen", "polynomial-hysteresis", "quasi-static-flow"}}};
+  for (const std::string& effect : ids_of(effect_catalogue())) {
+    for (const std::string& law : ids_of(model_catalogue())) {
+      const auto at = laws_without.find(effect);
+      EXPECT_EQ(is_part_of(effect, law), at != laws_without.end() && !at->second.contains(law)) << effect << " " << law;
+    }
+  }
+  EXPECT_FALSE(is_part_of("offset-force", "no-such-law"));
+  EXPECT_FALSE(is_part_of("no-such-effect", "viscous"));
+}
+
+TEST(Cards, RelativesInTheOrderTheyAreTried) {
+  const std::map<std::string, Names> meant = {
+      {"asymmetry", {"cavitation"}},
+      {"cavitation", {"asymmetry"}},
+      {"clearance", {"compliance", "entrapped-gas"}},
+      {"coil-lag", {"magnetic-remanence", "magnetic-saturation"}},
+      {"compliance", {"clearance", "entrapped-gas", "series-dashpot"}},
+      {"coulomb-friction", {"seal-friction", "pre-yield-hysteresis", "shear-thinning"}},
+      {"cubic-stiffness", {"linear-stiffness", "gas-spring", "end-stop", "pinching"}},
+      {"degradation", {"self-heating", "stiction"}},
+      {"end-stop", {"linear-stiffness", "gas-spring", "cubic-stiffness"}},
+      {"entrapped-gas", {"compliance", "clearance"}},
+      {"force-drift", {}},
+      {"gas-spring", {"offset-force", "linear-stiffness", "cubic-stiffness", "end-stop"}},
+      {"inertia", {"sensor-delay", "velocity-lag"}},
+      {"linear-stiffness", {"gas-spring", "cubic-stiffness", "end-stop"}},
+      {"magnetic-remanence", {"coil-lag", "magnetic-saturation"}},
+      {"magnetic-saturation", {"coil-lag", "magnetic-remanence"}},
+      {"offset-force", {"gas-spring"}},
+      {"pinching", {"cubic-stiffness"}},
+      {"pre-yield-hysteresis", {"coulomb-friction", "seal-friction"}},
+      {"quadratic-damping", {"viscous-damping", "shear-thinning"}},
+      {"seal-friction", {"coulomb-friction", "pre-yield-hysteresis"}},
+      {"self-heating", {"degradation", "stiction"}},
+      {"sensor-delay", {"inertia", "velocity-lag"}},
+      {"series-dashpot", {"compliance"}},
+      {"shear-thinning", {"viscous-damping", "quadratic-damping", "coulomb-friction"}},
+      {"stiction", {"self-heating", "degradation"}},
+      {"velocity-lag", {"inertia", "sensor-delay"}},
+      {"viscous-damping", {"quadratic-damping", "shear-thinning"}}};
+  for (const std::string& effect : ids_of(effect_catalogue())) {
+    ASSERT_TRUE(meant.contains(effect)) << effect << " is new: say what it is mistaken for";
+    EXPECT_EQ(relatives(effect), meant.at(effect)) << effect;
+    for (const std::string& other : ids_of(effect_catalogue())) {
+      EXPECT_EQ(is_kin(effect, other), std::ranges::count(meant.at(effect), other) == 1) << effect << " " << other;
+    }
+  }
+}
+
+TEST(Cards, PlaceAndForm) {
+  EXPECT_EQ(effects_that(is_of_place),
+            (NameSet{"offset-force", "linear-stiffness", "cubic-stiffness", "end-stop", "gas-spring", "pinching"}));
+  EXPECT_EQ(effects_that(acts_in_a_part), (NameSet{"end-stop"}));
+  EXPECT_EQ(effects_that(has_one_form), (NameSet{"offset-force", "linear-stiffness", "viscous-damping", "inertia"}));
+}
+
+TEST(Cards, Limits) {
+  const std::map<std::pair<std::string, std::string>, std::string> meant = {
+      {{"offset-force", "gas-spring"}, "g"},         {{"linear-stiffness", "gas-spring"}, ""},
+      {{"coulomb-friction", "seal-friction"}, "fb"}, {{"coulomb-friction", "shear-thinning"}, "m"},
+      {{"compliance", "entrapped-gas"}, "d_a"},      {{"compliance", "clearance"}, "gap"},
+      {{"cubic-stiffness", "end-stop"}, "x_up"}};
+  const std::map<std::pair<std::string, std::string>, std::pair<std::string, BoxEnd>> ends = {
+      {{"entrapped-gas", "clearance"}, {"f_a", BoxEnd::lower}},
+      {{"shear-thinning", "coulomb-friction"}, {"m", BoxEnd::lower}},
+      {{"coulomb-friction", "shear-thinning"}, {"v_t", BoxEnd::upper}},
+      {{"seal-friction", "shear-thinning"}, {"v_t", BoxEnd::upper}}};
+  for (const std::string& effect : ids_of(effect_catalogue())) {
+    for (const std::string& other : ids_of(effect_catalogue())) {
+      const auto at = meant.find({effect, other});
+      EXPECT_EQ(is_limit(effect, other), at != meant.end()) << effect << " " << other;
+      EXPECT_EQ(limit_parameter(effect, other), at == meant.end() ? "" : at->second) << effect << " " << other;
+      const BoxLimit* limit = box_limit(effect, other);
+      const auto end = ends.find({effect, other});
+      ASSERT_EQ(limit != nullptr, end != ends.end()) << effect << " " << other;
+      if (limit != nullptr) {
+        EXPECT_EQ(limit->parameter, end->second.first) << effect << " " << other;
+        EXPECT_EQ(limit->end, end->second.second) << effect << " " << other;
+      }
+    }
+  }
+}
+
+// Where two rows lead to one parameter, the later counts.
+TEST(Cards, KindredParameters) {
+  std::map<std::string, std::vector<std::pair<std::string, double>>> to;
+  for (const Kindred& row : kindred()) {
+    to[std::string(row.to)].emplace_back(row.from, row.factor);
+  }
+  const std::map<std::string, std::vector<std::pair<std::string, double>>> meant = {
+      {"clearance.gap", {{"entrapped-gas.d_a", 2.0}}},
+      {"entrapped-gas.d_a", {{"clearance.gap", 0.5}}},
+      {"clearance.C_c", {{"entrapped-gas.C_c", 1.0}, {"compliance.C", 1.0}}},
+      {"entrapped-gas.C_c", {{"clearance.C_c", 1.0}, {"compliance.C", 1.0}}},
+      {"compliance.C", {{"clearance.C_c", 1.0}, {"entrapped-gas.C_c", 1.0}}}};
+  EXPECT_EQ(to, meant);
+}
+
+TEST(Cards, InputsNeeded) {
+  // Constant drives at two levels, a velocity that was derived.
+  Recording low;
+  low.time = {0.0, 1.0};
+  low.drive = {0.5, 0.5};
+  low.drive_kind = DriveKind::current;
+  Recording high = low;
+  high.drive = {1.0, 1.0};
+  Recording undriven = low;
+  undriven.drive.clear();
+  NameSet without_drive;
+  NameSet with_two_levels;
+  NameSet with_three_levels;
+  Recording higher = low;
+  higher.drive = {1.5, 1.5};
+  for (const std::string& effect : ids_of(effect_catalogue())) {
+    if (excluded_by_inputs(effect, {undriven})) {
+      without_drive.insert(effect);
+    }
+    if (excluded_by_inputs(effect, {low, high})) {
+      with_two_levels.insert(effect);
+    }
+    if (excluded_by_inputs(effect, {low, high, higher})) {
+      with_three_levels.insert(effect);
+    }
+  }
+  const NameSet all = {"coil-lag", "magnetic-remanence", "magnetic-saturation", "velocity-lag"};
+  EXPECT_EQ(without_drive, all);
+  EXPECT_EQ(with_two_levels, all);
+  EXPECT_EQ(with_three_levels, (NameSet{"coil-lag", "magnetic-remanence", "velocity-lag"}));
+  EXPECT_EQ(excluded_by_inputs("coil-lag", {undriven}), "no current or voltage was recorded");
+  EXPECT_EQ(excluded_by_inputs("coil-lag", {low, high}), "the current is constant in every recording");
+  EXPECT_EQ(excluded_by_inputs("velocity-lag", {low}),
+            "the velocity was not recorded but derived from the displacement without lag");
+}
+
+}  // namespace
+}  // namespace hysteron
