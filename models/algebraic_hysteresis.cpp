@@ -21,10 +21,10 @@ struct AlgebraicHysteresis {
                                                    "z = tanh((v + v_h tanh((x - x0) / x_s)) / v_y)"};
   static constexpr int states = 0;
   static constexpr Parameter parameters[] = {
-      {"alpha", "alpha", "N", "yield force", 0.0, 3.0e3, 5.0e2, Scale::linear, {1, 0, 0}, true},
-      {"c0", "c", "N s/m", "viscous damping", 0.0, 2.0e4, 5.0e2, Scale::linear, {1, 0, -1}, true},
-      {"k0", "k", "N/m", "stiffness", -2.0e4, 1.0e5, 0.0, Scale::linear, {1, -1, 0}, true},
-      {"f0", "f0", "N", "offset force", -1.5e3, 1.5e3, 0.0, Scale::linear, {1, 0, 0}, true},
+      as_yield_force({"alpha", "alpha", "N", "yield force", 0.0, 3.0e3, 5.0e2, Scale::linear, {1, 0, 0}, true}),
+      as_damping({"c0", "c", "N s/m", "viscous damping", 0.0, 2.0e4, 5.0e2, Scale::linear, {1, 0, -1}, true}),
+      as_stiffness({"k0", "k", "N/m", "stiffness", -2.0e4, 1.0e5, 0.0, Scale::linear, {1, -1, 0}, true}),
+      as_offset_force({"f0", "f0", "N", "offset force", -1.5e3, 1.5e3, 0.0, Scale::linear, {1, 0, 0}, true}),
       {"v_y", "1/beta", "m/s", "yield speed", 1.0e-3, 1.0, 3.0e-2, Scale::logarithmic, {0, 0, 1}},
       {"v_h",
        "delta/beta",

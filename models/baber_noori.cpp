@@ -32,10 +32,19 @@ struct BaberNoori {
       "zeta_1 = zeta_s (1 - exp(-p D)), zeta_2 = (psi + delta_psi D) (lambda + zeta_1)"};
   static constexpr int states = 2;
   static constexpr Parameter parameters[] = {
-      {"alpha", "alpha", "N", "yield force of the fresh hysteresis", 0.0, 3.0e3, 5.0e2, Scale::linear, {1, 0, 0}, true},
-      {"c0", "c0", "N s/m", "viscous damping", 0.0, 2.0e4, 5.0e2, Scale::linear, {1, 0, -1}, true},
-      {"k0", "k0", "N/m", "stiffness", -2.0e4, 1.0e5, 0.0, Scale::linear, {1, -1, 0}, true},
-      {"f0", "f0", "N", "offset force, -k0 x0", -1.5e3, 1.5e3, 0.0, Scale::linear, {1, 0, 0}, true},
+      as_yield_force({"alpha",
+                      "alpha",
+                      "N",
+                      "yield force of the fresh hysteresis",
+                      0.0,
+                      3.0e3,
+                      5.0e2,
+                      Scale::linear,
+                      {1, 0, 0},
+                      true}),
+      as_damping({"c0", "c0", "N s/m", "viscous damping", 0.0, 2.0e4, 5.0e2, Scale::linear, {1, 0, -1}, true}),
+      as_stiffness({"k0", "k0", "N/m", "stiffness", -2.0e4, 1.0e5, 0.0, Scale::linear, {1, -1, 0}, true}),
+      as_offset_force({"f0", "f0", "N", "offset force, -k0 x0", -1.5e3, 1.5e3, 0.0, Scale::linear, {1, 0, 0}, true}),
       {"x_y", "x_y", "m", "yield displacement", 1.0e-4, 2.5e-2, 1.0e-3, Scale::logarithmic, {0, 1, 0}},
       {"share", "beta/(beta+gamma)", "1", "share of the |v| z term: loop shape", 0.1, 1.5, 0.5},
       {"n", "n", "1", "sharpness of the knee", 1.0, 4.0, 1.5},

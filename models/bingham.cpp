@@ -15,9 +15,9 @@ struct Bingham {
   static constexpr std::string_view equations[] = {"F = fc tanh(v / v_s) + c0 v + f0"};
   static constexpr int states = 0;
   static constexpr Parameter parameters[] = {
-      {"fc", "f_c", "N", "yield force", 0.0, 3.0e3, 5.0e2, Scale::linear, {1, 0, 0}, true},
-      {"c0", "c0", "N s/m", "viscous damping", 0.0, 2.0e4, 5.0e2, Scale::linear, {1, 0, -1}, true},
-      {"f0", "f0", "N", "offset force", -1.5e3, 1.5e3, 0.0, Scale::linear, {1, 0, 0}, true},
+      as_yield_force({"fc", "f_c", "N", "yield force", 0.0, 3.0e3, 5.0e2, Scale::linear, {1, 0, 0}, true}),
+      as_damping({"c0", "c0", "N s/m", "viscous damping", 0.0, 2.0e4, 5.0e2, Scale::linear, {1, 0, -1}, true}),
+      as_offset_force({"f0", "f0", "N", "offset force", -1.5e3, 1.5e3, 0.0, Scale::linear, {1, 0, 0}, true}),
       {"v_s",
        "v_s",
        "m/s",

@@ -19,12 +19,15 @@ struct ExtendedBingham {
                                                    "d' = (k2 e - k1 d) / c1"};
   static constexpr int states = 2;
   static constexpr Parameter parameters[] = {
-      {"fc", "f_c", "N", "yield force", 0.0, 3.0e3, 5.0e2, Scale::linear, {1, 0, 0}},
-      {"c0", "c0", "N s/m", "post-yield damping", 5.0e1, 2.0e4, 5.0e2, Scale::logarithmic, {1, 0, -1}},
-      {"c1", "c1", "N s/m", "damping of the Kelvin element", 5.0e1, 1.0e5, 2.0e3, Scale::logarithmic, {1, 0, -1}},
-      {"k1", "k1", "N/m", "stiffness of the Kelvin element", 1.0e3, 1.0e6, 1.0e5, Scale::logarithmic, {1, -1, 0}},
-      {"k2", "k2", "N/m", "stiffness of the series spring", 1.0e4, 1.0e6, 3.0e5, Scale::logarithmic, {1, -1, 0}},
-      {"f0", "f0", "N", "offset force", -1.5e3, 1.5e3, 0.0, Scale::linear, {1, 0, 0}, true},
+      as_yield_force({"fc", "f_c", "N", "yield force", 0.0, 3.0e3, 5.0e2, Scale::linear, {1, 0, 0}}),
+      as_damping({"c0", "c0", "N s/m", "post-yield damping", 5.0e1, 2.0e4, 5.0e2, Scale::logarithmic, {1, 0, -1}}),
+      as_damping(
+          {"c1", "c1", "N s/m", "damping of the Kelvin element", 5.0e1, 1.0e5, 2.0e3, Scale::logarithmic, {1, 0, -1}}),
+      as_stiffness(
+          {"k1", "k1", "N/m", "stiffness of the Kelvin element", 1.0e3, 1.0e6, 1.0e5, Scale::logarithmic, {1, -1, 0}}),
+      as_stiffness(
+          {"k2", "k2", "N/m", "stiffness of the series spring", 1.0e4, 1.0e6, 3.0e5, Scale::logarithmic, {1, -1, 0}}),
+      as_offset_force({"f0", "f0", "N", "offset force", -1.5e3, 1.5e3, 0.0, Scale::linear, {1, 0, 0}, true}),
   };
 
   template <class T>

@@ -38,9 +38,10 @@ struct GuoHu {
                                                    "b = tanh(a / a_s)", "a from h' = (v - h) / tau"};
   static constexpr int states = 1;
   static constexpr Parameter parameters[] = {
-      {"f_y", "f_y", "N", "yield force", 0.0, 3.0e3, 5.0e2, Scale::linear, {1, 0, 0}, true},
-      {"c0", "c_b", "N s/m", "viscous damping", 0.0, 2.0e4, 5.0e2, Scale::linear, {1, 0, -1}, true},
-      {"f0", "f0", "N", "preload of the accumulator", -1.5e3, 1.5e3, 0.0, Scale::linear, {1, 0, 0}, true},
+      as_yield_force({"f_y", "f_y", "N", "yield force", 0.0, 3.0e3, 5.0e2, Scale::linear, {1, 0, 0}, true}),
+      as_damping({"c0", "c_b", "N s/m", "viscous damping", 0.0, 2.0e4, 5.0e2, Scale::linear, {1, 0, -1}, true}),
+      as_offset_force(
+          {"f0", "f0", "N", "preload of the accumulator", -1.5e3, 1.5e3, 0.0, Scale::linear, {1, 0, 0}, true}),
       {"v_y", "1/K", "m/s", "yield speed", 1.0e-3, 1.0, 2.0e-2, Scale::logarithmic, {0, 0, 1}},
       {"v_h",
        "v_0",

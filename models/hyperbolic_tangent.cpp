@@ -18,10 +18,10 @@ struct HyperbolicTangent {
   static constexpr std::string_view equations[] = {"F = alpha tanh(h / v_y) + c0 v + k0 x + f0", "h' = (v - h) / tau"};
   static constexpr int states = 1;
   static constexpr Parameter parameters[] = {
-      {"alpha", "alpha", "N", "yield force", 0.0, 3.0e3, 5.0e2, Scale::linear, {1, 0, 0}, true},
-      {"c0", "c0", "N s/m", "viscous damping", 0.0, 2.0e4, 5.0e2, Scale::linear, {1, 0, -1}, true},
-      {"k0", "k0", "N/m", "stiffness", -2.0e4, 1.0e5, 0.0, Scale::linear, {1, -1, 0}, true},
-      {"f0", "f0", "N", "offset force", -1.5e3, 1.5e3, 0.0, Scale::linear, {1, 0, 0}, true},
+      as_yield_force({"alpha", "alpha", "N", "yield force", 0.0, 3.0e3, 5.0e2, Scale::linear, {1, 0, 0}, true}),
+      as_damping({"c0", "c0", "N s/m", "viscous damping", 0.0, 2.0e4, 5.0e2, Scale::linear, {1, 0, -1}, true}),
+      as_stiffness({"k0", "k0", "N/m", "stiffness", -2.0e4, 1.0e5, 0.0, Scale::linear, {1, -1, 0}, true}),
+      as_offset_force({"f0", "f0", "N", "offset force", -1.5e3, 1.5e3, 0.0, Scale::linear, {1, 0, 0}, true}),
       {"v_y", "v_y", "m/s", "yield speed", 1.0e-3, 1.0, 3.0e-2, Scale::logarithmic, {0, 0, 1}},
       {"tau", "tau", "s", "lag that opens the loop", 5.0e-4, 1.0e-1, 5.0e-3, Scale::logarithmic, {0, 1, -1}},
   };

@@ -20,11 +20,12 @@ struct LuGre {
       "F = alpha z + c1 u + c0 v + k0 x + f0", "u = v - |v| z / (1 + (ratio - 1) exp(-(v / v_st)^2))", "z' = u / x_y"};
   static constexpr int states = 1;
   static constexpr Parameter parameters[] = {
-      {"alpha", "F_c", "N", "Coulomb force", 0.0, 3.0e3, 5.0e2, Scale::linear, {1, 0, 0}, true},
-      {"c0", "sigma_2", "N s/m", "viscous damping", 0.0, 2.0e4, 5.0e2, Scale::linear, {1, 0, -1}, true},
-      {"c1", "sigma_1", "N s/m", "damping of the bristles", 0.0, 2.0e4, 1.0e2, Scale::linear, {1, 0, -1}, true},
-      {"k0", "k0", "N/m", "stiffness", -2.0e4, 1.0e5, 0.0, Scale::linear, {1, -1, 0}, true},
-      {"f0", "f0", "N", "offset force", -1.5e3, 1.5e3, 0.0, Scale::linear, {1, 0, 0}, true},
+      as_yield_force({"alpha", "F_c", "N", "Coulomb force", 0.0, 3.0e3, 5.0e2, Scale::linear, {1, 0, 0}, true}),
+      as_damping({"c0", "sigma_2", "N s/m", "viscous damping", 0.0, 2.0e4, 5.0e2, Scale::linear, {1, 0, -1}, true}),
+      as_damping(
+          {"c1", "sigma_1", "N s/m", "damping of the bristles", 0.0, 2.0e4, 1.0e2, Scale::linear, {1, 0, -1}, true}),
+      as_stiffness({"k0", "k0", "N/m", "stiffness", -2.0e4, 1.0e5, 0.0, Scale::linear, {1, -1, 0}, true}),
+      as_offset_force({"f0", "f0", "N", "offset force", -1.5e3, 1.5e3, 0.0, Scale::linear, {1, 0, 0}, true}),
       {"x_y",
        "x_y",
        "m",

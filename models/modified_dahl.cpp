@@ -15,10 +15,19 @@ struct ModifiedDahl {
   static constexpr std::string_view equations[] = {"F = c0 v + k0 x + alpha z + f0", "z' = (v - |v| z) / x_y"};
   static constexpr int states = 1;
   static constexpr Parameter parameters[] = {
-      {"alpha", "F_d", "N", "Coulomb force scaled by the field", 0.0, 3.0e3, 5.0e2, Scale::linear, {1, 0, 0}, true},
-      {"c0", "c0", "N s/m", "viscous damping", 0.0, 2.0e4, 5.0e2, Scale::linear, {1, 0, -1}, true},
-      {"k0", "k0", "N/m", "stiffness", -2.0e4, 1.0e5, 0.0, Scale::linear, {1, -1, 0}, true},
-      {"f0", "f0", "N", "offset force", -1.5e3, 1.5e3, 0.0, Scale::linear, {1, 0, 0}, true},
+      as_yield_force({"alpha",
+                      "F_d",
+                      "N",
+                      "Coulomb force scaled by the field",
+                      0.0,
+                      3.0e3,
+                      5.0e2,
+                      Scale::linear,
+                      {1, 0, 0},
+                      true}),
+      as_damping({"c0", "c0", "N s/m", "viscous damping", 0.0, 2.0e4, 5.0e2, Scale::linear, {1, 0, -1}, true}),
+      as_stiffness({"k0", "k0", "N/m", "stiffness", -2.0e4, 1.0e5, 0.0, Scale::linear, {1, -1, 0}, true}),
+      as_offset_force({"f0", "f0", "N", "offset force", -1.5e3, 1.5e3, 0.0, Scale::linear, {1, 0, 0}, true}),
       {"x_y", "x_y", "m", "presliding displacement, 1 / sigma", 5.0e-5, 2.5e-2, 1.0e-3, Scale::logarithmic, {0, 1, 0}},
   };
 

@@ -18,9 +18,9 @@ struct NonlinearBiviscous {
                                                    "pre-yield damping c_pr = c0 + fy / v_y"};
   static constexpr int states = 0;
   static constexpr Parameter parameters[] = {
-      {"fy", "f_y", "N", "yield force", 0.0, 3.0e3, 5.0e2, Scale::linear, {1, 0, 0}, true},
-      {"c0", "c_po", "N s/m", "post-yield damping", 0.0, 2.0e4, 5.0e2, Scale::linear, {1, 0, -1}, true},
-      {"f0", "f0", "N", "offset force", -1.5e3, 1.5e3, 0.0, Scale::linear, {1, 0, 0}, true},
+      as_yield_force({"fy", "f_y", "N", "yield force", 0.0, 3.0e3, 5.0e2, Scale::linear, {1, 0, 0}, true}),
+      as_damping({"c0", "c_po", "N s/m", "post-yield damping", 0.0, 2.0e4, 5.0e2, Scale::linear, {1, 0, -1}, true}),
+      as_offset_force({"f0", "f0", "N", "offset force", -1.5e3, 1.5e3, 0.0, Scale::linear, {1, 0, 0}, true}),
       {"v_y", "v_y", "m/s", "yield speed", 1.0e-3, 2.5e-1, 3.0e-2, Scale::logarithmic, {0, 0, 1}},
   };
 

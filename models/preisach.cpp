@@ -29,7 +29,8 @@ struct Preisach {
       "b_j' = (max(i - r_j - b_j, 0) + min(i + r_j - b_j, 0)) / tau, r_j = j R / 4, j = 1 .. 4"};
   static constexpr int states = 4;
   static constexpr Parameter parameters[] = {
-      {"f_y", "f_y", "N", "yield force without field", 0.0, 3.0e3, 1.0e2, Scale::linear, {1, 0, 0}, true},
+      as_yield_force(
+          {"f_y", "f_y", "N", "yield force without field", 0.0, 3.0e3, 1.0e2, Scale::linear, {1, 0, 0}, true}),
       {"f_i",
        "f_i",
        "N/A",
@@ -40,8 +41,8 @@ struct Preisach {
        Scale::linear,
        {1, 0, 0},
        true},
-      {"c0", "c0", "N s/m", "viscous damping", 0.0, 2.0e4, 5.0e2, Scale::linear, {1, 0, -1}, true},
-      {"f0", "f0", "N", "offset force", -1.5e3, 1.5e3, 0.0, Scale::linear, {1, 0, 0}, true},
+      as_damping({"c0", "c0", "N s/m", "viscous damping", 0.0, 2.0e4, 5.0e2, Scale::linear, {1, 0, -1}, true}),
+      as_offset_force({"f0", "f0", "N", "offset force", -1.5e3, 1.5e3, 0.0, Scale::linear, {1, 0, 0}, true}),
       {"R", "R", "A", "half width of the widest relay", 1.0e-2, 5.0e-1, 1.0e-1, Scale::logarithmic},
       {"d", "d", "1", "decay of the density with the width of the relays", 0.0, 8.0, 1.0},
       {"v_s",

@@ -41,7 +41,7 @@ struct QuasiStaticFlow {
        Scale::logarithmic,
        {1, 0, 0}},
       {"eta", "eta", "Pa s", "plastic viscosity", 1.0e-2, 3.0, 1.0e-1, Scale::logarithmic, {1, 0, -1}},
-      {"f0", "f0", "N", "offset force", -1.5e3, 1.5e3, 0.0, Scale::linear, {1, 0, 0}, true},
+      as_offset_force({"f0", "f0", "N", "offset force", -1.5e3, 1.5e3, 0.0, Scale::linear, {1, 0, 0}, true}),
       {"A_p",
        "A_p",
        "m^2",

@@ -13,18 +13,18 @@ struct Viscous {
   static constexpr std::string_view equations[] = {"F = c0 v + k0 x + f0"};
   static constexpr int states = 0;
   static constexpr Parameter parameters[] = {
-      {"c0", "c0", "N s/m", "viscous damping", 0.0, 2.0e4, 1.0e3, Scale::linear, {1, 0, -1}, true},
-      {"k0", "k0", "N/m", "stiffness", -2.0e4, 1.0e5, 0.0, Scale::linear, {1, -1, 0}, true},
-      {"f0",
-       "f0",
-       "N",
-       "force at rest in the middle of the motion",
-       -1.5e3,
-       1.5e3,
-       0.0,
-       Scale::linear,
-       {1, 0, 0},
-       true},
+      as_damping({"c0", "c0", "N s/m", "viscous damping", 0.0, 2.0e4, 1.0e3, Scale::linear, {1, 0, -1}, true}),
+      as_stiffness({"k0", "k0", "N/m", "stiffness", -2.0e4, 1.0e5, 0.0, Scale::linear, {1, -1, 0}, true}),
+      as_offset_force({"f0",
+                       "f0",
+                       "N",
+                       "force at rest in the middle of the motion",
+                       -1.5e3,
+                       1.5e3,
+                       0.0,
+                       Scale::linear,
+                       {1, 0, 0},
+                       true}),
   };
 
   template <class T>

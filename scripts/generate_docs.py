@@ -72,9 +72,23 @@ def part_page(entry):
     if entry["kind"] == "model":
         text += (f"## Loops\n\n![Force against displacement and velocity]({entry['id']}.svg)\n\nForce in the settled "
                  "cycle with the default parameters of the reference device: sines of 8, 16 and 24 mm at 2 Hz.\n\n")
+    if entry["kind"] == "effect":
+        text += diagnosis_section(entry)
     for preset in entry["presets"]:
         text += preset_section(preset)
     return text + f"## Source\n\n{with_links(entry['reference'])}\n"
+
+
+def diagnosis_section(entry):
+    related = [f"[`{row['id']}`]({row['id']}.md)" + (f" ({code(row['how'])})" if row["how"] else "")
+               for row in entry["related"]]
+    rows = [("family", f"`{entry['family']['id']}`, {entry['family']['title']}"),
+            ("it shows", entry["shows"]),
+            ("acts", entry["acts"]),
+            ("inputs needed", ", ".join(["motion and force", *entry["needs"]])),
+            ("related effects", ", ".join(related) if related else "none"),
+            ("told apart by", entry["experiment"])]
+    return "## In a diagnosis\n\n" + table(("", ""), rows) + "\n"
 
 
 def preset_section(preset):
@@ -129,14 +143,15 @@ def pages(binary, convergence):
         families = {}
         for row in ask(binary, "list", kind):
             entry = ask(binary, "describe", row["id"])
-            if entry.get("family"):
+            if kind == "solvers" and entry["family"]:
                 families.setdefault(entry["family"], []).append(entry)
                 continue
             page = solver_page(entry) if kind == "solvers" else part_page(entry)
             result[f"{kind}/{row['id']}.md"] = MARK + page
             if kind == "models" or (kind == "solvers" and convergence):
                 pictures[f"{kind}/{row['id']}.svg"] = row["id"]
-            rows.append((f"[`{row['id']}`]({row['id']}.md)", row["title"]))
+            rows.append((f"[`{row['id']}`]({row['id']}.md)", row["title"],
+                         *([f"`{entry['family']['id']}`"] if kind == "effects" else [])))
         for family, members in families.items():
             # What is installed where the pages are made must not change them: optional families have a page by hand.
             if family in OPTIONAL:
@@ -145,7 +160,8 @@ def pages(binary, convergence):
             entry = ask(binary, "describe", family)
             result[f"{kind}/{name}.md"] = MARK + family_page(entry, members)
             rows.append((f"[`{family}`]({name}.md)", entry["title"]))
-        result[f"{kind}/README.md"] = MARK + f"# {title}\n\n{intro}\n\n" + table(("id", "what it is"), rows)
+        result[f"{kind}/README.md"] = MARK + f"# {title}\n\n{intro}\n\n" + table(
+            ("id", "what it is", *(["family"] if kind == "effects" else [])), rows)
     with ThreadPoolExecutor(os.cpu_count()) as pool:
         result.update(zip(pictures, pool.map(lambda name: figure(binary, name), pictures.values())))
     return result

@@ -1,5 +1,5 @@
-// A model and a solver of one's own, in one file outside the tree.
-//   F = c0 v + c3 v^3 + f0
+// A model, an effect and a solver of one's own, in one file outside the tree.
+//   F = c0 v + c3 v^3 + f0,   the cubic term alone behind any law: F <- F + d3 v^3,
 // and random search: uniform points, the best counts.
 #include "core/error.hpp"
 #include "plugin/plugin.hpp"
@@ -16,9 +16,9 @@ struct CubicDamper {
   static constexpr std::string_view equations[] = {"F = c0 v + c3 v^3 + f0"};
   static constexpr int states = 0;
   static constexpr Parameter parameters[] = {
-      {"c0", "c0", "N s/m", "damping", 0.0, 2.0e4, 5.0e2, Scale::linear, {1, 0, -1}, true},
+      as_damping({"c0", "c0", "N s/m", "damping", 0.0, 2.0e4, 5.0e2, Scale::linear, {1, 0, -1}, true}),
       {"c3", "c3", "N s^3/m^3", "cubic damping", -1.0e5, 1.0e5, 0.0, Scale::linear, {1, 0, -3}, true},
-      {"f0", "f0", "N", "offset force", -1.5e3, 1.5e3, 0.0, Scale::linear, {1, 0, 0}, true},
+      as_offset_force({"f0", "f0", "N", "offset force", -1.5e3, 1.5e3, 0.0, Scale::linear, {1, 0, 0}, true}),
   };
   template <class T>
   static T force(const std::array<T, 3>& p, const std::array<T, 0>& /*s*/, const Input<T>& in, const T& /*below*/) {
@@ -27,6 +27,32 @@ struct CubicDamper {
 };
 
 constexpr Part cubic_damper = compile<CubicDamper>();
+
+struct CubicDamping {
+  static constexpr std::string_view id = "cubic-damping";
+  static constexpr std::string_view title = "Cubic damping";
+  static constexpr std::string_view reference = "example of a plugin";
+  static constexpr std::string_view equations[] = {"F <- F + d3 v^3"};
+  static constexpr int states = 0;
+  static constexpr Parameter parameters[] = {
+      {"d3", "d3", "N s^3/m^3", "cubic damping", 0.0, 1.0e5, 0.0, Scale::linear, {1, 0, -3}, true},
+  };
+  // A diagnosis sets these in the place of cubic damping, and cubic damping in theirs.
+  static constexpr std::string_view kin[] = {"quadratic-damping", "viscous-damping"};
+  static constexpr Knowledge knowledge = {
+      .family = families::fluid,
+      .in_words = "cubic damping",
+      .shows = "the force rises with the cube of the speed",
+      .experiment = "constant-velocity runs over at least a decade of speed",
+      .kin = kin,
+  };
+  template <class T>
+  static T force(const std::array<T, 1>& p, const std::array<T, 0>& /*s*/, const Input<T>& in, const T& below) {
+    return below + p[0] * in.v * in.v * in.v;
+  }
+};
+
+constexpr Part cubic_damping = compile<CubicDamping>();
 
 class RandomSearch final : public Solver {
  public:
@@ -67,7 +93,8 @@ const SolverEntry random_search = {
 
 extern "C" const Plugin* hysteron_plugin() {
   static const Part* const models[] = {&cubic_damper};
+  static const Part* const effects[] = {&cubic_damping};
   static const SolverEntry* const solvers[] = {&random_search};
-  static const Plugin plugin{plugin_layout(), models, {}, solvers};
+  static const Plugin plugin{plugin_layout(), models, effects, solvers};
   return &plugin;
 }

@@ -27,6 +27,14 @@ struct Asymmetry {
        false,
        true},
   };
+  static constexpr std::string_view kin[] = {"cavitation"};
+  static constexpr Knowledge knowledge = {
+      .family = families::direction,
+      .in_words = "an asymmetry of compression and rebound",
+      .shows = "the force of one direction of motion is that of the other times a factor, at any place and speed",
+      .experiment = "the same sine around two mid-positions: asymmetry follows the velocity, a gas spring the position",
+      .kin = kin,
+  };
 
   template <class T>
   static T force(const std::array<T, 2>& p, const std::array<T, 0>& /*s*/, const Input<T>& in, const T& below) {

@@ -40,6 +40,14 @@ struct Cavitation {
       {"q", "q", "1/s", "rate at which fluid flows into the void", 0.0, 1.0e2, 0.0, Scale::linear, {0, -1, 1}},
       {"s_r", "s_r", "m", "length over which the dwell ends", 2.0e-5, 2.0e-3, 2.0e-4, Scale::logarithmic, {0, 1, 0}},
   };
+  static constexpr std::string_view kin[] = {"asymmetry"};
+  static constexpr Knowledge knowledge = {
+      .family = families::direction,
+      .in_words = "cavitation (a force limit on one side, with dwell)",
+      .shows = "the force of one direction stops growing, and after the reversal the void is filled without force",
+      .experiment = "the same run at two gas pressures and at rising speed",
+      .kin = kin,
+  };
 
   template <class T>
   static std::array<T, 1> loaded_rate(const std::array<T, 4>& p, const std::array<T, 1>& s, const Input<T>& in,

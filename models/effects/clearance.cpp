@@ -43,6 +43,21 @@ struct Clearance {
        false,
        true},
   };
+  static constexpr std::string_view kin[] = {"compliance", "entrapped-gas"};
+  static constexpr Limit holds[] = {{"compliance", "gap"}};
+  static constexpr KindredParameter kindred[] = {{"gap", "entrapped-gas", "d_a", 0.5},
+                                                 {"C_c", "entrapped-gas", "C_c", 1.0}};
+  static constexpr Knowledge knowledge = {
+      .family = families::free_travel,
+      .in_words = "clearance (play with a stiffness of contact)",
+      .shows = "the rod travels without force after each reversal, equally far at any speed and current",
+      .experiment =
+          "two strokes at the same speed, one about as small as the suspected gap, at two currents: a gap keeps its "
+          "width in mm, a compliance grows with the force",
+      .kin = kin,
+      .holds = holds,
+      .kindred = kindred,
+  };
 
   template <class T>
   static Yield<T> yield(const std::array<T, 4>& p, const T& q) {

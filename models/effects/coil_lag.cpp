@@ -25,6 +25,16 @@ struct CoilLag {
       {"r", "r", "1", "time constant of the falling current over that of the rising", 0.5, 3.0, 1.0,
        Scale::logarithmic},
   };
+  static constexpr Need needs[] = {Need::drive, Need::changing_drive};
+  static constexpr std::string_view kin[] = {"magnetic-remanence", "magnetic-saturation"};
+  static constexpr Knowledge knowledge = {
+      .family = families::drive_path,
+      .in_words = "a lag of the coil current",
+      .shows = "the force follows a step of the current late, by the same time at any speed",
+      .experiment = "current steps up and down at constant velocity, at several levels",
+      .needs = needs,
+      .kin = kin,
+  };
 
   template <class T>
   static T excite(const std::array<T, 2>& p, std::array<T, excitation_memory>& memory, double elapsed, const T& drive) {

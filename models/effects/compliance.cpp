@@ -28,6 +28,18 @@ struct Compliance {
        false,
        true},
   };
+  static constexpr std::string_view kin[] = {"clearance", "entrapped-gas", "series-dashpot"};
+  static constexpr KindredParameter kindred[] = {{"C", "clearance", "C_c", 1.0}, {"C", "entrapped-gas", "C_c", 1.0}};
+  static constexpr Knowledge knowledge = {
+      .family = families::series,
+      .in_words = "a compliance in series",
+      .shows = "the rod travels further before the force has turned the larger the force is",
+      .experiment =
+          "current steps while the damper is held, and the same stroke at three currents: the deflection of a "
+          "compliance grows with the force",
+      .kin = kin,
+      .kindred = kindred,
+  };
 
   template <class T>
   static Yield<T> yield(const std::array<T, 2>& p, const T& q) {

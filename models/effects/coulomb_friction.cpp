@@ -17,9 +17,20 @@ struct CoulombFriction {
                                                    "z' = (v - |v| z) / (x_b + |v| t_b)"};
   static constexpr int states = 1;
   static constexpr Parameter parameters[] = {
-      {"fc", "f_c", "N", "friction force", 0.0, 1.0e3, 0.0, Scale::linear, {1, 0, 0}, true},
+      as_yield_force({"fc", "f_c", "N", "friction force", 0.0, 1.0e3, 0.0, Scale::linear, {1, 0, 0}, true}),
       bristle_length,
       film_speed,
+  };
+  static constexpr std::string_view kin[] = {"seal-friction", "pre-yield-hysteresis", "shear-thinning"};
+  // A friction that turns over as slowly as it can is a damping that thins out.
+  static constexpr BoxLimit ends_as[] = {{"shear-thinning", "v_t", BoxEnd::upper}};
+  static constexpr Knowledge knowledge = {
+      .family = families::friction,
+      .in_words = "Coulomb friction",
+      .shows = "a force of one size against the motion, at the slowest speed too",
+      .experiment = "a slow triangle without current at several speeds below 20 mm/s",
+      .kin = kin,
+      .ends_as = ends_as,
   };
 
   template <class T>

@@ -15,6 +15,15 @@ struct CubicStiffness {
   static constexpr Parameter parameters[] = {
       {"k3", "k3", "N/m^3", "cubic stiffness", -1.0e8, 1.0e8, 0.0, Scale::linear, {1, -3, 0}, true},
   };
+  static constexpr std::string_view kin[] = {"linear-stiffness", "gas-spring", "end-stop", "pinching"};
+  static constexpr Knowledge knowledge = {
+      .family = families::place,
+      .in_words = "a cubic stiffness",
+      .shows = "a force that grows towards both ends of the stroke with the cube of the displacement",
+      .experiment = "a slow full stroke around two mid-positions",
+      .acts = Acts::by_place,
+      .kin = kin,
+  };
 
   template <class T>
   static T force(const std::array<T, 1>& p, const std::array<T, 0>& /*s*/, const Input<T>& in, const T& below) {

@@ -16,7 +16,16 @@ struct EndStop {
       "d_up = max(x - x_up, 0) (max(x - x_up, 0) / 1 mm)^(p - 1), d_low likewise of -x - x_low"};
   static constexpr int states = 0;
   static constexpr Parameter parameters[] = {
-      {"k_b", "k_b", "N/m", "secant stiffness of a stop at 1 mm", 0.0, 3.0e5, 0.0, Scale::linear, {1, -1, 0}, true},
+      as_stiffness({"k_b",
+                    "k_b",
+                    "N/m",
+                    "secant stiffness of a stop at 1 mm",
+                    0.0,
+                    3.0e5,
+                    0.0,
+                    Scale::linear,
+                    {1, -1, 0},
+                    true}),
       {"x_up",
        "x_up",
        "m",
@@ -36,6 +45,17 @@ struct EndStop {
        Scale::linear,
        {0, 1, 0, -1}},
       {"p", "p", "1", "exponent of the stop", 1.0, 2.5, 1.5, Scale::linear, {}},
+  };
+  static constexpr std::string_view kin[] = {"linear-stiffness", "gas-spring", "cubic-stiffness"};
+  static constexpr Limit holds[] = {{"cubic-stiffness", "x_up"}};
+  static constexpr Knowledge knowledge = {
+      .family = families::place,
+      .in_words = "an end stop",
+      .shows = "a steep force near the ends of the stroke and none elsewhere",
+      .experiment = "a slow stroke to both ends",
+      .acts = Acts::at_ends,
+      .kin = kin,
+      .holds = holds,
   };
 
   template <class T>

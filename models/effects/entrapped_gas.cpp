@@ -41,6 +41,21 @@ struct EntrappedGas {
        false,
        true},
   };
+  static constexpr std::string_view kin[] = {"compliance", "clearance"};
+  static constexpr Limit holds[] = {{"compliance", "d_a"}};
+  // A gas that next to no force compresses is a play.
+  static constexpr BoxLimit ends_as[] = {{"clearance", "f_a", BoxEnd::lower}};
+  static constexpr Knowledge knowledge = {
+      .family = families::free_travel,
+      .in_words = "entrapped gas (a hardening spring in series)",
+      .shows =
+          "the force builds up after each reversal first softly, then steeply, over a travel that falls with the gas "
+          "pressure",
+      .experiment = "the same run at two charge pressures or after a long rest: only entrapped gas changes",
+      .kin = kin,
+      .holds = holds,
+      .ends_as = ends_as,
+  };
 
   template <class T>
   static Yield<T> yield(const std::array<T, 4>& p, const T& q) {

@@ -15,6 +15,12 @@ struct ForceDrift {
   static constexpr Parameter parameters[] = {
       {"r", "r", "N/s", "drift of the force", -1.0e2, 1.0e2, 0.0, Scale::linear, {1, -1, 1}, true},
   };
+  static constexpr Knowledge knowledge = {
+      .family = families::force_channel,
+      .in_words = "a drift of the load cell",
+      .shows = "the force moves at a constant rate, at rest too",
+      .experiment = "a minute of recording at rest before and after the run",
+  };
 
   template <class T>
   static T force(const std::array<T, 1>& p, const std::array<T, 0>& /*s*/, const Input<T>& in, const T& below) {

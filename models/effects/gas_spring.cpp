@@ -28,6 +28,18 @@ struct GasSpring {
        {0, -1, 0}},
       {"kappa", "kappa", "1", "polytropic exponent", 1.0, 1.67, 1.2},
   };
+  static constexpr std::string_view kin[] = {"offset-force", "linear-stiffness", "cubic-stiffness", "end-stop"};
+  // A large gas force with hardly any gas swept is a spring.
+  static constexpr Limit holds[] = {{"offset-force", "g"}, {"linear-stiffness", ""}};
+  static constexpr Knowledge knowledge = {
+      .family = families::place,
+      .in_words = "the gas spring of the accumulator",
+      .shows = "a force of the position alone that stiffens as the gas is compressed",
+      .experiment = "a slow full stroke around two mid-positions",
+      .acts = Acts::by_place,
+      .kin = kin,
+      .holds = holds,
+  };
 
   template <class T>
   static T force(const std::array<T, 3>& p, const std::array<T, 0>& /*s*/, const Input<T>& in, const T& below) {

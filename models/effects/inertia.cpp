@@ -14,7 +14,18 @@ struct Inertia {
   static constexpr std::string_view equations[] = {"F <- F + m a"};
   static constexpr int states = 0;
   static constexpr Parameter parameters[] = {
-      {"m", "m", "kg", "effective mass", 0.0, 1.0e2, 0.0, Scale::linear, {1, 1, -2}, true},
+      as_mass({"m", "m", "kg", "effective mass", 0.0, 1.0e2, 0.0, Scale::linear, {1, 1, -2}, true}),
+  };
+  static constexpr std::string_view kin[] = {"sensor-delay", "velocity-lag"};
+  static constexpr Knowledge knowledge = {
+      .family = families::phase,
+      .in_words = "the inertia of fluid, rod or fixture",
+      .shows = "a force in proportion to the acceleration, so that it grows with the square of the frequency",
+      .experiment =
+          "the same amplitude at frequencies an octave apart, and a run with the damper disconnected for the mass of "
+          "the fixture",
+      .one_form = true,
+      .kin = kin,
   };
 
   template <class T>

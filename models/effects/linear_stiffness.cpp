@@ -13,7 +13,17 @@ struct LinearStiffness {
   static constexpr std::string_view equations[] = {"F <- F + k x"};
   static constexpr int states = 0;
   static constexpr Parameter parameters[] = {
-      {"k", "k", "N/m", "stiffness", -2.0e4, 1.0e5, 0.0, Scale::linear, {1, -1, 0}, true},
+      as_stiffness({"k", "k", "N/m", "stiffness", -2.0e4, 1.0e5, 0.0, Scale::linear, {1, -1, 0}, true}),
+  };
+  static constexpr std::string_view kin[] = {"gas-spring", "cubic-stiffness", "end-stop"};
+  static constexpr Knowledge knowledge = {
+      .family = families::place,
+      .in_words = "a linear stiffness",
+      .shows = "a force in proportion to the displacement, at any speed",
+      .experiment = "a slow full stroke around two mid-positions",
+      .acts = Acts::by_place,
+      .one_form = true,
+      .kin = kin,
   };
 
   template <class T>

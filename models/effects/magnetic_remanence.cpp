@@ -24,6 +24,17 @@ struct MagneticRemanence {
       {"w", "w", "A", "half width of the play", 1.0e-2, 2.0, 2.0e-1, Scale::logarithmic, {}},
       {"s", "s", "1", "field over current before the recording", 0.0, 1.0, 1.0, Scale::linear, {}},
   };
+  static constexpr Need needs[] = {Need::drive, Need::changing_drive};
+  static constexpr std::string_view kin[] = {"coil-lag", "magnetic-saturation"};
+  static constexpr Knowledge knowledge = {
+      .family = families::drive_path,
+      .in_words = "magnetic remanence",
+      .shows =
+          "the force is larger after a step down of the current than after a step up to the same current, and stays so",
+      .experiment = "a current staircase up and down at constant velocity",
+      .needs = needs,
+      .kin = kin,
+  };
 
   template <class T>
   static T excite(const std::array<T, 3>& p, std::array<T, excitation_memory>& memory, double elapsed, const T& drive) {

@@ -26,6 +26,17 @@ struct MagneticSaturation {
        Scale::linear,
        {}},
   };
+  // At two levels it is another slope of the force with the drive.
+  static constexpr Need needs[] = {Need::drive, Need::three_drive_levels};
+  static constexpr std::string_view kin[] = {"coil-lag", "magnetic-remanence"};
+  static constexpr Knowledge knowledge = {
+      .family = families::drive_path,
+      .in_words = "magnetic saturation",
+      .shows = "the force rises ever less with the current",
+      .experiment = "at least five current levels up to the highest",
+      .needs = needs,
+      .kin = kin,
+  };
 
   template <class T>
   static T excite(const std::array<T, 1>& p, std::array<T, excitation_memory>& /*memory*/, double /*elapsed*/,

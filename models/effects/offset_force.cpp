@@ -13,7 +13,17 @@ struct OffsetForce {
   static constexpr std::string_view equations[] = {"F <- F + f0"};
   static constexpr int states = 0;
   static constexpr Parameter parameters[] = {
-      {"f0", "f0", "N", "offset force", -1.5e3, 1.5e3, 0.0, Scale::linear, {1, 0, 0}, true},
+      as_offset_force({"f0", "f0", "N", "offset force", -1.5e3, 1.5e3, 0.0, Scale::linear, {1, 0, 0}, true}),
+  };
+  static constexpr std::string_view kin[] = {"gas-spring"};
+  static constexpr Knowledge knowledge = {
+      .family = families::place,
+      .in_words = "a constant offset force",
+      .shows = "the loops sit higher or lower by one force, at any place and speed",
+      .experiment = "a slow full stroke around two mid-positions: an offset is the same in both, a gas spring is not",
+      .acts = Acts::by_place,
+      .one_form = true,
+      .kin = kin,
   };
 
   template <class T>

@@ -22,6 +22,15 @@ struct Pinching {
       {"w", "w", "m", "half width of the weak range", 5.0e-4, 1.5e-2, 4.0e-3, Scale::logarithmic, {0, 1, 0}},
       {"q", "q", "1", "sharpness of its borders: 2 is a bell, more a flat bottom", 1.2, 8.0, 2.0, Scale::logarithmic},
   };
+  static constexpr std::string_view kin[] = {"cubic-stiffness"};
+  static constexpr Knowledge knowledge = {
+      .family = families::place,
+      .in_words = "pinching around mid-stroke",
+      .shows = "the force of both directions is smaller around one place of the stroke",
+      .experiment = "small strokes inside a large one, at two amplitudes",
+      .acts = Acts::by_place,
+      .kin = kin,
+  };
 
   template <class T>
   static T force(const std::array<T, 4>& p, const std::array<T, 0>& /*s*/, const Input<T>& in, const T& below) {

@@ -15,8 +15,17 @@ struct PreYieldHysteresis {
   static constexpr std::string_view equations[] = {"F <- F + f_h z", "z' = (v - |v| z) / x_y"};
   static constexpr int states = 1;
   static constexpr Parameter parameters[] = {
-      {"f_h", "f_h", "N", "force of the saturated element", 0.0, 2.0e3, 0.0, Scale::linear, {1, 0, 0}, true},
+      as_yield_force(
+          {"f_h", "f_h", "N", "force of the saturated element", 0.0, 2.0e3, 0.0, Scale::linear, {1, 0, 0}, true}),
       {"x_y", "x_y", "m", "its yield displacement", 1.0e-3, 2.5e-2, 5.0e-3, Scale::logarithmic, {0, 1, 0}},
+  };
+  static constexpr std::string_view kin[] = {"coulomb-friction", "seal-friction"};
+  static constexpr Knowledge knowledge = {
+      .family = families::friction,
+      .in_words = "pre-yield hysteresis (a Dahl element in parallel)",
+      .shows = "strokes below the yield displacement draw loops of their own, the same at any speed",
+      .experiment = "small strokes at several amplitudes below the knee",
+      .kin = kin,
   };
 
   template <class T>

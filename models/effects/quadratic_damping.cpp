@@ -17,6 +17,14 @@ struct QuadraticDamping {
   static constexpr Parameter parameters[] = {
       {"d2", "d2", "N s^2/m^2", "quadratic damping", 0.0, 2.0e4, 0.0, Scale::linear, {1, 0, -2}, true},
   };
+  static constexpr std::string_view kin[] = {"viscous-damping", "shear-thinning"};
+  static constexpr Knowledge knowledge = {
+      .family = families::fluid,
+      .in_words = "quadratic (orifice) damping",
+      .shows = "the force rises with the square of the speed",
+      .experiment = "constant-velocity runs over at least a decade of speed",
+      .kin = kin,
+  };
 
   template <class T>
   static T force(const std::array<T, 1>& p, const std::array<T, 0>& /*s*/, const Input<T>& in, const T& below) {

@@ -18,7 +18,7 @@ struct SealFriction {
                                                    "z' = (v - |v| z) / (x_b + |v| t_b)"};
   static constexpr int states = 1;
   static constexpr Parameter parameters[] = {
-      {"fc", "f_c", "N", "Coulomb friction", 0.0, 1.0e3, 0.0, Scale::linear, {1, 0, 0}, true},
+      as_yield_force({"fc", "f_c", "N", "Coulomb friction", 0.0, 1.0e3, 0.0, Scale::linear, {1, 0, 0}, true}),
       {"fb",
        "f_s - f_c",
        "N",
@@ -32,6 +32,19 @@ struct SealFriction {
       {"v_st", "v_st", "m/s", "Stribeck speed", 3.0e-3, 1.0e-1, 1.5e-2, Scale::logarithmic, {0, 0, 1}},
       bristle_length,
       film_speed,
+  };
+  static constexpr std::string_view kin[] = {"coulomb-friction", "pre-yield-hysteresis"};
+  static constexpr Limit holds[] = {{"coulomb-friction", "fb"}};
+  // A friction that turns over as slowly as it can is a damping that thins out.
+  static constexpr BoxLimit ends_as[] = {{"shear-thinning", "v_t", BoxEnd::upper}};
+  static constexpr Knowledge knowledge = {
+      .family = families::friction,
+      .in_words = "seal friction (Coulomb-Stribeck)",
+      .shows = "a force against the motion that is largest at low speed, the same at any current",
+      .experiment = "a slow triangle without current at several speeds below 20 mm/s",
+      .kin = kin,
+      .holds = holds,
+      .ends_as = ends_as,
   };
 
   template <class T>

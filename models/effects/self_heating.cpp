@@ -21,7 +21,15 @@ struct SelfHeating {
       {"b", "b", "1/J", "relative loss of viscosity per stored heat", 0.0, 2.0e-3, 0.0, Scale::linear, {-1, -1, 0}},
       {"tau", "tau", "s", "thermal time constant", 1.0, 2.0e3, 6.0e1, Scale::logarithmic, {}},
       {"y", "y", "1", "loss of the other forces over that of the viscosity", 0.0, 1.0, 0.7},
-      {"c_h", "c_h", "N s/m", "damping that thins", 0.0, 2.0e4, 0.0, Scale::linear, {1, 0, -1}},
+      as_damping({"c_h", "c_h", "N s/m", "damping that thins", 0.0, 2.0e4, 0.0, Scale::linear, {1, 0, -1}}),
+  };
+  static constexpr std::string_view kin[] = {"degradation", "stiction"};
+  static constexpr Knowledge knowledge = {
+      .family = families::slow_loss,
+      .in_words = "self-heating",
+      .shows = "the force falls as the damper warms up, its viscous part most, and comes back after a pause",
+      .experiment = "a long run of constant severity, a pause, and the first recording again",
+      .kin = kin,
   };
 
   template <class T>

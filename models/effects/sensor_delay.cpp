@@ -21,6 +21,15 @@ struct SensorDelay {
   static constexpr Parameter parameters[] = {
       {"lag", "lag", "s", "delay of the force channel", -2.0e-2, 2.0e-2, 0.0, Scale::linear, {0, 1, -1}},
   };
+  static constexpr std::string_view kin[] = {"inertia", "velocity-lag"};
+  static constexpr Knowledge knowledge = {
+      .family = families::phase,
+      .in_words = "a delay between the motion and force channels",
+      .shows = "the force follows motion and current later by one time, at any frequency",
+      .experiment =
+          "a current step at constant velocity and sines at frequencies an octave apart: a delay stays constant in ms",
+      .kin = kin,
+  };
 
   template <class T>
   static void drive(const std::array<T, 1>& p, const std::array<T, 0>& /*s*/, Input<T>& in) {

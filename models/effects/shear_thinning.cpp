@@ -15,9 +15,22 @@ struct ShearThinning {
   static constexpr std::string_view equations[] = {"F <- F - c_t v (1 - (1 + (v / v_c)^2)^((m - 1) / 2))"};
   static constexpr int states = 0;
   static constexpr Parameter parameters[] = {
-      {"c_t", "c_t", "N s/m", "damping that thins out", 0.0, 2.0e4, 0.0, Scale::linear, {1, 0, -1}, true},
+      as_damping({"c_t", "c_t", "N s/m", "damping that thins out", 0.0, 2.0e4, 0.0, Scale::linear, {1, 0, -1}, true}),
       {"v_c", "v_c", "m/s", "speed at which thinning sets in", 5.0e-3, 1.0, 5.0e-2, Scale::logarithmic, {0, 0, 1}},
       {"m", "m", "1", "flow index: 1 is Newtonian", 0.0, 0.9, 0.5, Scale::linear, {}},
+  };
+  static constexpr std::string_view kin[] = {"viscous-damping", "quadratic-damping", "coulomb-friction"};
+  static constexpr Limit holds[] = {{"coulomb-friction", "m"}};
+  // Damping that thins out entirely is a friction.
+  static constexpr BoxLimit ends_as[] = {{"coulomb-friction", "m", BoxEnd::lower}};
+  static constexpr Knowledge knowledge = {
+      .family = families::fluid,
+      .in_words = "shear thinning",
+      .shows = "the force rises ever less with the speed",
+      .experiment = "constant-velocity runs over at least a decade of speed",
+      .kin = kin,
+      .holds = holds,
+      .ends_as = ends_as,
   };
 
   template <class T>

@@ -17,6 +17,14 @@ struct Stiction {
       {"a", "a", "1", "relative excess of the force at the start", -0.5, 2.0, 0.0, Scale::linear, {}},
       {"L", "L", "m", "distance over which it fades", 1.0e-3, 1.0, 5.0e-2, Scale::logarithmic, {0, 1, 0}},
   };
+  static constexpr std::string_view kin[] = {"self-heating", "degradation"};
+  static constexpr Knowledge knowledge = {
+      .family = families::slow_loss,
+      .in_words = "first-travel stiction",
+      .shows = "the first travel after a rest needs more force than the travel after it",
+      .experiment = "the same run after rests of different length",
+      .kin = kin,
+  };
 
   template <class T>
   static std::array<T, 1> rate(const std::array<T, 2>& /*p*/, const std::array<T, 1>& /*s*/, const Input<T>& in) {

@@ -26,6 +26,18 @@ struct VelocityLag {
        Scale::linear,
        {0, 1, -1}},
   };
+  static constexpr Need needs[] = {Need::lagging_velocity};
+  static constexpr std::string_view kin[] = {"inertia", "sensor-delay"};
+  static constexpr Knowledge knowledge = {
+      .family = families::phase,
+      .in_words = "a lag of the velocity channel",
+      .shows = "the recorded velocity follows the slope of the displacement later by one time, at any frequency",
+      .experiment =
+          "a sine at each of three frequencies with displacement and velocity recorded: the slope of the displacement "
+          "shows the lag of the velocity channel",
+      .needs = needs,
+      .kin = kin,
+  };
 
   template <class T>
   static void drive(const std::array<T, 1>& p, const std::array<T, 0>& /*s*/, Input<T>& in) {

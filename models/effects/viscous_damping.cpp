@@ -13,7 +13,16 @@ struct ViscousDamping {
   static constexpr std::string_view equations[] = {"F <- F + c v"};
   static constexpr int states = 0;
   static constexpr Parameter parameters[] = {
-      {"c", "c", "N s/m", "viscous damping", 0.0, 2.0e4, 0.0, Scale::linear, {1, 0, -1}, true},
+      as_damping({"c", "c", "N s/m", "viscous damping", 0.0, 2.0e4, 0.0, Scale::linear, {1, 0, -1}, true}),
+  };
+  static constexpr std::string_view kin[] = {"quadratic-damping", "shear-thinning"};
+  static constexpr Knowledge knowledge = {
+      .family = families::fluid,
+      .in_words = "viscous damping",
+      .shows = "a force in proportion to the velocity",
+      .experiment = "constant-velocity runs over at least a decade of speed",
+      .one_form = true,
+      .kin = kin,
   };
 
   template <class T>

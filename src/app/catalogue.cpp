@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "app/command.hpp"
+#include "app/effect_card.hpp"
 #include "app/figure.hpp"
 #include "core/error.hpp"
 #include "core/suggest.hpp"
@@ -49,12 +50,30 @@ std::vector<Row> rows_of(const std::string& kind) {
   return rows;
 }
 
+json role_json(PhysicalRole role) {
+  switch (role) {
+    case PhysicalRole::none:
+      break;
+    case PhysicalRole::yield_force:
+      return "yield force";
+    case PhysicalRole::offset_force:
+      return "offset force";
+    case PhysicalRole::damping:
+      return "damping";
+    case PhysicalRole::stiffness:
+      return "stiffness";
+    case PhysicalRole::mass:
+      return "mass";
+  }
+  return nullptr;
+}
+
 json card_json(const Parameter& card) {
   return {{"name", card.name},       {"symbol", card.symbol},
           {"unit", card.unit},       {"meaning", card.meaning},
           {"lower", card.lower},     {"upper", card.upper},
           {"default", card.initial}, {"scale", card.scale == Scale::linear ? "linear" : "log"},
-          {"fixed", card.fixed}};
+          {"fixed", card.fixed},     {"role", role_json(card.role)}};
 }
 
 std::string_view word_of(PresetDrive drive) {
@@ -125,14 +144,18 @@ void describe_part(const Part& part, const std::string& kind, bool as_json) {
     for (const Preset* preset : presets_of(part.id)) {
       presets.push_back(preset_json(*preset));
     }
-    fmt::print("{}", json_text({{"kind", kind},
-                                {"id", part.id},
-                                {"title", part.title},
-                                {"reference", part.reference},
-                                {"equations", std::vector<std::string>(part.equations.begin(), part.equations.end())},
-                                {"states", part.states},
-                                {"presets", presets},
-                                {"parameters", cards}}));
+    json entry = {{"kind", kind},
+                  {"id", part.id},
+                  {"title", part.title},
+                  {"reference", part.reference},
+                  {"equations", std::vector<std::string>(part.equations.begin(), part.equations.end())},
+                  {"states", part.states},
+                  {"presets", presets},
+                  {"parameters", cards}};
+    if (kind == "effect") {
+      entry.update(effect_card_json(std::string(part.id)));
+    }
+    fmt::print("{}", json_text(entry));
     return;
   }
   fmt::print("{} ({}): {}\n\n", part.id, kind, part.title);
@@ -151,6 +174,9 @@ void describe_part(const Part& part, const std::string& kind, bool as_json) {
   fmt::print(
       "\nBounds are for a device of 1 kN, 25 mm half stroke and 0.3 m/s; an identification scales them to the "
       "recordings.\n");
+  if (const std::string known = kind == "effect" ? effect_card_text(std::string(part.id)) : ""; !known.empty()) {
+    fmt::print("\n{}", known);
+  }
   rows.clear();
   for (const Preset* preset : presets_of(part.id)) {
     rows.push_back({std::string(preset->id), std::string(preset->title)});
@@ -229,7 +255,11 @@ void add_catalogue(CLI::App& program) {
     if (list_options->json) {
       json result = json::array();
       for (const Row& row : rows) {
-        result.push_back({{"id", row.id}, {"title", row.title}, {"reference", row.reference}});
+        json entry = {{"id", row.id}, {"title", row.title}, {"reference", row.reference}};
+        if (list_options->word == "effects") {
+          entry.update(effect_card_json(row.id));
+        }
+        result.push_back(std::move(entry));
       }
       fmt::print("{}", json_text(result));
       return;

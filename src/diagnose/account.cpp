@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <boost/math/special_functions/gamma.hpp>
-#include <cctype>
 #include <cmath>
-#include <map>
 #include <set>
+
+#include "diagnose/search/relatives.hpp"
 
 namespace hysteron {
 namespace {
@@ -17,59 +17,18 @@ constexpr double shown_by_judges = 0.98;
 // Times the noise floor above which more is left than an estimate of the noise is wrong by.
 constexpr double clear_of_floor = 1.2;
 
+// As it stands in a sentence.
 std::string title_of(const std::string& effect) {
+  const std::string_view in_words = knowledge_of(effect).in_words;
   const Part* part = find_effect(effect);
-  std::string title(part == nullptr ? effect : part->title);
-  if (title.size() > 1 && std::islower(static_cast<unsigned char>(title[1])) != 0) {
-    title[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(title[0])));
-  }
-  return title;
+  return in_words.empty() ? std::string(part == nullptr ? effect : part->title) : std::string(in_words);
 }
 
 // What separates the first of the candidates that a recording can separate.
 std::string next_experiment(const std::vector<std::string>& candidates) {
-  static const std::map<std::string, std::string> separating = {
-      {"clearance",
-       "two strokes at the same speed, one about as small as the suspected gap, at two currents: a gap keeps its width "
-       "in mm, a compliance grows with the force"},
-      {"compliance",
-       "current steps while the damper is held, and the same stroke at three currents: the deflection of a compliance "
-       "grows with the force"},
-      {"entrapped-gas", "the same run at two charge pressures or after a long rest: only entrapped gas changes"},
-      {"inertia",
-       "the same amplitude at frequencies an octave apart, and a run with the damper disconnected for the mass of the "
-       "fixture"},
-      {"sensor-delay",
-       "a current step at constant velocity and sines at frequencies an octave apart: a delay stays constant in ms"},
-      {"velocity-lag",
-       "a sine at each of three frequencies with displacement and velocity recorded: the slope of the displacement "
-       "shows the lag of the velocity channel"},
-      {"shear-thinning", "constant-velocity runs over at least a decade of speed"},
-      {"quadratic-damping", "constant-velocity runs over at least a decade of speed"},
-      {"series-dashpot", "slow triangles from 1 to 20 mm/s, and a hold after a fast stroke to see the force relax"},
-      {"seal-friction", "a slow triangle without current at several speeds below 20 mm/s"},
-      {"coulomb-friction", "a slow triangle without current at several speeds below 20 mm/s"},
-      {"gas-spring", "a slow full stroke around two mid-positions"},
-      {"linear-stiffness", "a slow full stroke around two mid-positions"},
-      {"asymmetry",
-       "the same sine around two mid-positions: asymmetry follows the velocity, a gas spring the position"},
-      {"cavitation", "the same run at two gas pressures and at rising speed"},
-      {"end-stop", "a slow stroke to both ends"},
-      {"cubic-stiffness", "a slow full stroke around two mid-positions"},
-      {"self-heating", "a long run of constant severity, a pause, and the first recording again"},
-      {"degradation", "the first recording again at the end of the campaign, cold"},
-      {"stiction", "the same run after rests of different length"},
-      {"force-drift", "a minute of recording at rest before and after the run"},
-      {"coil-lag", "current steps up and down at constant velocity, at several levels"},
-      {"magnetic-remanence", "a current staircase up and down at constant velocity"},
-      {"magnetic-saturation", "at least five current levels up to the highest"},
-      {"pre-yield-hysteresis", "small strokes at several amplitudes below the knee"},
-      {"pinching", "small strokes inside a large one, at two amplitudes"},
-  };
   for (const std::string& id : candidates) {
-    const auto found = separating.find(id);
-    if (found != separating.end()) {
-      return found->second;
+    if (const std::string_view separating = knowledge_of(id).experiment; !separating.empty()) {
+      return std::string(separating);
     }
   }
   return "the same motion at other frequencies, amplitudes and currents";

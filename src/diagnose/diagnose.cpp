@@ -100,9 +100,8 @@ std::map<std::string, int> base_laws(const std::string& model, const std::vector
     return result;
   }
   for (const Parameter& parameter : part->parameters) {
-    const bool force = parameter.unit == "N" && parameter.lower >= 0.0;
-    const bool damping = parameter.unit == "N s/m";
-    if ((force || damping) && !parameter.fixed) {
+    const bool follows = parameter.role == PhysicalRole::yield_force || parameter.role == PhysicalRole::damping;
+    if (follows && !parameter.fixed) {
       result[std::string(parameter.name)] = 1;
     }
   }

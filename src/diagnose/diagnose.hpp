@@ -54,8 +54,8 @@ struct Diagnosis {
   std::vector<std::string> notes;
 };
 
-// Orders of the laws of a base model when none are given: every parameter that is a force or a damping force and has
-// a drive to depend on becomes linear in it.
+// Orders of the laws of a base model when none are given: every yield force and damping that has a drive to depend on
+// becomes linear in it.
 std::map<std::string, int> base_laws(const std::string& model, const std::vector<Recording>& recordings);
 
 // Throws InputError for an unknown model or a campaign that leaves nothing to fit.

@@ -15,6 +15,7 @@
 #include <string>
 
 #include "fit/solver.hpp"
+#include "simulate/knowledge.hpp"
 #include "simulate/part.hpp"
 
 namespace hysteron {
@@ -24,9 +25,10 @@ constexpr std::uint64_t plugin_layout() {
   std::uint64_t sum = 14695981039346656037ULL;  // FNV-1a over the sizes
   for (const std::uint64_t part :
        {std::uint64_t{1} /* this header */, std::uint64_t{sizeof(Part)}, std::uint64_t{sizeof(Parameter)},
-        std::uint64_t{sizeof(Input<Lanes>)}, std::uint64_t{sizeof(LaneDual)}, std::uint64_t{sizeof(SolverEntry)},
-        std::uint64_t{sizeof(Problem)}, std::uint64_t{sizeof(Request)}, std::uint64_t{sizeof(Response)},
-        std::uint64_t{vector_bytes}, std::uint64_t{lane_count}, std::uint64_t{sweep_directions}}) {
+        std::uint64_t{sizeof(Knowledge)}, std::uint64_t{sizeof(Input<Lanes>)}, std::uint64_t{sizeof(LaneDual)},
+        std::uint64_t{sizeof(SolverEntry)}, std::uint64_t{sizeof(Problem)}, std::uint64_t{sizeof(Request)},
+        std::uint64_t{sizeof(Response)}, std::uint64_t{vector_bytes}, std::uint64_t{lane_count},
+        std::uint64_t{sweep_directions}}) {
     sum = (sum ^ part) * 1099511628211ULL;
   }
   return sum;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "simulate/knowledge.hpp"
 #include "simulate/march.hpp"
 #include "simulate/part.hpp"
 
@@ -199,6 +200,22 @@ constexpr PartOperations<T> operations() {
   return result;
 }
 
+template <class M>
+constexpr bool has_parameter(std::string_view name) {
+  return std::ranges::any_of(M::parameters, [&](const Parameter& own) { return own.name == name; });
+}
+
+// Whether what an effect says of its own parameters names ones that it has.
+template <class M>
+constexpr bool knows_its_parameters() {
+  const Knowledge& known = M::knowledge;
+  return std::ranges::all_of(
+             known.holds, [](const Limit& row) { return row.parameter.empty() || has_parameter<M>(row.parameter); }) &&
+         std::ranges::all_of(known.ends_as, [](const BoxLimit& row) { return has_parameter<M>(row.parameter); }) &&
+         std::ranges::all_of(known.kindred,
+                             [](const KindredParameter& row) { return has_parameter<M>(row.parameter); });
+}
+
 }  // namespace detail
 
 template <class M>
@@ -214,6 +231,10 @@ constexpr Part compile() {
   if constexpr (requires { M::starts; }) {
     static_assert(std::size(M::starts) == 8);
     part.starts = M::starts;
+  }
+  if constexpr (requires { M::knowledge; }) {
+    static_assert(detail::knows_its_parameters<M>(), "knowledge names a parameter that the effect does not have");
+    part.knowledge = &M::knowledge;
   }
   if constexpr (detail::IsSeries<M>) {
     part.bends = true;

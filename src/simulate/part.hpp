@@ -22,7 +22,8 @@
 //   template <class T> excite(p, memory, elapsed, drive) -> T    (array<T, 2> memory, see below)
 // and one that sees the drive of another instant
 //   template <class T> recall(p, command) -> T
-// where p is std::array<T, parameter count> in the order of the card.
+// where p is std::array<T, parameter count> in the order of the card. What is known of an effect beside its equations
+// stands in its `knowledge` (simulate/knowledge.hpp).
 #pragma once
 
 #include <array>
@@ -46,6 +47,18 @@ struct Dimension {
   double place = 0.0;  // a place in the stroke: the bounds move with this times the middle of the recorded motion
 };
 
+// What a parameter does in its part, where the diagnosis asks for it. A yield force and a damping follow a drive that
+// varies; a law with an offset force, a damping, a stiffness or a mass that enters the force linearly has what an
+// effect of that one role would add.
+enum class PhysicalRole {
+  none,          // anything else
+  yield_force,   // at which a hysteresis or dry friction yields, never negative
+  offset_force,  // constant
+  damping,       // of a dashpot, in parallel or in series
+  stiffness,     // of a spring, likewise
+  mass
+};
+
 struct Parameter {
   std::string_view name;
   std::string_view symbol;
@@ -58,7 +71,18 @@ struct Parameter {
   Dimension dimension = {};
   bool linear = false;  // the force is affine in it
   bool fixed = false;   // held at `initial` unless the user frees it
+  PhysicalRole role = PhysicalRole::none;
 };
+
+constexpr Parameter in_role(PhysicalRole role, Parameter parameter) {
+  parameter.role = role;
+  return parameter;
+}
+constexpr Parameter as_yield_force(const Parameter& p) { return in_role(PhysicalRole::yield_force, p); }
+constexpr Parameter as_offset_force(const Parameter& p) { return in_role(PhysicalRole::offset_force, p); }
+constexpr Parameter as_damping(const Parameter& p) { return in_role(PhysicalRole::damping, p); }
+constexpr Parameter as_stiffness(const Parameter& p) { return in_role(PhysicalRole::stiffness, p); }
+constexpr Parameter as_mass(const Parameter& p) { return in_role(PhysicalRole::mass, p); }
 
 // What a part sees at an instant.
 template <class T>
@@ -121,6 +145,8 @@ struct PartOperations {
                 T* out) = nullptr;
 };
 
+struct Knowledge;
+
 // A catalogue row of a law or an effect.
 struct Part {
   std::string_view id;
@@ -133,6 +159,7 @@ struct Part {
   // that do nothing below a threshold. Empty for the usual ones.
   std::span<const double> starts;
   bool bends = false;  // the force is not affine in the force below, so that parameters below are not linear
+  const Knowledge* knowledge = nullptr;  // of an effect that says something of itself
   PartOperations<double> on_double;
   PartOperations<Lanes> on_lanes;
   PartOperations<LaneDual> on_dual;

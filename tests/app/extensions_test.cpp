@@ -1,6 +1,7 @@
 // Published parameter sets, solvers of other libraries and plugins, as a user calls them.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -117,6 +118,59 @@ TEST_F(Extensions, PluginAddsItsModelAndSolver) {
   EXPECT_NEAR(model["parameters"][1]["value"].get<double>(), 2e4, 100.0);
   EXPECT_EQ(run(plugin + "score out/model.json r.csv").status, 0);
   EXPECT_EQ(run("score out/model.json r.csv").status, 2);
+}
+
+std::vector<std::string> ids_of(const json& rows) {
+  std::vector<std::string> ids;
+  for (const json& row : rows) ids.push_back(row["id"]);
+  return ids;
+}
+
+TEST_F(Extensions, CardsOfEffectsAreDescribedAndListed) {
+  const json effect = json::parse(run("describe entrapped-gas --json").out);
+  EXPECT_EQ(effect["family"]["id"], "free-travel");
+  EXPECT_EQ(ids_of(effect["related"]), (std::vector<std::string>{"compliance", "clearance"}));
+  EXPECT_EQ(effect["related"][0]["how"], "which entrapped-gas is where its d_a is zero");
+  EXPECT_EQ(effect["related"][1]["how"], "which entrapped-gas is at the lower end of its f_a");
+  for (const json& row : json::parse(run("list effects --json").out)) {
+    json described = json::parse(run("describe " + row["id"].get<std::string>() + " --json").out);
+    for (const auto& [key, value] : row.items()) EXPECT_EQ(described[key], value) << row["id"] << " " << key;
+    EXPECT_TRUE(row["family"].is_object() && row["experiment"].is_string()) << row["id"];
+  }
+  const std::string text = run("describe coil-lag").out;
+  EXPECT_NE(text.find("Family: drive-path, "), std::string::npos) << text;
+  EXPECT_NE(text.find("Related effects: magnetic-remanence, magnetic-saturation\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("a current or voltage that changes within a recording"), std::string::npos) << text;
+  EXPECT_NE(text.find("Told apart by: current steps"), std::string::npos) << text;
+  EXPECT_EQ(run("describe bouc-wen").out.find("Related effects"), std::string::npos);
+}
+
+// A dashpot, a cubic term, an offset and a drift. What comes closest is set against the cubic term anyway; a dashpot,
+// which the base law has as it has spring and offset, only because the card names it.
+TEST_F(Extensions, EffectOfAPluginIsNamedAndSetAgainstItsKin) {
+  const std::string plugin = "--plugin '" HYSTERON_PLUGIN "' ";
+  EXPECT_EQ(ids_of(json::parse(run(plugin + "describe cubic-damping --json").out)["related"]),
+            (std::vector<std::string>{"quadratic-damping", "viscous-damping"}));
+  EXPECT_EQ(ids_of(json::parse(run(plugin + "describe quadratic-damping --json").out)["related"]),
+            (std::vector<std::string>{"viscous-damping", "shear-thinning", "cubic-damping"}));
+  EXPECT_EQ(ids_of(json::parse(run("describe quadratic-damping --json").out)["related"]),
+            (std::vector<std::string>{"viscous-damping", "shear-thinning"}));
+  std::ofstream file(folder_ / "drifting.csv");
+  file << "time [s],displacement [m],velocity [m/s],force [N]\n";
+  for (int n = 0; n <= 400; ++n) {
+    const double t = 0.005 * n;
+    const double v = 0.2 * std::cos(4.0 * std::numbers::pi * t);
+    const double x = 0.2 / (4.0 * std::numbers::pi) * std::sin(4.0 * std::numbers::pi * t);
+    file << t << ',' << x << ',' << v << ',' << 700.0 * v + 2e4 * v * v * v + 30.0 + 40.0 * t << '\n';
+  }
+  file.close();
+  ASSERT_EQ(run(plugin + "diagnose drifting.csv --model viscous --quiet --out out").status, 0);
+  const json found = json::parse(read(folder_ / "out/diagnosis.json"))["evidence"]["found"];
+  ASSERT_EQ(ids_of(found), (std::vector<std::string>{"cubic-damping", "force-drift"}));
+  const std::vector<std::string> rivals = ids_of(found[0]["rivals"]);
+  EXPECT_EQ(std::ranges::count(rivals, "viscous-damping"), 1);
+  EXPECT_EQ(std::ranges::count(rivals, "linear-stiffness"), 0);
+  EXPECT_EQ(std::ranges::count(rivals, "offset-force"), 0);
 }
 
 TEST_F(Extensions, PluginsThatAreNoneAreRefused) {

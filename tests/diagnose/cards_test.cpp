@@ -16,6 +16,7 @@ namespace hysteron {
 namespace {
 
 using Names = std::vector<std::string>;
+using Pairs = std::set<std::pair<std::string, std::string>>;
 using NameSet = std::set<std::string>;
 
 Names ids_of(std::span<const Part* const> catalogue) {
@@ -227,6 +228,110 @@ TEST(Cards, Limits) {
   }
 }
 
+// Each card of the catalogue stands alone: it says everything, names only what there is, and says of its kin what
+// they say of it; what one of two effects says of both the other does not say again.
+TEST(Cards, EveryEffectHasAWholeCard) {
+  std::map<std::string_view, std::string_view> families;
+  Pairs limits;
+  for (const Part* part : effect_catalogue()) {
+    const std::string id(part->id);
+    ASSERT_NE(part->knowledge, nullptr) << id;
+    const Knowledge& known = *part->knowledge;
+    for (const std::string_view text :
+         {known.family.id, known.family.title, known.in_words, known.shows, known.experiment}) {
+      EXPECT_FALSE(text.empty()) << id;
+    }
+    EXPECT_EQ(families.try_emplace(known.family.id, known.family.title).first->second, known.family.title) << id;
+    for (const std::string_view other : known.kin) {
+      ASSERT_NE(find_effect(other), nullptr) << id << " " << other;
+      EXPECT_EQ(std::ranges::count(knowledge_of(other).kin, part->id), 1) << id << " " << other;
+      EXPECT_NE(other, part->id);
+    }
+    const auto has = [](std::string_view effect, std::string_view parameter) {
+      const Part* other = find_effect(effect);
+      return other != nullptr && std::ranges::count(other->parameters, parameter, &Parameter::name) == 1;
+    };
+    for (const Limit& row : known.holds) {
+      EXPECT_NE(find_effect(row.effect), nullptr) << id;
+      EXPECT_TRUE(limits.emplace(row.effect, id).second) << id << " " << row.effect << " is said twice";
+    }
+    for (const Limit& row : known.limit_of) {
+      EXPECT_TRUE(row.parameter.empty() || has(row.effect, row.parameter)) << id << " " << row.effect;
+      EXPECT_TRUE(limits.emplace(id, row.effect).second) << id << " " << row.effect << " is said twice";
+    }
+    for (const BoxLimit& row : known.ends_as) {
+      EXPECT_NE(find_effect(row.other), nullptr) << id;
+    }
+    for (const KindredParameter& row : known.kindred) {
+      EXPECT_TRUE(has(row.effect, row.its)) << id << " " << row.effect << "." << row.its;
+    }
+  }
+}
+
+TEST(Cards, Families) {
+  const std::map<std::string, NameSet> meant = {
+      {"free-travel", {"clearance", "entrapped-gas"}},
+      {"series", {"compliance", "series-dashpot"}},
+      {"friction", {"coulomb-friction", "seal-friction", "pre-yield-hysteresis"}},
+      {"fluid", {"viscous-damping", "quadratic-damping", "shear-thinning"}},
+      {"place", {"offset-force", "linear-stiffness", "cubic-stiffness", "gas-spring", "end-stop", "pinching"}},
+      {"direction", {"asymmetry", "cavitation"}},
+      {"phase", {"inertia", "sensor-delay", "velocity-lag"}},
+      {"slow-loss", {"self-heating", "degradation", "stiction"}},
+      {"drive-path", {"coil-lag", "magnetic-remanence", "magnetic-saturation"}},
+      {"force-channel", {"force-drift"}}};
+  std::map<std::string, NameSet> families;
+  for (const std::string& effect : ids_of(effect_catalogue())) {
+    families[std::string(knowledge_of(effect).family.id)].insert(effect);
+  }
+  EXPECT_EQ(families, meant);
+}
+
+// Whether a spring or dashpot is that of a law or of an effect; yield forces and dampings of laws are asked for above.
+TEST(Cards, RolesOfEffectsAndOfSpringsAndOffsetsOfLaws) {
+  std::map<std::string, NameSet> of_effects;
+  std::map<std::string, NameSet> of_laws;
+  for (const Part* part : effect_catalogue()) {
+    for (const Parameter& card : part->parameters) {
+      if (card.role != PhysicalRole::none) {
+        of_effects[std::string(part->id)].insert(std::string(card.name));
+      }
+    }
+  }
+  for (const Part* part : model_catalogue()) {
+    for (const Parameter& card : part->parameters) {
+      if (card.role == PhysicalRole::stiffness || card.role == PhysicalRole::offset_force) {
+        of_laws[std::string(part->id)].insert(std::string(card.name));
+      }
+    }
+  }
+  EXPECT_EQ(of_effects, (std::map<std::string, NameSet>{{"coulomb-friction", {"fc"}},
+                                                        {"end-stop", {"k_b"}},
+                                                        {"inertia", {"m"}},
+                                                        {"linear-stiffness", {"k"}},
+                                                        {"offset-force", {"f0"}},
+                                                        {"pre-yield-hysteresis", {"f_h"}},
+                                                        {"seal-friction", {"fc"}},
+                                                        {"self-heating", {"c_h"}},
+                                                        {"shear-thinning", {"c_t"}},
+                                                        {"viscous-damping", {"c"}}}));
+  EXPECT_EQ(of_laws, (std::map<std::string, NameSet>{{"algebraic-hysteresis", {"k0", "f0"}},
+                                                     {"asymmetric-sigmoid", {"f_d"}},
+                                                     {"baber-noori", {"k0", "f0"}},
+                                                     {"bingham", {"f0"}},
+                                                     {"bouc-wen", {"k0", "f0"}},
+                                                     {"extended-bingham", {"k1", "k2", "f0"}},
+                                                     {"guo-hu", {"f0"}},
+                                                     {"hyperbolic-tangent", {"k0", "f0"}},
+                                                     {"lugre", {"k0", "f0"}},
+                                                     {"modified-bouc-wen", {"k0", "k1"}},
+                                                     {"modified-dahl", {"k0", "f0"}},
+                                                     {"nonlinear-biviscous", {"f0"}},
+                                                     {"preisach", {"f0"}},
+                                                     {"quasi-static-flow", {"f0"}},
+                                                     {"viscous", {"k0", "f0"}}}));
+}
+
 // Where two rows lead to one parameter, the later counts.
 TEST(Cards, KindredParameters) {
   std::map<std::string, std::vector<std::pair<std::string, double>>> to;
@@ -272,6 +377,14 @@ TEST(Cards, InputsNeeded) {
   EXPECT_EQ(without_drive, all);
   EXPECT_EQ(with_two_levels, all);
   EXPECT_EQ(with_three_levels, (NameSet{"coil-lag", "magnetic-remanence", "velocity-lag"}));
+  EXPECT_EQ(unmet(Need::velocity, {low}), "the velocity was not recorded");
+  EXPECT_EQ(unmet(Need::drive, {undriven, low}), std::nullopt);
+  Recording measured = low;
+  measured.velocity_measured = true;
+  EXPECT_EQ(unmet(Need::velocity, {low, measured}), std::nullopt);
+  Recording steps = low;
+  steps.drive = {0.5, 1.0};
+  EXPECT_EQ(unmet(Need::changing_drive, {low, steps}), std::nullopt);
   EXPECT_EQ(excluded_by_inputs("coil-lag", {undriven}), "no current or voltage was recorded");
   EXPECT_EQ(excluded_by_inputs("coil-lag", {low, high}), "the current is constant in every recording");
   EXPECT_EQ(excluded_by_inputs("velocity-lag", {low}),

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <set>
 
+#include "diagnose/search/relatives.hpp"
 #include "io/velocity.hpp"
 
 namespace hysteron {
@@ -24,33 +25,47 @@ std::size_t drive_levels(const std::vector<Recording>& recordings) {
 
 }  // namespace
 
+std::optional<std::string> unmet(Need need, const std::vector<Recording>& recordings) {
+  switch (need) {
+    case Need::drive:
+      if (std::ranges::all_of(recordings, [](const Recording& r) { return r.drive.empty(); })) {
+        return "no current or voltage was recorded";
+      }
+      break;
+    case Need::changing_drive:
+      if (std::ranges::none_of(recordings, drive_varies)) {
+        return "the current is constant in every recording";
+      }
+      break;
+    case Need::three_drive_levels:
+      if (drive_levels(recordings) < 3) {
+        return "fewer than three current levels: it looks like another slope of the force with current";
+      }
+      break;
+    case Need::velocity:
+      if (std::ranges::none_of(recordings, &Recording::velocity_measured)) {
+        return "the velocity was not recorded";
+      }
+      break;
+    case Need::lagging_velocity: {
+      const std::optional<ChannelLag> lag = velocity_channel_lag(recordings);
+      if (!lag) {
+        return "the velocity was not recorded but derived from the displacement without lag";
+      }
+      if (std::fabs(lag->lag) < std::max(3.0 * lag->std_error, 1e-4)) {
+        return fmt::format("the recorded velocity agrees with the slope of the displacement within {:.2g} ms",
+                           1e3 * std::max({std::fabs(lag->lag), 2.0 * lag->std_error, 1e-6}));
+      }
+      break;
+    }
+  }
+  return std::nullopt;
+}
+
 std::optional<std::string> excluded_by_inputs(const std::string& effect, const std::vector<Recording>& recordings) {
-  const bool varies = std::ranges::any_of(recordings, drive_varies);
-  const bool has_drive = std::ranges::any_of(recordings, [](const Recording& r) { return !r.drive.empty(); });
-  if (effect == "coil-lag" || effect == "magnetic-remanence") {
-    if (!has_drive) {
-      return "no current or voltage was recorded";
-    }
-    if (!varies) {
-      return "the current is constant in every recording";
-    }
-  }
-  if (effect == "magnetic-saturation") {
-    if (!has_drive) {
-      return "no current or voltage was recorded";
-    }
-    if (drive_levels(recordings) < 3) {
-      return "fewer than three current levels: saturation looks like another slope of the force with current";
-    }
-  }
-  if (effect == "velocity-lag") {
-    const std::optional<ChannelLag> lag = velocity_channel_lag(recordings);
-    if (!lag) {
-      return "the velocity was not recorded but derived from the displacement without lag";
-    }
-    if (std::fabs(lag->lag) < std::max(3.0 * lag->std_error, 1e-4)) {
-      return fmt::format("the recorded velocity agrees with the slope of the displacement within {:.2g} ms",
-                         1e3 * std::max({std::fabs(lag->lag), 2.0 * lag->std_error, 1e-6}));
+  for (const Need need : knowledge_of(effect).needs) {
+    if (const std::optional<std::string> reason = unmet(need, recordings)) {
+      return reason;
     }
   }
   return std::nullopt;

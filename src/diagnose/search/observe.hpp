@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "diagnose/search/search.hpp"
+#include "simulate/knowledge.hpp"
 
 namespace hysteron {
 
@@ -16,7 +17,9 @@ struct Unobservable {
   std::string detection_limit;  // "... of the peak force"; empty when not at all
 };
 
-// Reasons that lie in the inputs alone: constant drive, one drive level, a velocity that was not measured, ...
+// Why the recordings do not hold what an effect may need; empty where they do.
+std::optional<std::string> unmet(Need need, const std::vector<Recording>& recordings);
+// The first need of the effect's card that is not met, for reasons that lie in the inputs alone.
 std::optional<std::string> excluded_by_inputs(const std::string& effect, const std::vector<Recording>& recordings);
 
 // Detection limits of the effects that `fit` does not hold: the size at which the criterion would have asked for the

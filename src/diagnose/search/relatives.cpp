@@ -1,115 +1,89 @@
 #include "diagnose/search/relatives.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <array>
-#include <string_view>
 
 #include "simulate/part.hpp"
 
 namespace hysteron {
+namespace {
+
+bool names(std::span<const std::string_view> kin, std::string_view effect) {
+  return std::ranges::find(kin, effect) != kin.end();
+}
+
+// Said by the wider effect or by the one that it holds.
+const Limit* find_limit(const std::string& effect, const std::string& wider) {
+  const auto row_of = [](std::span<const Limit> rows, std::string_view id) {
+    const auto at = std::ranges::find(rows, id, &Limit::effect);
+    return at == rows.end() ? nullptr : &*at;
+  };
+  const Limit* said_by_wider = row_of(knowledge_of(wider).holds, effect);
+  return said_by_wider != nullptr ? said_by_wider : row_of(knowledge_of(effect).limit_of, wider);
+}
+
+std::string how_related(const std::string& effect, const std::string& other) {
+  const auto where_zero = [](const std::string& parameter) {
+    return parameter.empty() ? std::string("in a limit") : fmt::format("where its {} is zero", parameter);
+  };
+  const auto at_end = [](const BoxLimit& limit) {
+    return fmt::format("at the {} end of its {}", limit.end == BoxEnd::lower ? "lower" : "upper", limit.parameter);
+  };
+  std::vector<std::string> ways;
+  if (is_limit(other, effect)) {
+    ways.push_back(fmt::format("which {} is {}", effect, where_zero(limit_parameter(other, effect))));
+  }
+  if (is_limit(effect, other)) {
+    ways.push_back(fmt::format("which is {} {}", effect, where_zero(limit_parameter(effect, other))));
+  }
+  if (const BoxLimit* limit = box_limit(effect, other)) {
+    ways.push_back(fmt::format("which {} is {}", effect, at_end(*limit)));
+  }
+  if (const BoxLimit* limit = box_limit(other, effect)) {
+    ways.push_back(fmt::format("which is {} {}", effect, at_end(*limit)));
+  }
+  return fmt::format("{}", fmt::join(ways, "; "));
+}
+
+}  // namespace
+
+const Knowledge& knowledge_of(std::string_view effect) {
+  static constexpr Knowledge nothing = {};
+  const Part* part = find_effect(effect);
+  return part == nullptr || part->knowledge == nullptr ? nothing : *part->knowledge;
+}
 
 std::vector<std::string> relatives(const std::string& id) {
-  static const std::vector<std::vector<std::string>> families = {
-      {"offset-force", "gas-spring"},
-      {"linear-stiffness", "gas-spring", "cubic-stiffness", "end-stop"},
-      {"compliance", "clearance", "entrapped-gas"},
-      {"compliance", "series-dashpot"},
-      {"inertia", "sensor-delay", "velocity-lag"},
-      {"coulomb-friction", "seal-friction", "pre-yield-hysteresis"},
-      {"viscous-damping", "quadratic-damping", "shear-thinning"},
-      {"coulomb-friction", "shear-thinning"},
-      {"self-heating", "degradation", "stiction"},
-      {"coil-lag", "magnetic-remanence", "magnetic-saturation"},
-      {"asymmetry", "cavitation"},
-      {"pinching", "cubic-stiffness"},
-  };
   std::vector<std::string> result;
-  for (const std::vector<std::string>& family : families) {
-    if (std::ranges::find(family, id) == family.end()) {
-      continue;
+  if (find_effect(id) == nullptr) {
+    return result;
+  }
+  for (const std::string_view other : knowledge_of(id).kin) {
+    if (find_effect(other) != nullptr) {
+      result.emplace_back(other);
     }
-    for (const std::string& other : family) {
-      if (other != id && std::ranges::find(result, other) == result.end()) {
-        result.push_back(other);
-      }
+  }
+  for (const Part* other : effect_catalogue()) {
+    if (other->knowledge != nullptr && names(other->knowledge->kin, id) &&
+        std::ranges::find(result, other->id) == result.end()) {
+      result.emplace_back(other->id);
     }
   }
   return result;
 }
 
 bool is_kin(const std::string& effect, const std::string& other) {
-  const std::vector<std::string> alike = relatives(effect);
-  return std::ranges::find(alike, other) != alike.end();
+  return names(knowledge_of(effect).kin, other) || names(knowledge_of(other).kin, effect);
 }
 
-bool is_of_place(const std::string& effect) {
-  constexpr std::array<std::string_view, 6> ids = {"offset-force", "linear-stiffness", "cubic-stiffness",
-                                                   "end-stop",     "gas-spring",       "pinching"};
-  return std::ranges::find(ids, effect) != ids.end();
-}
+bool is_of_place(const std::string& effect) { return knowledge_of(effect).acts != Acts::everywhere; }
 
-bool acts_in_a_part(const std::string& effect) { return effect == "end-stop"; }
+bool acts_in_a_part(const std::string& effect) { return knowledge_of(effect).acts == Acts::at_ends; }
 
-bool has_one_form(const std::string& effect) {
-  constexpr std::array<std::string_view, 4> ids = {"offset-force", "linear-stiffness", "viscous-damping", "inertia"};
-  return std::ranges::find(ids, effect) != ids.end();
-}
-
-namespace {
-
-struct Limit {
-  std::string_view effect;
-  std::string_view wider;
-  std::string_view parameter;
-};
-
-constexpr std::array<Limit, 7> limits = {{{"offset-force", "gas-spring", "g"},
-                                          {"linear-stiffness", "gas-spring", ""},
-                                          {"coulomb-friction", "seal-friction", "fb"},
-                                          {"coulomb-friction", "shear-thinning", "m"},
-                                          {"compliance", "entrapped-gas", "d_a"},
-                                          {"compliance", "clearance", "gap"},
-                                          {"cubic-stiffness", "end-stop", "x_up"}}};
-
-// A gas that is compressed by next to no force is a play, damping that thins out entirely is a friction, and a friction
-// that turns over as slowly as it can is a damping that thins out.
-constexpr std::array<BoxLimit, 4> box_limits = {{{"entrapped-gas", "clearance", "f_a", BoxEnd::lower},
-                                                 {"shear-thinning", "coulomb-friction", "m", BoxEnd::lower},
-                                                 {"coulomb-friction", "shear-thinning", "v_t", BoxEnd::upper},
-                                                 {"seal-friction", "shear-thinning", "v_t", BoxEnd::upper}}};
-
-const Limit* find_limit(const std::string& effect, const std::string& wider) {
-  const auto* at =
-      std::ranges::find_if(limits, [&](const Limit& row) { return row.effect == effect && row.wider == wider; });
-  return at == limits.end() ? nullptr : at;
-}
-
-constexpr std::array<Kindred, 8> kindred_parameters = {{{"entrapped-gas.d_a", "clearance.gap", 2.0},
-                                                        {"entrapped-gas.C_c", "clearance.C_c", 1.0},
-                                                        {"clearance.gap", "entrapped-gas.d_a", 0.5},
-                                                        {"clearance.C_c", "entrapped-gas.C_c", 1.0},
-                                                        {"compliance.C", "clearance.C_c", 1.0},
-                                                        {"compliance.C", "entrapped-gas.C_c", 1.0},
-                                                        {"clearance.C_c", "compliance.C", 1.0},
-                                                        {"entrapped-gas.C_c", "compliance.C", 1.0}}};
-
-}  // namespace
-
-std::span<const Kindred> kindred() { return kindred_parameters; }
+bool has_one_form(const std::string& effect) { return knowledge_of(effect).one_form; }
 
 bool is_limit(const std::string& effect, const std::string& wider) { return find_limit(effect, wider) != nullptr; }
-
-bool is_part_of(const std::string& effect, const std::string& law) {
-  const Part* part = find_effect(effect);
-  const Part* model = find_model(law);
-  if (part == nullptr || model == nullptr || part->parameters.size() != 1 || !part->parameters.front().linear) {
-    return false;
-  }
-  const Parameter& size = part->parameters.front();
-  return std::ranges::any_of(model->parameters, [&](const Parameter& own) {
-    return own.linear && own.unit == size.unit && own.lower == size.lower && own.upper == size.upper;
-  });
-}
 
 std::string limit_parameter(const std::string& effect, const std::string& wider) {
   const Limit* limit = find_limit(effect, wider);
@@ -117,9 +91,49 @@ std::string limit_parameter(const std::string& effect, const std::string& wider)
 }
 
 const BoxLimit* box_limit(const std::string& effect, const std::string& other) {
-  const auto* at =
-      std::ranges::find_if(box_limits, [&](const BoxLimit& row) { return row.effect == effect && row.other == other; });
-  return at == box_limits.end() ? nullptr : at;
+  const std::span<const BoxLimit> ends = knowledge_of(effect).ends_as;
+  const auto at = std::ranges::find(ends, other, &BoxLimit::other);
+  return at == ends.end() ? nullptr : &*at;
+}
+
+bool is_part_of(const std::string& effect, const std::string& law) {
+  const Part* part = find_effect(effect);
+  const Part* model = find_model(law);
+  if (part == nullptr || model == nullptr || part->parameters.size() != 1) {
+    return false;
+  }
+  const PhysicalRole role = part->parameters.front().role;
+  return role != PhysicalRole::none &&
+         std::ranges::any_of(model->parameters, [&](const Parameter& own) { return own.linear && own.role == role; });
+}
+
+std::vector<Kindred> kindred() {
+  std::vector<Kindred> result;
+  for (const Part* effect : effect_catalogue()) {
+    for (const KindredParameter& row : knowledge_of(effect->id).kindred) {
+      const std::string own = fmt::format("{}.{}", effect->id, row.parameter);
+      const std::string other = fmt::format("{}.{}", row.effect, row.its);
+      result.push_back({own, other, row.factor});
+      result.push_back({other, own, 1.0 / row.factor});
+    }
+  }
+  return result;
+}
+
+std::vector<Relation> relations_of(const std::string& effect) {
+  std::vector<Relation> result;
+  const std::vector<std::string> kin = relatives(effect);
+  for (const std::string& other : kin) {
+    result.push_back({other, how_related(effect, other)});
+  }
+  for (const Part* part : effect_catalogue()) {
+    const std::string other(part->id);
+    if (const std::string how = how_related(effect, other);
+        !how.empty() && std::ranges::find(kin, other) == kin.end()) {
+      result.push_back({other, how});
+    }
+  }
+  return result;
 }
 
 }  // namespace hysteron

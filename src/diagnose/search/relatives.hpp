@@ -1,13 +1,18 @@
-// Which effects are mistaken for one another, whatever the recordings: one is a limit of the other, or their signatures
-// agree on all but few motions.
+// What the cards of effects (simulate/knowledge.hpp) say of one another: one is a limit of the other, or their
+// signatures agree on all but few motions. A relation holds both ways, whichever of the two says it, so that effects of
+// a plugin are set against those of the catalogue and the other way round.
 #pragma once
 
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "simulate/knowledge.hpp"
+
 namespace hysteron {
+
+// Of the effect's card; empty where it has none, or where there is no such effect.
+const Knowledge& knowledge_of(std::string_view effect);
 
 // Effects to set against `id` besides those the data bring up; empty for an unknown id.
 std::vector<std::string> relatives(const std::string& id);
@@ -28,15 +33,7 @@ bool is_limit(const std::string& effect, const std::string& wider);
 // The parameter of `wider` that is zero at that limit; empty where none is, or where it is no limit.
 std::string limit_parameter(const std::string& effect, const std::string& wider);
 
-// A parameter with which, at one end of its box, `effect` is `other`.
-enum class BoxEnd { lower, upper };
-struct BoxLimit {
-  std::string_view effect;
-  std::string_view other;
-  std::string_view parameter;
-  BoxEnd end;
-};
-// Null where there is none.
+// A parameter with which, at one end of its box, `effect` is `other`; null where there is none.
 const BoxLimit* box_limit(const std::string& effect, const std::string& other);
 
 // Whether the law has the effect as a linear parameter of its own, as a stiffness or an offset.
@@ -48,10 +45,18 @@ constexpr const char* channel_lag = "velocity-lag";
 // What parameters of related effects, "effect.parameter", mean of each other: the value of `to` is `factor` times that
 // of `from`, so that a fit with one effect tells where to start one with the other.
 struct Kindred {
-  std::string_view from;
-  std::string_view to;
+  std::string from;
+  std::string to;
   double factor;
 };
-std::span<const Kindred> kindred();
+std::vector<Kindred> kindred();
+
+// An effect related to another, and how where it is more than mistaken for it: "the same where its gap is zero".
+struct Relation {
+  std::string id;
+  std::string how;
+};
+// Its relatives, then what else it ends as or ends as it.
+std::vector<Relation> relations_of(const std::string& effect);
 
 }  // namespace hysteron

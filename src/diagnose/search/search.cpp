@@ -48,8 +48,7 @@ bool saturates(const Fit& base, const Fit& augmented, const std::string& paramet
   if (before == nullptr || law == nullptr || before->drive_nodes.size() < 2) {
     return false;
   }
-  const Parameter& card = augmented.layout->cards()[law->parameter];
-  if (card.unit != "N" || card.lower < 0.0) {
+  if (augmented.layout->cards()[law->parameter].role != PhysicalRole::yield_force) {
     return false;
   }
   const double low = law->drive_nodes.front();

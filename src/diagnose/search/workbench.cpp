@@ -13,8 +13,6 @@ namespace hysteron {
 namespace {
 
 constexpr std::size_t start_count = 8;
-constexpr std::string_view damping_unit = "N s/m";
-constexpr std::string_view yield_unit = "N";
 // Rounds after which only the best starts go on.
 constexpr int race_rounds = 2;
 
@@ -116,7 +114,7 @@ Layout Workbench::layout(const Hypothesis& what) const {
     return absent;
   });
   for (const Parameter& parameter : model.law->parameters) {
-    if (lost > 0 && parameter.unit == yield_unit && parameter.lower >= 0.0 && !parameter.fixed) {
+    if (lost > 0 && parameter.role == PhysicalRole::yield_force && !parameter.fixed) {
       options.by_current.try_emplace(std::string(parameter.name), lost);
     }
   }
@@ -129,10 +127,10 @@ Layout Workbench::layout(const Hypothesis& what) const {
   int order = 0;
   for (const auto& [name, power] : options.by_current) {
     const auto at = static_cast<std::size_t>(std::ranges::find(names, name) - names.begin());
-    order = cards[at].unit == damping_unit ? std::max(order, power) : order;
+    order = cards[at].role == PhysicalRole::damping ? std::max(order, power) : order;
   }
   for (std::size_t k = model.law->parameters.size(); k < names.size() && order > 0; ++k) {
-    if (cards[k].unit == damping_unit && !cards[k].fixed) {
+    if (cards[k].role == PhysicalRole::damping && !cards[k].fixed) {
       options.by_current[names[k]] = order;
     }
   }

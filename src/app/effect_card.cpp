@@ -1,0 +1,98 @@
+#include "app/effect_card.hpp"
+
+#include <fmt/format.h>
+
+#include <vector>
+
+#include "diagnose/account.hpp"
+#include "diagnose/search/relatives.hpp"
+
+namespace hysteron::app {
+namespace {
+
+using nlohmann::json;
+
+std::string_view words_of(Acts acts) {
+  switch (acts) {
+    case Acts::by_place:
+      return "by the place of the rod";
+    case Acts::at_ends:
+      return "near the ends of the motion only";
+    case Acts::everywhere:
+      break;
+  }
+  return "everywhere in the stroke";
+}
+
+std::string_view words_of(Need need) {
+  switch (need) {
+    case Need::drive:
+      return "a recorded current or voltage";
+    case Need::changing_drive:
+      return "a current or voltage that changes within a recording";
+    case Need::three_drive_levels:
+      return "three levels of current or voltage";
+    case Need::velocity:
+      return "a measured velocity";
+    case Need::lagging_velocity:
+      return "a measured velocity that lags or leads the slope of the displacement";
+  }
+  return "";
+}
+
+std::vector<std::string> needs_of(const Knowledge& known) {
+  std::vector<std::string> result;
+  for (const Need need : known.needs) {
+    result.emplace_back(words_of(need));
+  }
+  return result;
+}
+
+json or_null(std::string_view text) { return text.empty() ? json(nullptr) : json(text); }
+
+}  // namespace
+
+json effect_card_json(const std::string& effect) {
+  const Knowledge& known = knowledge_of(effect);
+  json related = json::array();
+  for (const Relation& row : relations_of(effect)) {
+    related.push_back({{"id", row.id}, {"how", or_null(row.how)}});
+  }
+  return {{"family",
+           known.family.id.empty() ? json(nullptr) : json{{"id", known.family.id}, {"title", known.family.title}}},
+          {"shows", or_null(known.shows)},
+          {"acts", words_of(known.acts)},
+          {"needs", needs_of(known)},
+          {"related", related},
+          {"experiment", or_null(known.experiment)}};
+}
+
+std::string effect_card_text(const std::string& effect) {
+  const Knowledge& known = knowledge_of(effect);
+  std::string text;
+  if (!known.family.id.empty()) {
+    text += fmt::format("Family: {}, {}\n", known.family.id, known.family.title);
+  }
+  if (!known.shows.empty()) {
+    text += fmt::format("It shows: {}\n", known.shows);
+  }
+  std::vector<std::string> related;
+  for (const Relation& row : relations_of(effect)) {
+    related.push_back(row.id + (row.how.empty() ? "" : " (" + row.how + ")"));
+  }
+  if (!related.empty()) {
+    text += fmt::format("Related effects: {}\n", fmt::join(related, ", "));
+  }
+  if (text.empty()) {
+    return text;
+  }
+  text += fmt::format("Acts: {}\n", words_of(known.acts));
+  text += fmt::format("Inputs needed: motion and force{}\n",
+                      known.needs.empty() ? "" : ", " + joined(needs_of(known), " and "));
+  if (!known.experiment.empty()) {
+    text += fmt::format("Told apart by: {}\n", known.experiment);
+  }
+  return text;
+}
+
+}  // namespace hysteron::app
