@@ -1,0 +1,163 @@
+// What follows the motion: inertia, delay, compliance, friction, damping, position and direction. Each signature is
+// freed of what a refit of the base model absorbs (the displacement, the velocity, the simulated force itself, their
+// products with the drive, and a stretch of the hysteresis along the travel) and of what it is mistaken for.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "core/drive.hpp"
+#include "diagnose/residual/contrast_panel.hpp"
+
+namespace hysteron::contrast {
+namespace {
+
+using Columns = std::vector<Panel::Column>;
+
+constexpr double film = 0.02;        // of a recording's largest speed: where the sign of the velocity is rounded
+constexpr double low_speed = 0.1;    // of the largest of all: where friction at low speed has fallen off
+constexpr double large_force = 0.5;  // of the largest of all: beyond it the limit of one side is looked for
+// Of the half stroke: where the ends begin, half widths of the weak middle, yield travel of a second hysteresis.
+constexpr std::array<double, 3> ends = {0.6, 0.75, 0.9};
+constexpr std::array<double, 2> middles = {0.15, 0.35};
+constexpr std::array<double, 2> yields = {0.1, 0.3};
+
+struct Range {
+  double low = std::numeric_limits<double>::infinity();
+  double high = -std::numeric_limits<double>::infinity();
+  [[nodiscard]] double centre() const { return 0.5 * (low + high); }
+  [[nodiscard]] double half() const { return 0.5 * (high - low); }
+};
+
+// Dahl's hysteresis of yield travel `yield`, one of unit force: z' = (v - |v| z) / yield along the recorded path.
+std::vector<Values> hystereses(std::span<const Track> tracks, double yield) {
+  std::vector<Values> result;
+  for (const Track& track : tracks) {
+    Values z(track.x.size(), 0.0);
+    for (std::size_t n = 1; n < z.size(); ++n) {
+      const double step = track.x[n] - track.x[n - 1];
+      const double sign = step > 0.0 ? 1.0 : -1.0;
+      z[n] = sign + (z[n - 1] - sign) * std::exp(-std::fabs(step) / yield);
+    }
+    result.push_back(std::move(z));
+  }
+  return result;
+}
+
+Columns operator+(Columns a, const Columns& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+}  // namespace
+
+void add_motion_contrasts(std::span<const Track> tracks, std::vector<Contrast>& result) {
+  Range place;
+  double fastest = 0.0;
+  double strongest = 0.0;
+  double mean_drive = 0.0;
+  Values drives;
+  bool driven = true;
+  for (const Track& track : tracks) {
+    for (std::size_t n = track.from; n < track.x.size(); ++n) {
+      place.low = std::min(place.low, track.x[n]);
+      place.high = std::max(place.high, track.x[n]);
+    }
+    fastest = std::max(fastest, track.speed);
+    strongest = std::max(strongest, track.peak);
+    driven = driven && !track.drive.empty();
+    drives.insert(drives.end(), track.drive.begin(), track.drive.end());
+  }
+  driven = driven && varies(drives);
+  for (const double drive : drives) {
+    mean_drive += drive / static_cast<double>(drives.size());
+  }
+  const double centre = place.centre();
+  const double half = place.half();
+  const double slow = low_speed * fastest;
+
+  Panel panel(tracks, &Track::missing);
+  const auto add = [&](auto&& value) { return panel.add(value); };
+  const Panel::Column one = add([](const Track&, std::size_t) { return 1.0; });
+  const Panel::Column x = add([&](const Track& t, std::size_t n) { return t.x[n] - centre; });
+  const Panel::Column x2 = add([&](const Track& t, std::size_t n) { return std::pow(t.x[n] - centre, 2.0); });
+  const Panel::Column x3 = add([&](const Track& t, std::size_t n) { return std::pow(t.x[n] - centre, 3.0); });
+  const Panel::Column v = add([](const Track& t, std::size_t n) { return t.v[n]; });
+  const Panel::Column vv = add([](const Track& t, std::size_t n) { return t.v[n] * std::fabs(t.v[n]); });
+  const Panel::Column a = add([](const Track& t, std::size_t n) { return t.a[n]; });
+  const Panel::Column f = add([](const Track& t, std::size_t n) { return t.simulated[n]; });
+  const Panel::Column later = add([](const Track& t, std::size_t n) { return -t.slope[n]; });
+  const Panel::Column stretch = add([](const Track& t, std::size_t n) { return t.stiff[n] * t.since[n]; });
+  const Panel::Column play =
+      add([](const Track& t, std::size_t n) { return t.direction[n] * t.simulated[n] > 0.0 ? -t.stiff[n] : 0.0; });
+  const Panel::Column soft =
+      add([](const Track& t, std::size_t n) { return -t.stiff[n] * std::fabs(t.simulated[n] - t.at_reversal[n]); });
+  const auto sign_at = [](const Track& t, std::size_t n) { return std::tanh(t.v[n] / (film * t.speed)); };
+  const Panel::Column sign = add(sign_at);
+  const Panel::Column stribeck =
+      add([&](const Track& t, std::size_t n) { return sign_at(t, n) * std::exp(-(t.v[n] / slow) * (t.v[n] / slow)); });
+  const Panel::Column sided = add([&](const Track& t, std::size_t n) { return t.simulated[n] * sign_at(t, n); });
+  const Panel::Column limit = add([&](const Track& t, std::size_t n) {
+    return -std::max(std::fabs(t.simulated[n]) - large_force * strongest, 0.0);
+  });
+
+  Columns base = {one, x, v, f};
+  if (driven) {
+    base.push_back(add([&](const Track& t, std::size_t n) { return t.v[n] * (t.drive[n] - mean_drive); }));
+    base.push_back(add([&](const Track& t, std::size_t n) { return t.simulated[n] * (t.drive[n] - mean_drive); }));
+  }
+  const auto less = [](Columns columns, Panel::Column without) {
+    std::erase(columns, without);
+    return columns;
+  };
+  const auto contrast = [&](ContrastKind kind, const Columns& signatures, const Columns& without,
+                            Panel::Null null = Panel::Null::shift) {
+    if (std::optional<Contrast> found = panel.partial(kind, signatures, without, null)) {
+      result.push_back(std::move(*found));
+    }
+  };
+  using Kind = ContrastKind;
+
+  contrast(Kind::force_travel, {soft}, base + Columns{stretch, play, later, a});
+  contrast(Kind::force_delay, {later}, base + Columns{stretch, a});
+  contrast(Kind::acceleration, {a}, base + Columns{stretch, later});
+  contrast(Kind::mean_force, {one}, less(base, one) + Columns{sided}, Panel::Null::flip);
+  contrast(Kind::stiffness, {x}, less(base, x) + Columns{a, later, stretch});
+  contrast(Kind::stiffness_bend, {x2}, base + Columns{a, sided, limit});
+  contrast(Kind::stiffness_cubic, {x3}, base + Columns{x2, a, sign, later});
+  contrast(Kind::direction, {sided}, base + Columns{x2, a});
+  contrast(Kind::one_sided_limit, {limit}, base + Columns{x2, a, sided});
+  contrast(Kind::dry_friction, {sign}, base + Columns{stretch, a, later, vv});
+  contrast(Kind::low_speed, {stribeck}, base + Columns{stretch, sign, a, later, vv});
+  contrast(Kind::viscous, {v}, less(base, v) + Columns{a, sign, vv, stretch});
+  contrast(Kind::speed_bend, {vv}, base + Columns{a, sign, stretch});
+
+  Columns at_ends;
+  for (const double end : ends) {
+    const auto up = [=](const Track& t, std::size_t n) { return std::max(t.x[n] - centre - end * half, 0.0); };
+    const auto low = [=](const Track& t, std::size_t n) { return std::min(t.x[n] - centre + end * half, 0.0); };
+    at_ends.push_back(add(up));
+    at_ends.push_back(add(low));
+    at_ends.push_back(add([=](const Track& t, std::size_t n) { return up(t, n) + low(t, n); }));
+  }
+  contrast(Kind::stroke_end, at_ends, base + Columns{x2, a, sided});
+
+  Columns in_middle;
+  for (const double middle : middles) {
+    in_middle.push_back(add([=](const Track& t, std::size_t n) {
+      const double relative = (t.x[n] - centre) / (middle * half);
+      return -t.simulated[n] * std::exp(-relative * relative);
+    }));
+  }
+  contrast(Kind::middle_loss, in_middle, base + Columns{vv, a, sign, stretch});
+
+  Columns second;
+  for (const double yield : yields) {
+    const std::vector<Values> z = hystereses(tracks, yield * half);
+    second.push_back(
+        add([&](const Track& t, std::size_t n) { return z[static_cast<std::size_t>(&t - tracks.data())][n]; }));
+  }
+  contrast(Kind::pre_yield, second, base + Columns{stretch, sign, a, vv});
+}
+
+}  // namespace hysteron::contrast

@@ -1,0 +1,149 @@
+#include "diagnose/residual/contrast_parts.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "core/random.hpp"
+
+namespace hysteron::contrast {
+namespace {
+
+// A recording holds the motion if its weight is this share of the mean one.
+constexpr double least_weight = 0.1;
+constexpr std::size_t fewest_recordings = 3;
+// A recording with more of the weight than this is nearly all there is.
+constexpr double most_weight = 0.9;
+// Of the value: standard errors below it are those of rounding.
+constexpr double least_error = 1e-6;
+constexpr double margin = 0.08;           // of a recording, that a shift stays away from none at all
+constexpr double margin_of_period = 0.1;  // of a period, that it stays away from a multiple of one
+constexpr std::uint32_t tries = 16;
+
+// Squared standard error of the weighted mean by leaving out one part after the other, the most that is left out being
+// `most_weight`.
+double jackknife(std::span<const Part> parts, double value, double total) {
+  double sum = 0.0;
+  for (const Part& part : parts) {
+    const double rest = std::max(total - part.weight, (1.0 - most_weight) * total);
+    const double change = part.weight * (part.value - value) / rest;
+    sum += change * change;
+  }
+  const auto count = static_cast<double>(parts.size());
+  return sum * (count - 1.0) / count;
+}
+
+const Stream& stream() {
+  static const Stream result = Stream(1).child("contrast");
+  return result;
+}
+
+}  // namespace
+
+std::size_t placebo_shift(std::size_t placebo, std::size_t recording, std::size_t size, double period) {
+  const auto counted = static_cast<double>(size);
+  double shift = 0.5 * counted;
+  for (std::uint32_t k = 0; k < tries; ++k) {
+    shift =
+        (margin + (1.0 - 2.0 * margin) * stream().uniform(placebo, static_cast<std::uint32_t>(recording), k)) * counted;
+    const double cycles = period > 0.0 ? shift / period : 0.5;
+    if (std::fabs(cycles - std::round(cycles)) >= margin_of_period) {
+      break;
+    }
+  }
+  return std::min(static_cast<std::size_t>(shift), size > 0 ? size - 1 : 0);
+}
+
+double placebo_sign(std::size_t placebo, std::size_t recording, std::size_t part) {
+  static const Stream signs = stream().child("sign");
+  return signs.uniform(placebo, static_cast<std::uint32_t>(recording), static_cast<std::uint32_t>(part)) < 0.5 ? -1.0
+                                                                                                               : 1.0;
+}
+
+std::optional<Contrast> pooled(ContrastKind kind, std::span<const Part> recordings, std::span<const Part> blocks) {
+  double total = 0.0;
+  double sum = 0.0;
+  double heaviest = 0.0;
+  for (const Part& part : recordings) {
+    total += part.weight;
+    sum += part.weight * part.value;
+    heaviest = std::max(heaviest, part.weight);
+  }
+  if (!(total > 0.0) || !std::isfinite(total) || !std::isfinite(sum)) {
+    return std::nullopt;
+  }
+  Contrast result;
+  result.kind = kind;
+  result.what = card_of(kind).what;
+  result.unit = card_of(kind).unit;
+  result.value = sum / total;
+  std::size_t agreeing = 0;
+  std::vector<Part> holding;
+  for (const Part& part : recordings) {
+    if (part.weight > least_weight * total / static_cast<double>(recordings.size())) {
+      holding.push_back(part);
+      result.of_recordings.push_back({part.recording, part.value});
+      agreeing += part.value * result.value > 0.0 ? 1 : 0;
+    }
+  }
+  result.recordings = holding.size();
+  result.consistency = static_cast<double>(agreeing) / static_cast<double>(holding.size());
+  const bool by_recordings = holding.size() >= fewest_recordings && heaviest <= most_weight * total;
+  const std::span<const Part> clusters = by_recordings ? std::span<const Part>(holding) : blocks;
+  if (clusters.size() < 2) {
+    return std::nullopt;
+  }
+  result.std_error =
+      std::max(std::sqrt(jackknife(clusters, result.value, total)), least_error * std::fabs(result.value));
+  result.z = result.std_error > 0.0 ? result.value / result.std_error : 0.0;
+  if (!std::isfinite(result.value) || !std::isfinite(result.std_error) || !std::isfinite(result.z)) {
+    return std::nullopt;
+  }
+  return result;
+}
+
+namespace {
+
+std::vector<Part> recordings_of(std::span<const Event> events, std::vector<Part>* blocks) {
+  std::map<std::size_t, std::pair<double, double>> sums;
+  for (const Event& event : events) {
+    sums[event.recording].first += 1.0;
+    sums[event.recording].second += event.value;
+  }
+  std::vector<Part> result;
+  for (const auto& [recording, sum] : sums) {
+    result.push_back({recording, 1.0, sum.second / sum.first});
+  }
+  for (const Event& event : events) {
+    if (blocks != nullptr) {
+      blocks->push_back({event.recording, 1.0 / sums[event.recording].first, event.value});
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+std::optional<Contrast> pooled(ContrastKind kind, std::span<const Event> events) {
+  std::vector<Part> blocks;
+  const std::vector<Part> recordings = recordings_of(events, &blocks);
+  return pooled(kind, recordings, blocks);
+}
+
+double mean_of(std::span<const Event> events) {
+  double sum = 0.0;
+  const std::vector<Part> recordings = recordings_of(events, nullptr);
+  for (const Part& part : recordings) {
+    sum += part.value;
+  }
+  return recordings.empty() ? 0.0 : sum / static_cast<double>(recordings.size());
+}
+
+void judge(Contrast& contrast, double size, std::span<const double> of_placebos) {
+  contrast.placebos = of_placebos.size();
+  const auto below = std::ranges::count_if(of_placebos, [&](double other) { return other < size; });
+  contrast.placebo_quantile =
+      of_placebos.empty() ? 0.0 : static_cast<double>(below) / static_cast<double>(of_placebos.size());
+}
+
+}  // namespace hysteron::contrast

@@ -1,0 +1,55 @@
+// What the contrasts share: how values of recordings become one with a standard error, and placebos.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "diagnose/residual/contrast.hpp"
+#include "diagnose/residual/contrast_track.hpp"
+
+namespace hysteron::contrast {
+
+constexpr std::size_t placebos = 199;
+
+// What a placebo does to the samples of a residual: `by` samples of a circle of `size` on, in time.
+// By golden sections over the draws, at random from recording to recording; never near a multiple of `period`, in
+// samples, as far as that leaves a choice.
+std::size_t placebo_shift(std::size_t placebo, std::size_t recording, std::size_t size, double period);
+// 1 or -1, at random for each placebo, recording and part of it.
+double placebo_sign(std::size_t placebo, std::size_t recording, std::size_t part);
+
+// A value with its weight, of a recording or of a part of one.
+struct Part {
+  std::size_t recording = 0;
+  double weight = 0.0;
+  double value = 0.0;
+};
+
+// The weighted mean of the recordings' values. Its standard error is the jackknife over recordings where three or more
+// hold the motion and none has nearly all the weight, else over `blocks`, parts of recordings. Empty where there are
+// fewer than two of either.
+std::optional<Contrast> pooled(ContrastKind kind, std::span<const Part> recordings, std::span<const Part> blocks);
+
+// Events of single recordings: each recording has the mean of its own.
+struct Event {
+  std::size_t recording = 0;
+  double value = 0.0;
+};
+std::optional<Contrast> pooled(ContrastKind kind, std::span<const Event> events);
+// The mean over recordings of the mean of their events; 0 for none.
+double mean_of(std::span<const Event> events);
+
+// Enters the share of placebos whose size is below that of what was found.
+void judge(Contrast& contrast, double size, std::span<const double> of_placebos);
+
+// The contrasts, by subject; each adds those whose motion is there.
+void add_rest_contrasts(std::span<const Track> tracks, std::vector<Contrast>& result);
+void add_reversal_contrasts(std::span<const Track> tracks, std::vector<Contrast>& result);
+void add_motion_contrasts(std::span<const Track> tracks, std::vector<Contrast>& result);
+void add_slow_contrasts(std::span<const Track> tracks, std::vector<Contrast>& result);
+void add_drive_contrasts(std::span<const Track> tracks, std::vector<Contrast>& result);
+void add_channel_contrasts(std::span<const Track> tracks, std::vector<Contrast>& result);
+
+}  // namespace hysteron::contrast

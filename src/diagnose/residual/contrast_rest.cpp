@@ -1,0 +1,131 @@
+// Where the motion stops and stays: relaxation of the force. Where it goes on after a pause: what the pause gave back.
+#include <algorithm>
+#include <cmath>
+
+#include "diagnose/residual/contrast_parts.hpp"
+
+namespace hysteron::contrast {
+namespace {
+
+// Seconds after the stop: the force early, after any lag of channels, and late, in the last part of at most a second.
+constexpr double early_from = 0.01;
+constexpr double early_to = 0.05;
+constexpr double late_from = 0.15;
+constexpr double late_to = 1.0;
+constexpr double late_part = 0.5;  // of what is there, if that is later
+
+double mean_between(const Track& track, const Values& values, const Hold& hold, std::size_t shift, double from,
+                    double to) {
+  const std::size_t first = hold.samples.first;
+  const std::size_t size = hold.samples.end - first;
+  double sum = 0.0;
+  double count = 0.0;
+  for (std::size_t n = 0; n < size; ++n) {
+    const double since = track.time[first + n] - track.time[first];
+    if (since >= from && since <= to) {
+      sum += values[first + (n + shift) % size];
+      count += 1.0;
+    }
+  }
+  return count > 0.0 ? sum / count : 0.0;
+}
+
+// What relaxes, as a share of the peak force, of a residual that is moved within the hold.
+double relaxation(const Track& track, const Hold& hold, std::size_t shift) {
+  const double length = std::min(track.time[hold.samples.end - 1] - track.time[hold.samples.first], late_to);
+  const double early = mean_between(track, track.missing, hold, shift, early_from, early_to);
+  const double late = mean_between(track, track.missing, hold, shift, std::max(late_from, late_part * length), length);
+  return hold.direction * (early - late) / track.peak;
+}
+
+std::vector<Event> relaxations(std::span<const Track> tracks, std::optional<std::size_t> placebo) {
+  std::vector<Event> result;
+  for (const Track& track : tracks) {
+    for (std::size_t k = 0; k < track.holds.size(); ++k) {
+      const Hold& hold = track.holds[k];
+      if (hold.direction == 0.0) {
+        continue;
+      }
+      std::size_t shift = 0;
+      double sign = 1.0;
+      if (placebo) {
+        shift = placebo_shift(*placebo, 1000 * track.recording + k, hold.samples.end - hold.samples.first, 0.0);
+        sign = placebo_sign(*placebo, track.recording, k);
+      }
+      result.push_back({track.recording, sign * relaxation(track, hold, shift)});
+    }
+  }
+  return result;
+}
+
+// Least pause in s, and half-cycles before and after it that are compared.
+constexpr double least_pause = 1.0;
+constexpr std::size_t compared = 2;
+
+// Factor of the simulated force that each half-cycle lacks.
+Values gains_of(const Track& track) {
+  Values result;
+  for (const Stretch& part : track.half_cycles) {
+    double product = 0.0;
+    double square = 0.0;
+    for (std::size_t n = part.first; n < part.end; ++n) {
+      product += track.missing[n] * track.simulated[n];
+      square += track.simulated[n] * track.simulated[n];
+    }
+    result.push_back(square > 0.0 ? product / square : 0.0);
+  }
+  return result;
+}
+
+std::vector<Event> recoveries(std::span<const Track> tracks, std::optional<std::size_t> placebo) {
+  std::vector<Event> result;
+  for (const Track& track : tracks) {
+    Values gains;
+    for (const Hold& hold : track.holds) {
+      if (track.time[hold.samples.end - 1] - track.time[hold.samples.first] < least_pause) {
+        continue;
+      }
+      // Number of half-cycles that are over, and of the first that begins after the pause.
+      std::size_t before = 0;
+      std::size_t after = 0;
+      for (const Stretch& part : track.half_cycles) {
+        before += part.end <= hold.samples.first ? 1 : 0;
+        after += part.first < hold.samples.end ? 1 : 0;
+      }
+      if (before < compared || after + compared > track.half_cycles.size()) {
+        continue;
+      }
+      if (gains.empty()) {
+        gains = gains_of(track);
+      }
+      const std::size_t shift = placebo ? placebo_shift(*placebo, track.recording, gains.size(), 0.0) : 0;
+      double change = 0.0;
+      for (std::size_t k = 0; k < compared; ++k) {
+        change += gains[(after + k + shift) % gains.size()] - gains[(before - 1 - k + shift) % gains.size()];
+      }
+      result.push_back({track.recording, change / static_cast<double>(compared)});
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+void add_rest_contrasts(std::span<const Track> tracks, std::vector<Contrast>& result) {
+  const auto add = [&](ContrastKind kind, auto&& events_of) {
+    std::optional<Contrast> found = pooled(kind, events_of(tracks, std::nullopt));
+    if (!found) {
+      return;
+    }
+    Values sizes;
+    for (std::size_t p = 0; p < placebos; ++p) {
+      sizes.push_back(std::fabs(mean_of(events_of(tracks, std::optional(p)))));
+    }
+    judge(*found, std::fabs(found->value), sizes);
+    result.push_back(std::move(*found));
+  };
+  add(ContrastKind::rest_relaxation, relaxations);
+  add(ContrastKind::pause_recovery, recoveries);
+}
+
+}  // namespace hysteron::contrast
