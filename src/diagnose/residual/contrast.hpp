@@ -53,11 +53,13 @@ struct Contrast {
   ContrastKind kind{};
   std::string_view what;  // "travel without force after a reversal"
   double value = 0.0;
-  double std_error = 0.0;  // over recordings where three or more hold the motion, else over half-cycles
+  double std_error = 0.0;  // over half-cycles; over recordings where three or more hold the motion and it is larger
   std::string_view unit;
-  std::size_t recordings = 0;     // that hold the motion it needs
-  double consistency = 0.0;       // share of these whose own value has the sign of `value`
-  double z = 0.0;                 // value / std_error; with few recordings as wide as Student's t of as many less one
+  std::size_t recordings = 0;  // that hold the motion it needs
+  double consistency = 0.0;    // share of these whose own value has the sign of `value`
+  // value / std_error, Student's t of as many degrees of freedom as there are recordings (with fewer than three, half-
+  // cycles) less one, as the standard normal's value that is as rare: comparable between few and many.
+  double z = 0.0;
   double placebo_quantile = 0.0;  // share of the placebos whose size is below that of the value
   std::size_t placebos = 0;       // how many there were
   std::vector<ContrastOfRecording> of_recordings;

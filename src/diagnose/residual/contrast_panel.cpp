@@ -12,7 +12,8 @@ constexpr double fewest_rows_of_cycle = 40.0;  // unless there are fewer samples
 // Share of a signature's square that the other columns must leave.
 constexpr double least_left = 3e-3;
 constexpr double rank_tolerance = 1e-9;
-constexpr std::size_t many_recordings = 7;
+// Recordings of equal weight from which on their signs alone make enough placebos.
+constexpr double fewest_flips = 7.0;
 
 }  // namespace
 
@@ -186,7 +187,7 @@ std::optional<Contrast> Panel::partial(ContrastKind kind, std::span<const Column
   for (const Left& left : lefts) {
     double score = 0.0;
     for (std::size_t n = 0; n < weight_.size(); ++n) {
-      score += left.weighted[n] * response_[n];
+      score += left.weighted[n] * response_[n];  // `weighted` is orthogonal to all that is left out
     }
     if (explained(score, left) > most) {
       most = explained(score, left);
@@ -239,6 +240,7 @@ std::optional<Contrast> Panel::partial(ContrastKind kind, std::span<const Column
   if (!result) {
     return std::nullopt;
   }
+  const bool whole = effective_number(recordings) >= fewest_flips;
   Values of_placebos;
   for (std::size_t p = 0; p < placebos; ++p) {
     double largest = 0.0;
@@ -248,21 +250,21 @@ std::optional<Contrast> Panel::partial(ContrastKind kind, std::span<const Column
         const std::size_t first = rows_[k].first;
         const std::size_t end = rows_[k].end;
         if (null == Null::flip) {
-          const bool whole = tracks_.size() >= many_recordings;
           for (std::size_t n = first; n < end; ++n) {
-            score += placebo_sign(p, k, whole ? 0 : block_[n]) * left.weighted[n] * response_[n];
+            score += placebo_sign(p, k, whole ? 0 : block_[n]) * left.weighted[n] * left_response[n];
           }
           continue;
         }
         const std::size_t shift = placebo_shift(p, k, end - first, period_[k]);
         double sum = 0.0;
         for (std::size_t n = first; n < end - shift; ++n) {
-          sum += left.weighted[n] * response_[n + shift];
+          sum += left.weighted[n] * left_response[n + shift];
         }
         for (std::size_t n = end - shift; n < end; ++n) {
-          sum += left.weighted[n] * response_[n + shift - (end - first)];
+          sum += left.weighted[n] * left_response[n + shift - (end - first)];
         }
-        score += sum;
+        // A shift within a recording leaves its mean; the sign does not.
+        score += placebo_sign(p, k, 0) * sum;
       }
       largest = std::max(largest, explained(score, left));
     }

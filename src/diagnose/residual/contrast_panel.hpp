@@ -27,7 +27,7 @@ class Panel {
 
   enum class Null {
     shift,  // the response is shifted in time
-    flip,   // it changes its sign, by recordings where there are seven or more, else by half-cycles
+    flip,   // it changes its sign, by recordings where seven or more share the weight, else by half-cycles
   };
   // Of the signatures the one that explains most, which placebos choose for themselves too. Empty where the others
   // leave nothing of it, or no motion is there.

@@ -27,10 +27,11 @@ struct Part {
   double value = 0.0;
 };
 
-// The weighted mean of the recordings' values. Its standard error is the jackknife over recordings where three or more
-// hold the motion and none has nearly all the weight, else over `blocks`, parts of recordings. Empty where there are
-// fewer than two of either.
+// The weighted mean of the recordings' values. Its standard error is that over `blocks`, parts of recordings, and where
+// three or more recordings hold the motion that over recordings if it is larger. Empty where there are not two blocks.
 std::optional<Contrast> pooled(ContrastKind kind, std::span<const Part> recordings, std::span<const Part> blocks);
+// How many parts of equal weight would be worth as much: (sum w)^2 / sum w^2.
+double effective_number(std::span<const Part> parts);
 
 // Events of single recordings: each recording has the mean of its own.
 struct Event {

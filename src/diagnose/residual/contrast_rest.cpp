@@ -7,12 +7,24 @@
 namespace hysteron::contrast {
 namespace {
 
-// Seconds after the stop: the force early, after any lag of channels, and late, in the last part of at most a second.
-constexpr double early_from = 0.01;
-constexpr double early_to = 0.05;
-constexpr double late_from = 0.15;
-constexpr double late_to = 1.0;
-constexpr double late_part = 0.5;  // of what is there, if that is later
+// Seconds after the stop: the force once any lag of the channels is over, and later.
+constexpr double early_from = 0.005;
+constexpr double early_to = 0.02;
+constexpr double late_from = 0.08;
+constexpr double late_to = 0.2;
+// A path this many times the net displacement, and of this share of the stroke, is noise of the recorded displacement:
+// the hysteresis of a base model relaxes on it as no damper does. What it does then is not subtracted.
+constexpr double jitter = 2.0;
+constexpr double least_jitter = 3e-3;
+
+bool jitters(const Track& track, const Hold& hold) {
+  double path = 0.0;
+  std::size_t n = hold.samples.first;
+  for (; n + 1 < hold.samples.end && track.time[n] - track.time[hold.samples.first] < late_to; ++n) {
+    path += std::fabs(track.v[n]) * (track.time[n + 1] - track.time[n]);
+  }
+  return path > std::max(least_jitter * track.stroke, jitter * std::fabs(track.x[n] - track.x[hold.samples.first]));
+}
 
 double mean_between(const Track& track, const Values& values, const Hold& hold, std::size_t shift, double from,
                     double to) {
@@ -32,9 +44,9 @@ double mean_between(const Track& track, const Values& values, const Hold& hold, 
 
 // What relaxes, as a share of the peak force, of a residual that is moved within the hold.
 double relaxation(const Track& track, const Hold& hold, std::size_t shift) {
-  const double length = std::min(track.time[hold.samples.end - 1] - track.time[hold.samples.first], late_to);
-  const double early = mean_between(track, track.missing, hold, shift, early_from, early_to);
-  const double late = mean_between(track, track.missing, hold, shift, std::max(late_from, late_part * length), length);
+  const Values& force = jitters(track, hold) ? track.force : track.missing;
+  const double early = mean_between(track, force, hold, shift, early_from, early_to);
+  const double late = mean_between(track, force, hold, shift, late_from, late_to);
   return hold.direction * (early - late) / track.peak;
 }
 

@@ -12,7 +12,7 @@
 namespace hysteron::contrast {
 namespace {
 
-constexpr double narrow = 0.04;  // of the peak force, half width of the inner band
+constexpr double narrow = 0.08;  // of the peak force, half width of the inner band
 constexpr double widest = 0.12;
 constexpr double over_noise = 4.0;  // standard deviations of the noise that the inner band has
 constexpr double ratio = 3.0;       // of the outer band to the inner
