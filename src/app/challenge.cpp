@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -34,6 +35,8 @@ struct Options {
   std::vector<std::string> data;  // recordings to hide effects in; empty: simulated campaigns
   std::string model;
   std::string by_current;
+  std::vector<double> sizes = {0.3, 1.0, 3.0};
+  int placebos = -1;  // 60, or none where effects are named
   int campaigns = 300;
   std::vector<std::string> levels;
   std::vector<std::string> effects;
@@ -62,52 +65,65 @@ std::string last_line(const std::filesystem::path& path) {
   return begin == std::string::npos ? text : text.substr(begin + 1);
 }
 
-// `hysteron diagnose` as a process of its own: a diagnosis sees the folder of recordings and nothing else, and one that
-// dies takes no other with it.
+// This program as a process of its own; a WorkError with its last message when it fails.
+void run_self(std::vector<std::string> words, const std::filesystem::path& messages, const std::string& what) {
+  words.insert(words.begin(), "hysteron");
+  std::vector<char*> arguments;
+  arguments.reserve(words.size() + 1);
+  for (std::string& word : words) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+  posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, messages.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
+  pid_t child = 0;
+  const int started = posix_spawn(&child, "/proc/self/exe", &actions, nullptr, arguments.data(), environ);
+  posix_spawn_file_actions_destroy(&actions);
+  if (started != 0) throw WorkError("cannot start " + what);
+  int status = 0;
+  bool told = false;
+  while (waitpid(child, &status, WNOHANG) == 0) {
+    if (interrupted() && !told) {
+      kill(child, SIGTERM);
+      told = true;
+    }
+    usleep(20000);
+  }
+  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
+    throw WorkError(WIFEXITED(status) ? last_line(messages) : "ended by signal " + std::to_string(WTERMSIG(status)));
+  }
+}
+
+// A diagnosis sees the folder of recordings and nothing else, and one that dies takes no other with it.
 challenge::Diagnose diagnose_by_process(const Options& options) {
   return [options](const std::filesystem::path& data, const std::filesystem::path& out) {
-    const std::filesystem::path messages = out / "messages.txt";
-    std::vector<std::string> words = {"hysteron",
-                                      "diagnose",
-                                      data.string(),
-                                      "--out",
-                                      out.string(),
-                                      "--seed",
-                                      std::to_string(options.seed),
-                                      "--threads",
-                                      std::to_string(options.threads)};
-    std::vector<char*> arguments;
-    arguments.reserve(words.size() + 1);
-    for (std::string& word : words) arguments.push_back(word.data());
-    arguments.push_back(nullptr);
-    posix_spawn_file_actions_t actions;
-    posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-    posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, messages.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
-    pid_t child = 0;
-    const int started = posix_spawn(&child, "/proc/self/exe", &actions, nullptr, arguments.data(), environ);
-    posix_spawn_file_actions_destroy(&actions);
-    if (started != 0) throw WorkError("cannot start the diagnosis of " + data.string());
-    int status = 0;
-    bool told = false;
-    while (waitpid(child, &status, WNOHANG) == 0) {
-      if (interrupted() && !told) {
-        kill(child, SIGTERM);
-        told = true;
-      }
-      usleep(20000);
-    }
-    if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
-      throw WorkError(WIFEXITED(status) ? last_line(messages) : "ended by signal " + std::to_string(WTERMSIG(status)));
-    }
+    run_self({"diagnose", data.string(), "--out", out.string(), "--seed", std::to_string(options.seed), "--threads",
+              std::to_string(options.threads)},
+             out / "messages.txt", "the diagnosis of " + data.string());
     if (!std::filesystem::exists(out / "diagnosis.json")) throw WorkError("no diagnosis.json was written");
+  };
+}
+
+// What the base law, fitted to the recordings, leaves of their force.
+challenge::BaseResidual residual_by_process(const Options& options) {
+  return [options](const std::filesystem::path& data) {
+    const std::filesystem::path out = std::filesystem::path(options.out) / "base";
+    std::filesystem::create_directories(out);
+    run_self({"fit", data.string(), "--out", out.string(), "--seed", std::to_string(options.seed), "--threads",
+              std::to_string(options.threads)},
+             out / "messages.txt", "the fit of " + data.string());
+    const nlohmann::json fit = nlohmann::json::parse(read_file(out / "fit.json"));
+    double squares = 0.0;
+    const nlohmann::json& rows = fit.at("recordings");
+    for (const nlohmann::json& row : rows) squares += std::pow(row.at("rmse_n").get<double>(), 2.0);
+    return std::sqrt(squares / static_cast<double>(rows.size()));
   };
 }
 
 // What is hidden in recordings of a real damper: what --effect names, else everything that can be, and the placebos.
 struct Hidden {
   Campaign campaign;
-  std::vector<std::string> ids;
+  std::vector<challenge::HideTask> tasks;
 };
 
 Hidden hidden_of(const Options& options) {
@@ -117,15 +133,16 @@ Hidden hidden_of(const Options& options) {
   if (!options.model.empty()) campaign.model = options.model;
   if (campaign.model.empty()) campaign.model = "bouc-wen";
   if (!options.by_current.empty()) campaign.by_current = parse_orders("--by-current", options.by_current);
-  std::vector<std::string>& ids = result.ids;
-  ids = options.effects;
+  std::vector<std::string> ids = options.effects;
   for (const std::string& id : ids) challenge::check_hideable(id);
   if (ids.empty()) {
-    ids.assign(challenge::hideable().begin(), challenge::hideable().end());
-    for (const std::string_view id : challenge::placebos()) {
-      if (id != "shuffled-drive" || !campaign.recordings.front().drive.empty()) ids.emplace_back(id);
+    // Most laws have an offset of their own.
+    for (const std::string_view id : challenge::hideable()) {
+      if (id != "offset-force") ids.emplace_back(id);
     }
   }
+  const int placebo_count = options.placebos >= 0 ? options.placebos : options.effects.empty() ? 60 : 0;
+  result.tasks = challenge::hide_tasks(ids, options.sizes, placebo_count, campaign);
   return result;
 }
 
@@ -188,8 +205,9 @@ void run(const Options& options) {
       line.show(stage, share, detail);
     };
     if (!options.score_only) {
-      hash = hidden ? challenge::hide_all(out, hiding->campaign, hiding->ids, options.seed)
-                    : challenge::make_all(out, tasks, options.seed, steps);
+      hash = hidden
+                 ? challenge::hide_all(out, hiding->campaign, hiding->tasks, options.seed, residual_by_process(options))
+                 : challenge::make_all(out, tasks, options.seed, steps);
       line.finish();
       fmt::print("sha256 of the sealed answers: {}\n", hash);
       std::fflush(stdout);
@@ -217,6 +235,18 @@ void add_challenge(CLI::App& program) {
       ->needs(data);
   command->add_option("--by-current", options->by_current, "laws of its parameters in the drive, with --in")
       ->needs(data);
+  command
+      ->add_option(
+          "--sizes", options->sizes,
+          "with --in: RMS of the hidden change of force over what the fitted base law leaves; 0: 0.1 to 0.3 of "
+          "the force, drawn")
+      ->delimiter(',')
+      ->check(CLI::Range(0.0, 100.0))
+      ->capture_default_str()
+      ->needs(data);
+  command->add_option("--placebos", options->placebos, "with --in: number of placebos; default 60, none with --effect")
+      ->check(CLI::Range(0, 9000))
+      ->needs(data);
   command->add_option("--campaigns", options->campaigns, "number of campaigns")
       ->transform(whole_number(1, 9999))
       ->capture_default_str();
@@ -225,7 +255,8 @@ void add_challenge(CLI::App& program) {
                    "only these levels: plain, buried, absorbed, pairs, wrong-base, foreign, beside, none, unexcited")
       ->delimiter(',')
       ->excludes(data);
-  command->add_option("--effect", options->effects, "only these effects")->delimiter(',');
+  command->add_option("--effect", options->effects, "only these effects; with --in several at once as A+B")
+      ->delimiter(',');
   command->add_option("--forms", options->choice.only, "only these forms of the effects, as EFFECT/FORM")
       ->delimiter(',')
       ->excludes(data);
@@ -259,7 +290,9 @@ void add_challenge(CLI::App& program) {
       "  hysteron challenge --out challenge --campaigns 300 --seed 1\n"
       "  hysteron challenge --out some --campaigns 10 --level plain --effect clearance,inertia --generate-only\n"
       "  hysteron challenge --out challenge --score-only --forms clearance/hertz,inertia/entrained\n"
-      "  hysteron challenge --in recordings/ --model bouc-wen --by-current alpha:1,c0:1 --out hidden");
+      "  hysteron challenge --in recordings/ --model bouc-wen --by-current alpha:1,c0:1 --out hidden\n"
+      "  hysteron challenge --in recordings/ --effect inertia,asymmetry+compliance --sizes 1,3 --placebos 20 --out "
+      "hidden");
   command->callback([options] { run(*options); });
 }
 

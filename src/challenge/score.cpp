@@ -5,29 +5,13 @@
 #include <set>
 #include <vector>
 
+#include "challenge/claims.hpp"
 #include "challenge/place.hpp"
 
 namespace hysteron::challenge {
 namespace {
 
 using nlohmann::json;
-using Names = std::set<std::string>;
-
-Names names_in(const json& list) {
-  Names names;
-  for (const json& name : list) names.insert(name.get<std::string>());
-  return names;
-}
-
-bool meet(const Names& a, const Names& b) {
-  return std::ranges::any_of(a, [&](const std::string& name) { return b.contains(name); });
-}
-
-// A number of a member that may be missing or null.
-json number_of(const json& object, const char* key) {
-  if (!object.is_object() || !object.contains(key) || !object.at(key).is_number()) return nullptr;
-  return object.at(key);
-}
 
 struct Causes {
   Names known;       // of the catalogue, whether they can be seen or not
@@ -53,76 +37,6 @@ Causes causes_of(const json& answer) {
     if (detectable) causes.detectable.insert(id);
   }
   return causes;
-}
-
-// Grades of the schema hysteron.diagnosis/2; schema 1 has names without a grade.
-enum class Grade { established, supported, suggested, ungraded };
-
-Grade grade_of(const json& effect, bool suggestion) {
-  if (suggestion) return Grade::suggested;
-  const std::string word = effect.value("grade", "");
-  if (word == "established") return Grade::established;
-  if (word == "supported") return Grade::supported;
-  return word == "suggested" ? Grade::suggested : Grade::ungraded;
-}
-
-json word_of(Grade grade) {
-  switch (grade) {
-    case Grade::established:
-      return "established";
-    case Grade::supported:
-      return "supported";
-    case Grade::suggested:
-      return "suggested";
-    case Grade::ungraded:
-      break;
-  }
-  return nullptr;
-}
-
-// One statement of a diagnosis: an id with those it cannot be told from.
-struct Claim {
-  std::string id;
-  Names set;  // with the id
-  Grade grade = Grade::ungraded;
-  bool name = false;  // counts as a name, alone or as a set: supported or better; of schema 1 under missing-physics
-  bool right = false;
-  json confidence;
-};
-
-struct Claims {
-  std::vector<Claim> all;
-  Names definite;           // ids named without a rival
-  std::vector<Names> sets;  // declared sets of candidates
-  Names wrong;              // names, alone or as a set, that hold no accepted cause
-};
-
-Claims claims_of(const json& diagnosis, const Names& accepted) {
-  Claims claims;
-  const bool asserted = diagnosis.at("verdict") == "missing-physics";
-  const auto add = [&](const json& effect, bool suggestion) {
-    Claim claim;
-    claim.id = effect.at("id").get<std::string>();
-    claim.set = names_in(effect.value("indistinguishable_from", json::array()));
-    const bool alone = claim.set.empty();
-    claim.set.insert(claim.id);
-    claim.grade = grade_of(effect, suggestion);
-    claim.name = claim.grade == Grade::ungraded ? asserted : claim.grade != Grade::suggested;
-    claim.right = meet(claim.set, accepted);
-    claim.confidence = number_of(effect, "confidence");
-    if (claim.grade != Grade::suggested) {
-      if (alone && claim.name) {
-        claims.definite.insert(claim.id);
-      } else {
-        claims.sets.push_back(claim.set);
-      }
-    }
-    if (claim.name && !claim.right) claims.wrong.insert(claim.id);
-    claims.all.push_back(std::move(claim));
-  };
-  for (const json& effect : diagnosis.at("effects")) add(effect, false);
-  for (const json& effect : diagnosis.value("suggestions", json::array())) add(effect, true);
-  return claims;
 }
 
 Outcome outcome_of(const json& answer, const json& diagnosis, const Causes& causes, const Claims& claims) {
@@ -262,17 +176,13 @@ json score_campaign(const json& answer, const json& diagnosis) {
   result["wrong_names"] = claims.wrong;
   result["places"] = places(answer, diagnosis);
   for (const Claim& claim : claims.all) {
-    const bool alone = claim.set.size() == 1;
-    json stated = {{"id", claim.id}, {"confidence", claim.confidence}, {"right", claim.right}};
-    if (alone && claim.name) {
+    const json stated = json_of(claim);
+    if (claim.set.size() == 1 && claim.name) {
       result["named"].push_back(stated);
     } else if (claim.grade != Grade::suggested) {
       result["candidates"].push_back(claim.id);
     }
-    stated["grade"] = word_of(claim.grade);
-    stated["name"] = claim.name;
-    stated["set"] = claim.set;
-    result["answer"].push_back(std::move(stated));
+    result["answer"].push_back(stated);
   }
   result["parameters"] = parameter_errors(answer, diagnosis);
   const json baseline = diagnosis.value("baseline", json::object());

@@ -36,6 +36,13 @@ inline constexpr double place_from = 1.25;
 //  "nrmse_heldout_after","floor","share_of_peak","left_over_noise"}
 [[nodiscard]] nlohmann::json score_campaign(const nlohmann::json& answer, const nlohmann::json& diagnosis);
 
+// Stated probability against frequency, bin by bin, of the statements in the "answer" of every campaign: names and
+// suggestions together, a set right where it holds a cause. [{"from","to","right":rate,"mean_confidence"}]
+[[nodiscard]] nlohmann::json reliability_of(const nlohmann::json& campaigns);
+
+// {"hits","trials","rate","low95","high95"}, bounds of Clopper and Pearson.
+[[nodiscard]] nlohmann::json rate_of(int hits, int trials);
+
 // Rates with Clopper-Pearson bounds over all, per level, effect and size; confusion matrix; reliability of the stated
 // confidence; parameter errors; held-out errors. `campaigns`: what score_campaign gave.
 [[nodiscard]] nlohmann::json summarise(const nlohmann::json& campaigns);

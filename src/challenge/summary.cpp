@@ -218,6 +218,12 @@ json places(const json& campaigns) {
 
 }  // namespace
 
+json rate_of(int hits, int trials) { return rate(hits, trials); }
+
+json reliability_of(const json& campaigns) {
+  return reliability(campaigns, [](const json&) { return true; });
+}
+
 json summarise(const json& campaigns) {
   const auto of_level = [](const std::string& level) {
     return [level](const json& c) { return c.at("level") == level; };
@@ -291,7 +297,7 @@ json summarise(const json& campaigns) {
              return !id.get<std::string>().starts_with("foreign:");
            });
   });
-  result["reliability"] = reliability(campaigns, [](const json&) { return true; });
+  result["reliability"] = reliability_of(campaigns);
   result["reliability_by_level"] = json::array();
   for (const json& level : result.at("levels")) {
     const std::string name = level.at("level");
