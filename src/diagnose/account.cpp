@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <boost/math/special_functions/gamma.hpp>
 #include <cmath>
 #include <set>
 
@@ -117,12 +116,8 @@ std::vector<Rejected> rejected_of(const Diagnosis& diagnosis) {
     if (is_named(diagnosis.verdict, tried.id) || find_effect(tried.id) == nullptr) {
       continue;
     }
-    const double statistic =
-        diagnosis.search.effective * std::log(std::max(base / (tried.fit.cost * tried.fit.cost), 1.0));
-    const double more = std::max(1.0, static_cast<double>(tried.fit.dimension() - before.dimension()));
     Rejected row;
     row.id = tried.id;
-    row.p = boost::math::gamma_q(0.5 * more, 0.5 * statistic);
     const double share = std::max(0.0, tried.gain) / std::max(base - augmented, 1e-300);
     if (tried.evidence < 0.0) {
       row.reason = "alone it explains no more than the best of so many candidates would by chance";

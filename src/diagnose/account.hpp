@@ -17,7 +17,7 @@ std::string sentence_of(const Diagnosis& diagnosis, const Named& named,
                         const std::vector<ParameterInterval>& parameters);
 
 bool is_named(const Verdict& verdict, const std::string& effect);
-// Effects that were tried and not named, with reasons and p values.
+// Effects that were tried and not named, with reasons.
 std::vector<Rejected> rejected_of(const Diagnosis& diagnosis);
 // A recording that would decide or confirm.
 std::string experiment_after(const Verdict& verdict);

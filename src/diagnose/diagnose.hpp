@@ -27,7 +27,6 @@ struct DiagnoseOptions {
 struct Rejected {
   std::string id;
   std::string reason;
-  double p = 1.0;
 };
 
 struct Diagnosis {

@@ -70,7 +70,7 @@ json diagnosis_json(const Diagnosis& diagnosis) {
   }
   json rejected = json::array();
   for (const Rejected& row : diagnosis.rejected) {
-    rejected.push_back({{"id", row.id}, {"reason", row.reason}, {"p", row.p}});
+    rejected.push_back({{"id", row.id}, {"reason", row.reason}});
   }
   json hidden = json::array();
   for (const Unobservable& row : diagnosis.not_observable) {

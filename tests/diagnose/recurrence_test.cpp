@@ -59,6 +59,52 @@ TEST(Recurrence, NoiseOfAnyColourIsNone) {
   }
 }
 
+// Sines of noise whose neighbours correlate as of a time constant in s, and `size` times the noise of a force that
+// follows the motion.
+Left on_sines(double tau, double size, std::uint64_t seed) {
+  Left result;
+  const Stream stream = Stream(seed);
+  std::uint64_t drawn = 0;
+  for (const double frequency : {0.8, 1.3, 2.1}) {
+    Recording recording = testing::motion("r.csv", {{0.01, frequency}}, 6.0, 1500, 0.2);
+    Residual residual;
+    const double colour = tau > 0.0 ? std::exp(-6.0 / 1499.0 / tau) : 0.0;
+    double noise = stream.normal(drawn++);
+    for (std::size_t n = 0; n < recording.size(); ++n) {
+      const double v = recording.velocity[n];
+      noise = colour * noise + std::sqrt(1.0 - colour * colour) * stream.normal(drawn++);
+      residual.force.push_back(5.0 * noise +
+                               7.0 * size * std::cos(310.0 * recording.displacement[n]) * std::tanh(v / 0.02));
+      recording.force.push_back(1000.0 * std::tanh(v / 0.02) + 500.0 * v - residual.force.back());
+    }
+    result.recordings.push_back(std::move(recording));
+    result.residuals.of.push_back(std::move(residual));
+    result.residuals.norms.push_back(1500.0);
+  }
+  return result;
+}
+
+TEST(Recurrence, OneNoiseInTwentyRecursWithASine) {
+  for (const double tau : {0.0, 0.02, 0.1, 1.0}) {
+    int odd = 0;
+    for (std::uint64_t draw = 1; draw <= 40; ++draw) {
+      odd += recurs(of(on_sines(tau, 0.0, draw))) ? 1 : 0;
+    }
+    // Two are expected of forty; seven or more come once in two hundred times.
+    EXPECT_LT(odd, 7) << tau;
+  }
+}
+
+TEST(Recurrence, WhatRepeatsWithASineIsNotWhatChanceIsMeasuredBy) {
+  // A shift of the whole residual would leave it repeating with the motion, at another phase.
+  for (std::uint64_t draw = 1; draw <= 10; ++draw) {
+    const Recurrence with = of(on_sines(0.02, 0.3, draw));
+    EXPECT_TRUE(recurs(with)) << draw;
+    const Recurrence alone = of(on_sines(0.02, 0.0, draw));
+    EXPECT_LT(with.most_by_chance, 1.5 * alone.most_by_chance) << draw;
+  }
+}
+
 TEST(Recurrence, RecordingsThatDifferByChanceAreNone) {
   const Recurrence found = of(left_of(0.05, 0.5, nothing, 3));
   EXPECT_FALSE(recurs(found));

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "diagnose/residual/shift.hpp"
+#include "diagnose/residual/surrogate.hpp"
 #include "diagnose/signal/features.hpp"
 #include "diagnose/signal/noise.hpp"
 
@@ -66,18 +66,23 @@ void EvennessSum::add(const Recording& recording, const Residual& residual, doub
       tail(recording.displacement), velocity,
       absolute(velocity, 0.0),      force,
       absolute(force, mean),        tail(features_of(recording).since_reversal_time)};
+  const std::vector<std::size_t> blocks = half_cycles(recording, from);
+  const Stream stream = Stream(0).child("evenness").child(added_++);
+  std::array<std::vector<double>, 1 + chances> drawn;
+  drawn[0] = std::move(r);
+  for (std::size_t s = 1; s <= chances; ++s) {
+    drawn[s] = surrogate(drawn[0], blocks, stream.child(s));
+  }
   for (std::size_t i = 0; i < variables; ++i) {
     const std::vector<std::size_t> of = classes_of(motion[i], classes);
     std::array<double, classes> count{};
     for (const std::size_t k : of) {
       count[k] += 1.0;
     }
-    for (std::size_t s = 0; s <= shifts; ++s) {
-      const std::size_t shift = shift_of(s, size);
+    for (std::size_t s = 0; s <= chances; ++s) {
       std::array<double, classes> sum{};
       for (std::size_t n = 0; n < size; ++n) {
-        const double value = r[n + shift < size ? n + shift : n + shift - size];
-        sum[of[n]] += value * value;
+        sum[of[n]] += drawn[s][n] * drawn[s][n];
       }
       for (std::size_t k = 0; k < classes; ++k) {
         squares_[s][i][k] += sum[k] / std::max(count[k], 1.0);
@@ -88,7 +93,7 @@ void EvennessSum::add(const Recording& recording, const Residual& residual, doub
 
 Evenness EvennessSum::result() const {
   Evenness result;
-  for (std::size_t s = 0; s <= shifts; ++s) {
+  for (std::size_t s = 0; s <= chances; ++s) {
     double largest = 0.0;
     for (const std::array<double, classes>& of : squares_[s]) {
       double mean = 0.0;

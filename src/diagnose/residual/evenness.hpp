@@ -1,9 +1,9 @@
 // Whether the size of what a fit leaves follows the motion. Noise, white or coloured, knows nothing of the motion: its
-// size is the same wherever the damper is and however it moves. What a model misses mostly sits somewhere. On a motion
-// that repeats itself some shifts are no shifts: there the test is weak, and the cycles tell the noise.
+// size is the same wherever the damper is and however it moves. What a model misses mostly sits somewhere.
 #pragma once
 
 #include <array>
+#include <cstdint>
 
 #include "diagnose/residual/residuals.hpp"
 
@@ -13,7 +13,7 @@ namespace hysteron {
 // velocity, the force, their sizes, and the time since reversal, relative to that of the whole; the largest of these.
 struct Evenness {
   double deviation = 0.0;
-  double by_chance = 0.0;  // the most of nineteen residuals that are shifted against the motion
+  double by_chance = 0.0;  // the most of nineteen surrogates (surrogate.hpp)
 };
 
 class EvennessSum {
@@ -23,10 +23,11 @@ class EvennessSum {
   [[nodiscard]] Evenness result() const;
 
  private:
-  static constexpr std::size_t shifts = 19;
+  static constexpr std::size_t chances = 19;
   static constexpr std::size_t variables = 6;
   static constexpr std::size_t classes = 5;
-  std::array<std::array<std::array<double, classes>, variables>, 1 + shifts> squares_{};
+  std::array<std::array<std::array<double, classes>, variables>, 1 + chances> squares_{};
+  std::uint64_t added_ = 0;
 };
 
 // Whether chance does not explain what deviation there is.

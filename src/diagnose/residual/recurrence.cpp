@@ -5,14 +5,14 @@
 #include <array>
 #include <cmath>
 
-#include "diagnose/residual/shift.hpp"
+#include "diagnose/residual/surrogate.hpp"
 #include "diagnose/signal/features.hpp"
 
 namespace hysteron {
 namespace {
 
 constexpr std::size_t fewest_samples = 200;
-constexpr Eigen::Index shifts = 19;
+constexpr Eigen::Index chances = 19;
 // Outliers are cut at this many root mean squares of the residual.
 constexpr double cut = 5.0;
 // Functions that are nearly the same are told apart by no more than this part of their squares.
@@ -20,8 +20,6 @@ constexpr double ridge = 1e-4;
 // Stretch of a reversal, of half the stroke.
 constexpr double reversal = 0.2;
 constexpr std::size_t states = 21;
-// Of the shifts from one recording to the next, so that what recurs within each does not add up.
-constexpr double phase_step = 0.4142135623730951;
 
 // The sizes of the motion over all recordings.
 struct Scales {
@@ -100,22 +98,6 @@ Eigen::MatrixXd functions(const Recording& recording, std::size_t from, const Ei
   return result;
 }
 
-// The residual and its shifted ones, a column each.
-Eigen::MatrixXd shifted(const Residual& residual, double norm, std::size_t recording) {
-  const Eigen::Map<const Eigen::VectorXd> all(residual.force.data(), static_cast<Eigen::Index>(residual.force.size()));
-  Eigen::VectorXd values = all.tail(all.size() - static_cast<Eigen::Index>(residual.from)) / norm;
-  const double limit = cut * std::sqrt(values.squaredNorm() / static_cast<double>(values.size()));
-  values = values.cwiseMax(-limit).cwiseMin(limit);
-  Eigen::MatrixXd result(values.size(), 1 + shifts);
-  for (Eigen::Index s = 0; s <= shifts; ++s) {
-    const auto by =
-        static_cast<Eigen::Index>(shift_of(static_cast<std::size_t>(s), static_cast<std::size_t>(values.size()),
-                                           phase_step * static_cast<double>(recording)));
-    result.col(s) << values.tail(values.size() - by), values.head(by);
-  }
-  return result;
-}
-
 // Takes a constant and the best multiple of the force off every column.
 void take_off(Eigen::MatrixXd& columns, const Eigen::VectorXd& force) {
   const Eigen::VectorXd swing = force.array() - force.mean();
@@ -125,27 +107,47 @@ void take_off(Eigen::MatrixXd& columns, const Eigen::VectorXd& force) {
   columns -= swing * factors;
 }
 
+// The residual without what recordings may differ by, and its surrogates, a column each.
+Eigen::MatrixXd surrogates(const Recording& recording, const Residual& residual, double norm,
+                           const Eigen::VectorXd& force, const Stream& stream) {
+  const Eigen::Map<const Eigen::VectorXd> all(residual.force.data(), static_cast<Eigen::Index>(residual.force.size()));
+  Eigen::MatrixXd own = all.tail(all.size() - static_cast<Eigen::Index>(residual.from)) / norm;
+  const double limit = cut * std::sqrt(own.squaredNorm() / static_cast<double>(own.size()));
+  own = own.cwiseMax(-limit).cwiseMin(limit);
+  take_off(own, force);
+  const std::vector<double> values(own.data(), own.data() + own.size());
+  const std::vector<std::size_t> blocks = half_cycles(recording, residual.from);
+  Eigen::MatrixXd result(own.rows(), 1 + chances);
+  result.col(0) = own;
+  for (Eigen::Index s = 1; s <= chances; ++s) {
+    const std::vector<double> one = surrogate(values, blocks, stream.child(static_cast<std::uint64_t>(s)));
+    result.col(s) = Eigen::Map<const Eigen::VectorXd>(one.data(), own.rows());
+  }
+  take_off(result, force);
+  return result;
+}
+
 }  // namespace
 
 Recurrence recurrence_of(const std::vector<Recording>& recordings, const Residuals& residuals) {
   const std::vector<double>& norms = residuals.norms;
   const Scales scales = scales_of(recordings);
+  const Stream stream = Stream(0).child("recurrence");
   constexpr auto count = static_cast<Eigen::Index>(3 * states);
   Eigen::MatrixXd half = Eigen::MatrixXd::Zero(count, count);
-  Eigen::MatrixXd with = Eigen::MatrixXd::Zero(count, 1 + shifts);
-  Eigen::RowVectorXd squares = Eigen::RowVectorXd::Zero(1 + shifts);
+  Eigen::MatrixXd with = Eigen::MatrixXd::Zero(count, 1 + chances);
+  Eigen::RowVectorXd squares = Eigen::RowVectorXd::Zero(1 + chances);
   for (std::size_t k = 0; k < recordings.size(); ++k) {
     if (recordings[k].size() < residuals.of[k].from + fewest_samples) {
       continue;
     }
     const Eigen::VectorXd force = simulated(recordings[k], residuals.of[k], scales);
     Eigen::MatrixXd motion = functions(recordings[k], residuals.of[k].from, force, scales) / norms[k];
-    Eigen::MatrixXd left = shifted(residuals.of[k], norms[k], k);
+    const Eigen::MatrixXd left = surrogates(recordings[k], residuals.of[k], norms[k], force, stream.child(k));
     take_off(motion, force);
-    take_off(left, force);
     half.selfadjointView<Eigen::Lower>().rankUpdate(motion.transpose());
     // Column by column: Eigen would part a product of matrices of this size among threads of its own.
-    for (Eigen::Index s = 0; s <= shifts; ++s) {
+    for (Eigen::Index s = 0; s <= chances; ++s) {
       with.col(s) += motion.transpose() * left.col(s);
     }
     squares += left.colwise().squaredNorm();
@@ -161,7 +163,7 @@ Recurrence recurrence_of(const std::vector<Recording>& recordings, const Residua
   const Eigen::RowVectorXd taken =
       (2.0 * weights.cwiseProduct(with) - weights.cwiseProduct(among * weights)).colwise().sum();
   const Eigen::RowVectorXd shares = taken.cwiseQuotient(squares.cwiseMax(1e-300));
-  return {shares[0], shares.tail(shifts).mean(), shares.tail(shifts).maxCoeff()};
+  return {shares[0], shares.tail(chances).mean(), shares.tail(chances).maxCoeff()};
 }
 
 }  // namespace hysteron

@@ -1,6 +1,6 @@
 // Whether what a fit leaves recurs with the motion: how much of it one smooth function of displacement, velocity,
 // acceleration, simulated force, stroke and drive takes off all recordings together. Noise of any colour knows nothing
-// of the motion, and the function takes no more off it than off the same noise shifted against the motion. Pooled over
+// of the motion, and the function takes no more off it than off its surrogates (surrogate.hpp). Pooled over
 // the recordings a far smaller part is seen than within each (structure.hpp). A constant and a multiple of the force
 // are taken off each recording first: by these, recordings may differ by chance.
 #pragma once
@@ -13,9 +13,8 @@
 namespace hysteron {
 
 struct Recurrence {
-  double share = 0.0;  // of the squared residual that the function takes off
-  double mean_by_chance =
-      0.0;  // of nineteen residuals that are shifted against the motion, in each recording otherwise
+  double share = 0.0;           // of the squared residual that the function takes off
+  double mean_by_chance = 0.0;  // of nineteen surrogates
   double most_by_chance = 0.0;  // likewise, the largest
 };
 
