@@ -1,17 +1,22 @@
 #include "diagnose/signal/thin.hpp"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <tuple>
 
 #include "fit/start.hpp"
+#include "io/velocity.hpp"
 #include "simulate/motion.hpp"
 
 namespace hysteron {
 namespace {
 
-constexpr std::array<std::size_t, 9> factors = {2, 3, 4, 5, 6, 8, 10, 12, 16};
+// Factors that are tried: all of these, then these times powers of two.
+constexpr std::array<std::size_t, 12> factors = {2, 3, 4, 5, 6, 8, 10, 12, 16, 20, 24, 28};
+constexpr std::size_t fewest_kept = 100;
 constexpr double displacement_error = 1e-3;
 constexpr double velocity_error = 1e-2;
 
@@ -26,7 +31,9 @@ double deviation(const std::vector<double>& values) {
   return std::sqrt(std::max(square / count - sum * sum / (count * count), 0.0));
 }
 
-bool recovers(const Recording& whole, const Recording& part, std::size_t k) {
+// Whether the recording's motion follows from the part that holds every k-th sample. `x_noise` and `v_noise` are the
+// noise of the recorded channels that the part does not have.
+bool recovers(const Recording& whole, const Recording& part, std::size_t k, double x_noise, double v_noise) {
   const Motion motion = make_motion(part.time, part.displacement, part.velocity, {});
   double x_error = 0.0;
   double v_error = 0.0;
@@ -42,8 +49,50 @@ bool recovers(const Recording& whole, const Recording& part, std::size_t k) {
       count += 1.0;
     }
   }
-  return std::sqrt(x_error / count) <= displacement_error * deviation(whole.displacement) &&
-         std::sqrt(v_error / count) <= velocity_error * deviation(whole.velocity);
+  x_error = std::max(0.0, x_error / count - x_noise * x_noise);
+  v_error = std::max(0.0, v_error / count - v_noise * v_noise);
+  return std::sqrt(x_error) <= displacement_error * deviation(whole.displacement) &&
+         std::sqrt(v_error) <= velocity_error * deviation(whole.velocity);
+}
+
+// Values at every k-th sample of cubics fitted by least squares to the samples within k of it.
+std::vector<double> smoothed(const std::vector<double>& time, const std::vector<double>& values, std::size_t k) {
+  std::vector<double> result;
+  for (std::size_t n = 0; n < values.size(); n += k) {
+    const std::size_t first = n - std::min(n, k);
+    const std::size_t last = std::min(values.size() - 1, n + k);
+    const double width = std::max(time[n] - time[first], time[last] - time[n]);
+    Eigen::Matrix4d among = Eigen::Matrix4d::Zero();
+    Eigen::Vector4d with = Eigen::Vector4d::Zero();
+    for (std::size_t m = first; m <= last; ++m) {
+      const double t = (time[m] - time[n]) / width;
+      const Eigen::Vector4d row(1.0, t, t * t, t * t * t);
+      among += row * row.transpose();
+      with += (values[m] - values[n]) * row;
+    }
+    result.push_back(values[n] + among.ldlt().solve(with)[0]);
+  }
+  return result;
+}
+
+// Every k-th sample, if the motion can be told from them; smoothed where that takes it.
+std::optional<Recording> thinner(const Recording& recording, std::size_t k, double x_noise, double v_noise) {
+  Recording part = every_kth(recording, k);
+  part.start = start_of(recording);
+  if (part.size() < fewest_kept) {
+    return std::nullopt;
+  }
+  if (recovers(recording, part, k, 0.0, 0.0)) {
+    return part;
+  }
+  part.displacement = smoothed(recording.time, recording.displacement, k);
+  if (recording.velocity_measured) {
+    part.velocity = smoothed(recording.time, recording.velocity, k);
+  }
+  if (recovers(recording, part, k, x_noise, recording.velocity_measured ? v_noise : 0.0)) {
+    return part;
+  }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -58,17 +107,16 @@ std::vector<Recording> thinned(const std::vector<Recording>& recordings, std::si
     Recording best = recording;
     // Long recordings give up more: each has an equal share of what is kept.
     const std::size_t share = std::max<std::size_t>(total / recordings.size(), 200);
-    if (samples > total) {
-      for (const std::size_t k : factors) {
-        if (best.size() <= share) {
+    if (samples > total && best.size() > share) {
+      const double x_noise = channel_noise(recording.time, recording.displacement);
+      const double v_noise = channel_noise(recording.time, recording.velocity);
+      for (std::size_t i = 0; best.size() > share; ++i) {
+        const std::size_t k = i < factors.size() ? factors[i] : factors[8 + i % 4] << ((i - 8) / 4);
+        std::optional<Recording> part = thinner(recording, k, x_noise, v_noise);
+        if (!part) {
           break;
         }
-        Recording part = every_kth(recording, k);
-        part.start = start_of(recording);
-        if (part.size() < 100 || !recovers(recording, part, k)) {
-          break;
-        }
-        best = std::move(part);
+        best = std::move(*part);
       }
     }
     result.push_back(std::move(best));
