@@ -49,7 +49,7 @@ std::string explanation(const Diagnosis& diagnosis) {
   if (word == "ambiguous") {
     return "Physics is missing; these recordings cannot tell the candidates below apart.";
   }
-  return "The model misses something, and no known effect explains it.";
+  return "What is left is neither told to be noise nor explained by a known effect.";
 }
 
 Identification identification_of(const Diagnosis& diagnosis, const Campaign& campaign,

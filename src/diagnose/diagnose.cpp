@@ -8,6 +8,7 @@
 #include <set>
 
 #include "core/drive.hpp"
+#include "core/error.hpp"
 #include "diagnose/account.hpp"
 #include "diagnose/residual/wander.hpp"
 #include "diagnose/search/extend.hpp"
@@ -32,6 +33,8 @@ constexpr double surprise = 4.0;
 constexpr double above_white = 1.5;
 // Squares over those of the noise above which what is left is asked whether its size follows the motion.
 constexpr double above_floor = 1.5;
+// Independent values for each parameter without which nothing left cannot be told from too little data.
+constexpr double values_per_parameter = 4.0;
 // Least share of the largest force that counts as noise there.
 constexpr double least_noise = 1e-4;
 // A recorded velocity correlates with the slope of the displacement at least so.
@@ -181,6 +184,13 @@ std::string doubt_of_completeness(const Search& search, const Workbench& fine,
            "something is missing that none of them is";
   }
   const Misfit& left = search.misfit;
+  const auto parameters = static_cast<double>(search.augmented.dimension());
+  if (left.independent < values_per_parameter * parameters) {
+    return fmt::format(
+        "what is left holds {:.0f} independent values for {:.0f} parameters: too few to tell noise from what is "
+        "missing",
+        left.independent, parameters);
+  }
   if (left.squares <= above_white * left.white) {
     return {};
   }
@@ -339,8 +349,19 @@ void estimate_noise_floor(Diagnosis& diagnosis, Normalisation normalisation) {
   diagnosis.noise_floor_heldout = std::sqrt(heldout / static_cast<double>(diagnosis.bench.split().judge.size()));
 }
 
+void check_samples(const Split& split) {
+  for (const Recording& recording : split.fit) {
+    if (recording.size() < fewest_noise_samples) {
+      throw InputError(
+          fmt::format("{}: {} samples to fit, expected at least {}: fewer do not tell the noise of the force",
+                      recording.file, recording.size(), fewest_noise_samples));
+    }
+  }
+}
+
 std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const Split& split, const DiagnoseOptions& options,
                                     const SearchProgress& progress) {
+  check_samples(split);
   std::vector<std::string> notes;
   const LayoutOptions layout = with_laws(options, campaign, notes);
   const DataScale scale = scale_of(campaign.recordings);

@@ -7,6 +7,7 @@
 #include <functional>
 #include <numbers>
 
+#include "core/error.hpp"
 #include "diagnose/judge/evidence.hpp"
 #include "diagnose/record.hpp"
 #include "diagnose/residual/locate.hpp"
@@ -285,10 +286,30 @@ TEST(Diagnosis, RecordHoldsWhatTheContractNames) {
        {"baseline", "verdict", "effects", "locations", "rejected", "not_observable", "augmented", "next_experiment"}) {
     EXPECT_TRUE(record.contains(key)) << key;
   }
+  for (const auto& row : record["rejected"]) {
+    EXPECT_FALSE(row.contains("p")) << "a p value that is not calibrated";
+  }
   for (const char* key : {"id", "confidence", "indistinguishable_from", "sentence", "parameters",
                           "nrmse_heldout_before", "nrmse_heldout_after", "share_of_misfit"}) {
     EXPECT_TRUE(record["effects"].at(0).contains(key)) << key;
   }
+}
+
+TEST(Diagnosis, TooFewSamplesSayNothing) {
+  // Too few to tell the noise of the force ...
+  Campaign campaign;
+  campaign.recordings.push_back(testing::motion("few.csv", {{0.01, 1.0}}, 1.0, 8, 0.2));
+  campaign.recordings[0].force.assign(8, 1.0);
+  campaign.roles.push_back(Role::unassigned);
+  EXPECT_THROW((void)diagnosis_of(campaign, {"inertia"}), InputError);
+  // ... and enough for that, but not for the seven parameters of the law.
+  Recording& recording = campaign.recordings[0];
+  recording = testing::motion("few.csv", {{0.01, 1.0}}, 1.5, 27, 0.2);
+  const Stream stream = Stream(4);
+  for (std::size_t n = 0; n < recording.size(); ++n) {
+    recording.force.push_back(2000.0 * recording.velocity[n] + stream.normal(n));
+  }
+  EXPECT_NE(diagnosis_of(campaign, {"inertia"})->verdict.word, "complete");
 }
 
 TEST(Diagnosis, SameBytesForAnyNumberOfThreads) {
@@ -331,6 +352,38 @@ TEST(Thinned, KeepsTheMotionAndStaysNearTheTotal) {
   EXPECT_LE(few_samples[0].size(), 1500U);
   EXPECT_GE(few_samples[0].size(), 600U);
   EXPECT_EQ(thinned({recording}, 20000)[0].size(), recording.size());
+}
+
+TEST(Thinned, LongNoisyRecordingsThinToWhatIsAskedAndTellTheSame) {
+  // 66000 samples at 3 kHz, displacement and velocity with noise.
+  Recording recording = testing::motion("r.csv", {{0.01, 1.0}, {0.003, 2.7}}, 22.0, 66000, 0.2);
+  const Stream stream = Stream(8);
+  constexpr double noise = 5.0;
+  for (std::size_t n = 0; n < recording.size(); ++n) {
+    recording.force.push_back(2000.0 * recording.velocity[n] + 5000.0 * recording.displacement[n] +
+                              noise * stream.normal(n));
+    recording.displacement[n] += 2e-5 * stream.normal(n, 1);
+    recording.velocity[n] += 1e-3 * stream.normal(n, 2);
+  }
+  const Recording few_samples = thinned({recording}, 1500)[0];
+  EXPECT_LE(few_samples.size(), 1500U);
+  EXPECT_GE(few_samples.size(), 750U);
+  // The force is that of the instant.
+  for (std::size_t n = 0; n < few_samples.size(); ++n) {
+    const auto at = std::ranges::lower_bound(recording.time, few_samples.time[n]) - recording.time.begin();
+    EXPECT_EQ(few_samples.force[n], recording.force[static_cast<std::size_t>(at)]);
+  }
+  const auto damping = [](const Recording& of) {
+    const Workbench bench(scale_of({of}), {{of}, {{of, 0}}, "", false}, {}, {}, 1, [] { return false; });
+    const Fit fit = bench.from_anywhere({"viscous", {}, {}}, 500);
+    for (const Term& term : fit.terms) {
+      if (fit.layout->names()[term.parameter] == "c0") return term.value;
+    }
+    return 0.0;
+  };
+  double squares = 0.0;
+  for (const double v : few_samples.velocity) squares += v * v;
+  EXPECT_NEAR(damping(few_samples), damping(recording), 4.0 * noise / std::sqrt(squares));
 }
 
 TEST(Relatives, AreEffectsAndMutual) {

@@ -90,7 +90,8 @@ double independent_values(const Recording& recording, const Residual& residual) 
   const double duration = recording.time.back() - recording.time[residual.from];
   const double frequency = dominant_frequency(recording);
   const double half_cycle = frequency > 0.0 ? 0.5 / frequency : duration;
-  return duration / std::max(correlation_time(recording.time, residual), half_cycle / values_per_half_cycle);
+  const double sample = duration / static_cast<double>(recording.size() - residual.from);
+  return duration / std::max({correlation_time(recording.time, residual), half_cycle / values_per_half_cycle, sample});
 }
 
 }  // namespace hysteron

@@ -17,7 +17,7 @@ constexpr double values_per_half_cycle = 24.0;
 // for a residual that is zero.
 double correlation_time(const std::vector<double>& time, const Residual& residual);
 
-// Duration over the larger of the correlation time and what a value of the motion lasts.
+// Duration over the largest of the correlation time, what a value of the motion lasts and what a sample does.
 double independent_values(const Recording& recording, const Residual& residual);
 
 }  // namespace hysteron

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -161,76 +160,6 @@ std::optional<ChannelLag> velocity_channel_lag(const std::vector<Recording>& rec
   const double r = at.squares > 0.0 ? std::clamp(at.neighbours / at.squares, 0.0, 0.99) : 0.0;
   const double variance = at.squares / static_cast<double>(at.samples);
   return ChannelLag{recorded_lags ? lag : -lag, std::sqrt(variance / at.energy * (1.0 + r) / (1.0 - r))};
-}
-
-std::vector<Unobservable> detection_limits(const Workbench& bench, const Fit& fit, const Misfit& misfit,
-                                           const std::vector<std::string>& effects) {
-  std::vector<Unobservable> result(effects.size());
-  for (std::size_t k = 0; k < effects.size(); ++k) {
-    const std::string& id = effects[k];
-    result[k].id = id;
-    const Fit with = bench.with_neutral(fit, id);
-    const Layout& layout = *with.layout;
-    std::vector<double> point = with.point;
-    std::size_t size_at = 0;
-    while (size_at < layout.dimension() &&
-           !layout.names()[layout.coordinates()[size_at].parameter].starts_with(id + ".")) {
-      ++size_at;
-    }
-    if (size_at == layout.dimension()) {
-      result[k].reason = "its parameters are all held";
-      continue;
-    }
-    // The neutral size may hide the response: a little off it.
-    point[size_at] = std::clamp(point[size_at] + (point[size_at] > 0.9 ? -0.02 : 0.02), 0.0, 1.0);
-    const Response response = Objective(layout, bench.split().fit, bench.options()).evaluate({point, true});
-    const auto d = static_cast<Eigen::Index>(layout.dimension());
-    const Eigen::Map<const Eigen::MatrixXd> full(response.gauss_newton.data(), d, d);
-    std::vector<Eigen::Index> others;
-    for (Eigen::Index c = 0; c < d; ++c) {
-      if (!layout.names()[layout.coordinates()[static_cast<std::size_t>(c)].parameter].starts_with(id + ".") &&
-          full(c, c) > 0.0) {
-        others.push_back(c);
-      }
-    }
-    const auto s = static_cast<Eigen::Index>(size_at);
-    const double sensitivity = full(s, s);
-    if (response.cost[0] >= diverged_cost) {
-      result[k].reason = "its equations are too stiff at these sampling rates for its smallest size to be told";
-      continue;
-    }
-    if (!(sensitivity > 0.0)) {
-      result[k].reason = find_effect(result[k].id)->starts.empty()
-                             ? "it changes no force on these motions"
-                             : "it acts only beyond a threshold, and a small one changes no force";
-      continue;
-    }
-    const auto m = static_cast<Eigen::Index>(others.size());
-    Eigen::MatrixXd base(m, m);
-    Eigen::VectorXd cross(m);
-    for (Eigen::Index i = 0; i < m; ++i) {
-      for (Eigen::Index j = 0; j < m; ++j) {
-        base(i, j) = full(others[static_cast<std::size_t>(i)], others[static_cast<std::size_t>(j)]);
-      }
-      cross[i] = full(others[static_cast<std::size_t>(i)], s);
-    }
-    base.diagonal() *= 1.0 + 1e-9;
-    const double kept = (sensitivity - cross.dot(base.ldlt().solve(cross))) / sensitivity;
-    if (!(kept > 1e-5)) {
-      result[k].reason = "the other parameters imitate it entirely on these recordings";
-      continue;
-    }
-    // size^2 * sensitivity * kept / squares * effective = what the criterion asks for.
-    const double asked = 12.0 + std::log(misfit.independent);
-    const double response_share = std::sqrt(asked * misfit.squares / (misfit.independent * kept));
-    if (response_share > 1.0) {
-      result[k].reason = "the other parameters imitate it nearly entirely on these recordings";
-      continue;
-    }
-    result[k].detection_limit =
-        fmt::format("a force below {:.2g} % of the peak force (root mean square)", 100.0 * response_share);
-  }
-  return result;
 }
 
 }  // namespace hysteron

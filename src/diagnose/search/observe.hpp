@@ -22,9 +22,10 @@ std::optional<std::string> unmet(Need need, const std::vector<Recording>& record
 // The first need of the effect's card that is not met, for reasons that lie in the inputs alone.
 std::optional<std::string> excluded_by_inputs(const std::string& effect, const std::vector<Recording>& recordings);
 
-// Detection limits of the effects that `fit` does not hold: the size at which the criterion would have asked for the
-// effect, from its sensitivity less what the parameters of the fit can imitate, as force in % of the peak force (root
-// mean square over the fitted recordings).
+// Detection limits of the effects that `fit` does not hold: the force in % of the peak force (root mean square over the
+// fitted recordings) at which the criterion would have asked for the effect, in the form that it has at the smallest of
+// several sizes which would have been seen, less what the parameters of the fit imitate. Empty where the fit itself
+// cannot be simulated.
 std::vector<Unobservable> detection_limits(const Workbench& bench, const Fit& fit, const Misfit& misfit,
                                            const std::vector<std::string>& effects);
 

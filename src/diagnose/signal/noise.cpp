@@ -27,7 +27,6 @@ constexpr double moving = 0.1;
 // Periods left of a stretch without its first half period.
 constexpr double fewest_periods = 2.0;
 constexpr double run_in = 0.5;
-constexpr std::size_t fewest_samples = 16;
 // Samples of a motion that are compared, in all and a period.
 constexpr double compared = 2000.0;
 constexpr double compared_per_period = 32.0;
@@ -328,7 +327,7 @@ std::string_view word_of(NoiseMethod method) {
 
 Periodicity periodicity(const Recording& recording) {
   const double frequency = dominant_frequency(recording);
-  if (!(frequency > 0.0) || recording.size() < fewest_samples) {
+  if (!(frequency > 0.0) || recording.size() < fewest_noise_samples) {
     return {};
   }
   // Ramps and rests shift the period with which the whole repeats best: the stretch tells it better, and is then told
@@ -358,7 +357,7 @@ Periodicity periodicity(const Recording& recording) {
 
 NoiseFloor noise_floor(const Recording& recording) {
   NoiseFloor result;
-  if (recording.size() < fewest_samples) {
+  if (recording.size() < fewest_noise_samples) {
     return result;
   }
   const std::vector<double> fourth = fourth_differences(recording.force);
@@ -373,7 +372,8 @@ NoiseFloor noise_floor(const Recording& recording) {
   const Periodicity cycle = periodicity(recording);
   if (cycle.period > 0.0) {
     const Differences differences = differences_of(recording, cycle);
-    if (static_cast<double>(differences.left.size()) >= static_cast<double>(fewest_samples) + differences.freedoms) {
+    if (static_cast<double>(differences.left.size()) >=
+        static_cast<double>(fewest_noise_samples) + differences.freedoms) {
       result.sigma = std::max(
           clipped_deviation(differences.left, differences.freedoms) / std::sqrt(passed(differences)), rounding);
       result.method = NoiseMethod::cycles;

@@ -1,6 +1,7 @@
 // Noise of the force channel, from the data alone.
 #pragma once
 
+#include <cstddef>
 #include <string_view>
 #include <vector>
 
@@ -18,6 +19,9 @@ enum class NoiseMethod {
   mixed       // of several recordings: cycles where the motion repeats, high-pass elsewhere
 };
 std::string_view word_of(NoiseMethod method);
+
+// Samples of a recording from which its noise can be told at all.
+constexpr std::size_t fewest_noise_samples = 16;
 
 struct NoiseFloor {
   double sigma = 0.0;  // N

@@ -1,0 +1,117 @@
+// Detection limits, from forces at finite sizes: a derivative at the neutral size says nothing of what acts beyond a
+// threshold, and a small size may be too stiff to be simulated.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "diagnose/search/observe.hpp"
+#include "diagnose/search/signature.hpp"
+#include "fit/parallel.hpp"
+
+namespace hysteron {
+namespace {
+
+// What the criterion asks for, beside the price of a parameter.
+constexpr double asked_evidence = 12.0;
+// A change of this part of the peak force, root mean square, is none: integration rounds by as much.
+constexpr double least_change = 1e-6;
+
+// The effect at one size.
+struct Probe {
+  double size = 0.0;    // part of the box
+  double change = 0.0;  // of the force, root mean square over the peak force
+  double left = 0.0;    // of that, what the parameters of the fit do not imitate
+};
+
+// At every size at which the model can be simulated, smallest first, to both sides of a neutral value within the box.
+std::vector<Probe> probes_of(const Workbench& bench, const Fit& neutral, const std::vector<std::size_t>& coordinates,
+                             const Eigen::VectorXd& at, const Eigen::MatrixXd& basis,
+                             const std::function<bool(const Probe&)>& enough) {
+  const Eigen::VectorXd nothing = stacked(bench, neutral);
+  const Eigen::VectorXd& from = nothing.allFinite() ? nothing : at;
+  const double root = std::sqrt(static_cast<double>(at.size()));
+  const double start = neutral.point[coordinates.front()];
+  std::vector<Probe> result;
+  for (const double size : effect_sizes) {
+    for (const double sense : {1.0, -1.0}) {
+      if (start + sense * size < 0.0 || start + sense * size > 1.0) {
+        continue;
+      }
+      const Eigen::VectorXd change = stacked(bench, moved(neutral, coordinates, sense * size)) - from;
+      if (!change.allFinite()) {
+        continue;
+      }
+      const Eigen::VectorXd left = change - basis * (basis.transpose() * change);
+      result.push_back({sense * size, change.norm() / root, left.norm() / root});
+      if (enough(result.back())) {
+        return result;
+      }
+    }
+  }
+  return result;
+}
+
+std::string value_at(const Fit& neutral, const std::vector<std::size_t>& coordinates, double size) {
+  const std::size_t c = coordinates.front();
+  const std::size_t parameter = neutral.layout->coordinates()[c].parameter;
+  const std::string& name = neutral.layout->names()[parameter];
+  const std::string_view unit = neutral.layout->cards()[parameter].unit;
+  return fmt::format("{} = {:.2g}{}", name.substr(name.find('.') + 1),
+                     neutral.layout->physical(c, std::clamp(neutral.point[c] + size, 0.0, 1.0)),
+                     unit == "1" ? "" : " " + std::string(unit));
+}
+
+Unobservable limit_of(const Workbench& bench, const Fit& fit, const Misfit& misfit, const std::string& effect,
+                      const Eigen::VectorXd& at, const Eigen::MatrixXd& basis) {
+  Unobservable result;
+  result.id = effect;
+  const Fit neutral = bench.with_neutral(fit, effect);
+  const std::vector<std::size_t> coordinates = size_of(neutral, effect);
+  if (coordinates.empty()) {
+    result.reason = "its parameters are all held";
+    return result;
+  }
+  // left^2 / squares * independent values = what the criterion asks for.
+  const double asked = std::sqrt((asked_evidence + std::log(misfit.independent)) * misfit.squares / misfit.independent);
+  const std::vector<Probe> probes =
+      probes_of(bench, neutral, coordinates, at, basis, [&](const Probe& probe) { return probe.left >= asked; });
+  if (probes.empty()) {
+    result.reason = "its equations could not be solved on these motions at any size";
+    return result;
+  }
+  const Probe& last = *std::ranges::max_element(probes, {}, &Probe::left);
+  if (last.left >= asked) {
+    result.detection_limit = fmt::format("a force below {:.2g} % of the peak force (root mean square)",
+                                         100.0 * last.change * asked / last.left);
+    return result;
+  }
+  if (std::ranges::max(probes, {}, &Probe::change).change < least_change) {
+    // The sizes grow.
+    result.reason = "it changes no force on these motions, up to " + value_at(neutral, coordinates, probes.back().size);
+  } else {
+    result.reason = fmt::format(
+        "at {} it changes the force by {:.2g} % of the peak (root mean square), of which the other parameters leave "
+        "{:.2g} %, and {:.2g} % is what could be told",
+        value_at(neutral, coordinates, last.size), 100.0 * last.change, 100.0 * last.left, 100.0 * asked);
+  }
+  return result;
+}
+
+}  // namespace
+
+std::vector<Unobservable> detection_limits(const Workbench& bench, const Fit& fit, const Misfit& misfit,
+                                           const std::vector<std::string>& effects) {
+  const Eigen::VectorXd at = stacked(bench, fit);
+  if (!at.allFinite() || at.size() <= static_cast<Eigen::Index>(fit.dimension()) || !(misfit.independent > 1.0)) {
+    return {};
+  }
+  const Eigen::MatrixXd basis = imitable(bench, fit, at);
+  std::vector<Unobservable> result(effects.size());
+  parallel_for(effects.size(), bench.options().threads,
+               [&](std::size_t k) { result[k] = limit_of(bench, fit, misfit, effects[k], at, basis); });
+  return result;
+}
+
+}  // namespace hysteron

@@ -1,0 +1,65 @@
+#include "diagnose/search/signature.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fit/parallel.hpp"
+
+namespace hysteron {
+namespace {
+
+constexpr double nudge = 1e-3;
+constexpr double rank_tolerance = 1e-9;
+
+}  // namespace
+
+Eigen::VectorXd stacked(const Workbench& bench, const Fit& fit) {
+  std::vector<double> all;
+  for (const Recording& recording : bench.split().fit) {
+    const Residual residual = bench.residual(fit, recording);
+    const double norm = normaliser(recording, bench.options().normalisation);
+    for (std::size_t n = residual.from; n < residual.force.size(); ++n) {
+      all.push_back(residual.force[n] / norm);
+    }
+  }
+  return Eigen::Map<const Eigen::VectorXd>(all.data(), static_cast<Eigen::Index>(all.size()));
+}
+
+Fit moved(Fit fit, const std::vector<std::size_t>& coordinates, double by) {
+  for (const std::size_t c : coordinates) {
+    fit.point[c] = std::clamp(fit.point[c] + by, 0.0, 1.0);
+  }
+  fit.terms = fit.layout->terms(fit.point);
+  return fit;
+}
+
+Eigen::MatrixXd imitable(const Workbench& bench, const Fit& fit, const Eigen::VectorXd& at) {
+  Eigen::MatrixXd slopes(at.size(), static_cast<Eigen::Index>(fit.dimension()));
+  parallel_for(fit.dimension(), 0, [&](std::size_t c) {
+    const double by = fit.point[c] > 0.5 ? -nudge : nudge;
+    slopes.col(static_cast<Eigen::Index>(c)) = (stacked(bench, moved(fit, {c}, by)) - at) / by;
+  });
+  for (Eigen::Index c = 0; c < slopes.cols(); ++c) {
+    const double norm = slopes.col(c).norm();
+    slopes.col(c) =
+        std::isfinite(norm) && norm > 0.0 ? (slopes.col(c) / norm).eval() : Eigen::VectorXd::Zero(at.size());
+  }
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(slopes);
+  qr.setThreshold(rank_tolerance);
+  return qr.householderQ() * Eigen::MatrixXd::Identity(at.size(), qr.rank());
+}
+
+std::vector<std::size_t> size_of(const Fit& fit, const std::string& effect) {
+  std::vector<std::size_t> coordinates;
+  for (const ParameterLaw& law : fit.layout->laws()) {
+    if (fit.layout->names()[law.parameter].starts_with(effect + ".")) {
+      for (std::size_t k = 0; k < law.drive_nodes.size() * law.frequency_nodes.size(); ++k) {
+        coordinates.push_back(law.first + k);
+      }
+      break;
+    }
+  }
+  return coordinates;
+}
+
+}  // namespace hysteron
