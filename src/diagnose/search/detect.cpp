@@ -18,6 +18,9 @@ constexpr double asked_evidence = 12.0;
 // A change of this part of the peak force, root mean square, is none: integration rounds by as much.
 constexpr double least_change = 1e-6;
 
+// Of a change the other parameters imitate all but this part.
+constexpr double imitated = 1e-3;
+
 // The effect at one size.
 struct Probe {
   double size = 0.0;    // part of the box
@@ -90,9 +93,11 @@ Unobservable limit_of(const Workbench& bench, const Fit& fit, const Misfit& misf
   if (std::ranges::max(probes, {}, &Probe::change).change < least_change) {
     // The sizes grow.
     result.reason = "it changes no force on these motions, up to " + value_at(neutral, coordinates, probes.back().size);
+  } else if (last.left < imitated * last.change) {
+    result.reason = "the other parameters imitate all but a thousandth of it on these recordings";
   } else {
     result.reason = fmt::format(
-        "at {} it changes the force by {:.2g} % of the peak (root mean square), of which the other parameters leave "
+        "at {} it changes the force by {:.3g} % of the peak (root mean square), of which the other parameters leave "
         "{:.2g} %, and {:.2g} % is what could be told",
         value_at(neutral, coordinates, last.size), 100.0 * last.change, 100.0 * last.left, 100.0 * asked);
   }
