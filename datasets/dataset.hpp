@@ -1,4 +1,5 @@
-// Datasets that ship with the program: simulated, small, deterministic.
+// Datasets that ship with the program: simulated ones, small and deterministic, and recordings of measured dampers in
+// folders of their own (datasets/ID), which stand beside the program (support/shipped.hpp).
 #pragma once
 
 #include <span>
@@ -14,10 +15,15 @@ struct DatasetEntry {
   std::string_view title;
   std::string_view reference;
   std::string_view description;  // what, units, truth, noise
+  // The recordings; those of a measured device are the same for every stream. Throws InputError where these are missing
+  // or altered.
   Campaign (*generate)(const Stream& stream) = nullptr;
+  // Of a measured device, empty for a simulated one; the text of the licence is a file of the folder.
+  std::string_view licence = {};
 };
 
 std::span<const DatasetEntry* const> dataset_catalogue();
+// nullptr when there is none.
 const DatasetEntry* find_dataset(std::string_view id);
 
 }  // namespace hysteron

@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
-# Diagnoses the three measured dampers beside the project and writes what the program says of them:
+# Diagnoses the three measured dampers that ship and writes what the program says of them:
 #   scripts/diagnose_devices.sh results/devices.md
 # and, where there is a Chromium, draws the tops of the reports beside the page. The program is taken from
-# build/release; the recordings from ../shared/recordings.
+# build/release; the recordings from datasets/.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 page=${1:?expected the file to write}
 program=build/release/hysteron
-recordings=../shared/recordings
+recordings=datasets
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 

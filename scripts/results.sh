@@ -1,7 +1,7 @@
 #!/bin/sh
 # Makes results/NAME.md again from bench/studies/NAME.toml; stopped, the same command goes on.
 #   scripts/results.sh NAME [BINARY]      NAME: reference, solvers or models-real
-# The records stay in build/results/NAME. Needs ../shared/recordings beside the project.
+# The records stay in build/results/NAME.
 set -eu
 name=$1
 root=$(cd "$(dirname "$0")/.." && pwd)

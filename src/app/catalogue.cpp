@@ -306,10 +306,13 @@ void add_catalogue(CLI::App& program) {
                                     {"id", dataset->id},
                                     {"title", dataset->title},
                                     {"reference", dataset->reference},
-                                    {"description", dataset->description}}));
+                                    {"description", dataset->description},
+                                    {"licence", dataset->licence.empty() ? json(nullptr) : json(dataset->licence)}}));
       } else {
-        fmt::print("{} (dataset): {}\n\n{}\n\nSource: {}\nMake it: hysteron generate {} --out DIR\n", dataset->id,
-                   dataset->title, dataset->description, dataset->reference, dataset->id);
+        fmt::print("{} (dataset): {}\n\n{}\n\nSource: {}\n", dataset->id, dataset->title, dataset->description,
+                   dataset->reference);
+        if (!dataset->licence.empty()) fmt::print("Licence: {}\n", dataset->licence);
+        fmt::print("As a folder: hysteron generate {} --out DIR\n", dataset->id);
       }
     } else {
       std::vector<std::string> known;

@@ -8,22 +8,37 @@
 #include "app/values.hpp"
 #include "core/error.hpp"
 #include "datasets/dataset.hpp"
+#include "datasets/support/shipped.hpp"
+#include "io/file.hpp"
 #include "io/output.hpp"
 
-namespace hysteron {
+namespace hysteron::app {
+namespace {
 
-const DatasetEntry* find_dataset(std::string_view id) {
-  for (const DatasetEntry* entry : dataset_catalogue()) {
-    if (entry->id == id) {
-      return entry;
-    }
+std::string csv_of(const Recording& recording) {
+  std::string text = "time [s],displacement [m],velocity [m/s],force [N],current [A]\n";
+  for (std::size_t n = 0; n < recording.size(); ++n) {
+    text += fmt::format("{},{},{},{},{}\n", recording.time[n], recording.displacement[n], recording.velocity[n],
+                        recording.force[n], recording.drive[n]);
   }
-  return nullptr;
+  return text;
 }
 
-}  // namespace hysteron
+// Measured recordings go byte for byte, with their card, their licence and the checksums of those written.
+void copy_shipped(const DatasetEntry& entry, const Campaign& campaign, const std::string& only,
+                  const std::filesystem::path& out) {
+  const std::filesystem::path folder = shipped_folder(entry.id);
+  std::string sums;
+  for (const Recording& recording : campaign.recordings) {
+    if (recording.file.find(only) == std::string::npos) continue;
+    write_file_atomically(out / recording.file, read_file(folder / recording.file));
+    sums += recording.sha256 + "  " + recording.file + "\n";
+  }
+  for (const char* name : {"README.md", "LICENSE"}) write_file_atomically(out / name, read_file(folder / name));
+  write_file_atomically(out / shipped_checksums, sums);
+}
 
-namespace hysteron::app {
+}  // namespace
 
 void add_generate(CLI::App& program) {
   struct Options {
@@ -37,10 +52,12 @@ void add_generate(CLI::App& program) {
   command->add_option("DATASET", options->id, "an id of `hysteron list datasets`")->required();
   command->add_option("--out", options->out, "folder to write")->required();
   command->add_option("--only", options->only, "only recordings whose name contains this, e.g. 2.0Hz");
-  command->add_option("--seed", options->seed, "seed of the noise")
+  command->add_option("--seed", options->seed, "seed of a simulated dataset's noise")
       ->transform(seed_number())
       ->capture_default_str();
-  command->footer("Example:\n  hysteron generate rd8040-twin --out twin --only 2.0Hz");
+  command->footer(
+      "Examples:\n  hysteron generate rd8040-twin --out twin --only 2.0Hz\n  hysteron generate utfsm-mr-damper --out "
+      "press");
   command->callback([options] {
     const DatasetEntry* entry = find_dataset(options->id);
     if (entry == nullptr) {
@@ -53,18 +70,16 @@ void add_generate(CLI::App& program) {
       throw InputError("--only: no recording's name contains '" + options->only + "'");
     }
     make_output_folder(options->out);
-    std::size_t written = 0;
-    for (const Recording& recording : campaign.recordings) {
-      if (recording.file.find(options->only) == std::string::npos) {
-        continue;
+    const auto written = std::ranges::count_if(campaign.recordings, [&](const Recording& recording) {
+      return recording.file.find(options->only) != std::string::npos;
+    });
+    if (!entry->licence.empty()) {
+      copy_shipped(*entry, campaign, options->only, options->out);
+    } else {
+      for (const Recording& recording : campaign.recordings) {
+        if (recording.file.find(options->only) == std::string::npos) continue;
+        write_file_atomically(std::filesystem::path(options->out) / recording.file, csv_of(recording));
       }
-      std::string text = "time [s],displacement [m],velocity [m/s],force [N],current [A]\n";
-      for (std::size_t n = 0; n < recording.size(); ++n) {
-        text += fmt::format("{},{},{},{},{}\n", recording.time[n], recording.displacement[n], recording.velocity[n],
-                            recording.force[n], recording.drive[n]);
-      }
-      write_file_atomically(std::filesystem::path(options->out) / recording.file, text);
-      ++written;
     }
     fmt::print("{} recordings in {}\n", written, options->out);
   });

@@ -41,14 +41,19 @@ Campaign load(const DataSpec& spec) {
     return campaign;
   }
   if (spec.dataset.empty()) return load_campaign(spec.paths);
-  const auto catalogue = dataset_catalogue();
-  const auto found =
-      std::ranges::find_if(catalogue, [&](const DatasetEntry* entry) { return entry->id == spec.dataset; });
-  if (found == catalogue.end())
-    throw InputError("unknown dataset '" + spec.dataset + "', see `hysteron list datasets`");
-  Campaign campaign = (*found)->generate(Stream(spec.seed).child((*found)->id));
-  for (Recording& recording : campaign.recordings) recording.sha256 = hash_of(recording);
+  const DatasetEntry* entry = find_dataset(spec.dataset);
+  if (entry == nullptr) throw InputError("unknown dataset '" + spec.dataset + "', see `hysteron list datasets`");
+  Campaign campaign = entry->generate(Stream(spec.seed).child(entry->id));
+  for (Recording& recording : campaign.recordings) {
+    if (recording.sha256.empty()) recording.sha256 = hash_of(recording);
+  }
   return campaign;
+}
+
+// Whether a name contains one of the parts.
+bool named_by(const std::vector<std::string>& parts, const Recording& recording) {
+  return std::ranges::any_of(parts,
+                             [&](const std::string& part) { return recording.file.find(part) != std::string::npos; });
 }
 
 struct DataGroup {
@@ -63,16 +68,15 @@ std::vector<DataGroup> groups_of(const DataSpec& spec, const std::string& file) 
   std::vector<DataGroup> each;
   for (std::size_t k = 0; k < campaign.recordings.size(); ++k) {
     const Recording& recording = campaign.recordings[k];
-    const bool wanted = spec.only.empty() || std::ranges::any_of(spec.only, [&](const std::string& part) {
-                          return recording.file.find(part) != std::string::npos;
-                        });
-    if (!wanted) continue;
+    if (!spec.only.empty() && !named_by(spec.only, recording)) continue;
     if (spec.each) {
       std::string name = recording.file;
       if (const auto dot = name.rfind('.'); dot != std::string::npos && dot > 0) name.resize(dot);
       each.push_back({spec.label + "/" + name, {recording}, {}});
     }
-    (campaign.roles[k] == Role::validate ? all.heldout : all.fitted).push_back(recording);
+    const bool judges =
+        spec.validate.empty() ? campaign.roles[k] == Role::validate : named_by(spec.validate, recording);
+    (judges ? all.heldout : all.fitted).push_back(recording);
   }
   if (all.fitted.empty() && all.heldout.empty()) {
     throw InputError(file, spec.line, "no recording of '" + spec.label + "' has a name that contains one of 'only'");
@@ -81,6 +85,12 @@ std::vector<DataGroup> groups_of(const DataSpec& spec, const std::string& file) 
   if (all.fitted.empty()) {
     throw InputError(file, spec.line,
                      "every recording of '" + spec.label + "' has the role validate, expected one to fit");
+  }
+  for (const std::string& part : spec.validate) {
+    if (std::ranges::none_of(all.heldout, [&](const Recording& recording) { return named_by({part}, recording); })) {
+      throw InputError(file, spec.line,
+                       "no recording of '" + spec.label + "' has a name that contains '" + part + "' of 'validate'");
+    }
   }
   return {all};
 }

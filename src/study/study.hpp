@@ -30,6 +30,9 @@ struct DataSpec {
   std::vector<std::string> only;   // recordings whose name contains one of these; empty: all
   bool each = false;               // every recording is a problem of its own
   int line = 0;
+  // Recordings whose name contains one of these are scored, not fitted; empty: those the campaign says. Not with
+  // `each`.
+  std::vector<std::string> validate = {};
 };
 
 struct SolverSpec {

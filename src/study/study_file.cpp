@@ -277,48 +277,53 @@ class Parser : private TomlReader {
   }
 
   void read_data(const toml::table& root, Study& study) const {
-    read_list(root, "data", "data", "[[data]] with dataset = \"rd8040-twin\" or recordings = [\"FOLDER\"]", study.data,
-              [&](const toml::node& node) {
-                const auto* table = node.as_table();
-                if (table == nullptr) fail(node, "data is not a table, expected [[data]]");
-                check_keys(*table, {"dataset", "recordings", "label", "seed", "only", "each"}, " of [[data]]");
-                DataSpec spec;
-                spec.line = line_of(node);
-                const auto* dataset = table->get("dataset");
-                const auto* recordings = table->get("recordings");
-                if ((dataset == nullptr) == (recordings == nullptr)) {
-                  fail(node, "[[data]] needs either dataset = \"ID\" or recordings = [\"FILE OR FOLDER\"]");
-                }
-                if (dataset != nullptr) {
-                  spec.dataset = word_of(*dataset, "dataset");
-                  spec.label = spec.dataset;
-                  const auto known = ids_of(dataset_catalogue());
-                  if (std::ranges::find(known, spec.dataset) == known.end()) {
-                    fail(*dataset, "unknown dataset " + in_quotes(spec.dataset) + suggestion(spec.dataset, known) +
-                                       ", see `hysteron list datasets`");
-                  }
-                } else {
-                  for (const std::string& name : texts_of(*recordings, "recordings")) {
-                    const fs::path path(name);
-                    spec.paths.push_back(path.is_absolute() ? path.string() : (path_.parent_path() / path).string());
-                  }
-                  // Never the whole path: a label must not tell where on a machine the data lie.
-                  fs::path first = fs::path(spec.paths.front()).lexically_normal();
-                  spec.label = (first.has_filename() ? first.filename() : first.parent_path().filename()).string();
-                }
-                if (const auto* value = table->get("label")) spec.label = word_of(*value, "label");
-                if (const auto* value = table->get("seed")) {
-                  if (dataset == nullptr) fail(*value, "'seed' is the noise of a shipped dataset, not of recordings");
-                  spec.seed =
-                      static_cast<std::uint64_t>(whole_of(*value, "seed", 0, std::numeric_limits<std::int64_t>::max()));
-                }
-                if (const auto* value = table->get("only")) spec.only = texts_of(*value, "only");
-                if (const auto* value = table->get("each")) {
-                  if (!value->is_boolean()) fail(*value, "'each' is not true or false");
-                  spec.each = value->as_boolean()->get();
-                }
-                return spec;
-              });
+    read_list(
+        root, "data", "data", "[[data]] with dataset = \"rd8040-twin\" or recordings = [\"FOLDER\"]", study.data,
+        [&](const toml::node& node) {
+          const auto* table = node.as_table();
+          if (table == nullptr) fail(node, "data is not a table, expected [[data]]");
+          check_keys(*table, {"dataset", "recordings", "label", "seed", "only", "validate", "each"}, " of [[data]]");
+          DataSpec spec;
+          spec.line = line_of(node);
+          const auto* dataset = table->get("dataset");
+          const auto* recordings = table->get("recordings");
+          if ((dataset == nullptr) == (recordings == nullptr)) {
+            fail(node, "[[data]] needs either dataset = \"ID\" or recordings = [\"FILE OR FOLDER\"]");
+          }
+          if (dataset != nullptr) {
+            spec.dataset = word_of(*dataset, "dataset");
+            spec.label = spec.dataset;
+            const auto known = ids_of(dataset_catalogue());
+            if (std::ranges::find(known, spec.dataset) == known.end()) {
+              fail(*dataset, "unknown dataset " + in_quotes(spec.dataset) + suggestion(spec.dataset, known) +
+                                 ", see `hysteron list datasets`");
+            }
+          } else {
+            for (const std::string& name : texts_of(*recordings, "recordings")) {
+              const fs::path path(name);
+              spec.paths.push_back(path.is_absolute() ? path.string() : (path_.parent_path() / path).string());
+            }
+            // Never the whole path: a label must not tell where on a machine the data lie.
+            fs::path first = fs::path(spec.paths.front()).lexically_normal();
+            spec.label = (first.has_filename() ? first.filename() : first.parent_path().filename()).string();
+          }
+          if (const auto* value = table->get("label")) spec.label = word_of(*value, "label");
+          if (const auto* value = table->get("seed")) {
+            if (dataset == nullptr) fail(*value, "'seed' is the noise of a shipped dataset, not of recordings");
+            spec.seed =
+                static_cast<std::uint64_t>(whole_of(*value, "seed", 0, std::numeric_limits<std::int64_t>::max()));
+          }
+          if (const auto* value = table->get("only")) spec.only = texts_of(*value, "only");
+          if (const auto* value = table->get("validate")) spec.validate = texts_of(*value, "validate");
+          if (const auto* value = table->get("each")) {
+            if (!value->is_boolean()) fail(*value, "'each' is not true or false");
+            spec.each = value->as_boolean()->get();
+            if (spec.each && !spec.validate.empty()) {
+              fail(*value, "'each' makes every recording a problem, so that 'validate' has none to judge by");
+            }
+          }
+          return spec;
+        });
   }
 
   void read_solvers(const toml::table& root, Study& study) const {

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdlib>
 
 #include "core/error.hpp"
 #include "io/csv.hpp"
@@ -149,34 +148,6 @@ TEST(Campaign, ContradictingFoldersAreRefused) {
   folder.write("b/campaign.toml", schema + "[by_current]\nc0 = 2\n");
   EXPECT_EQ(message_of<InputError>([&] { (void)load_campaign(data); }),
             toml + ": order 2 of 'c0' in [by_current] contradicts order 1 of another folder, expected the same");
-}
-
-// The folder of public recordings, or an empty path.
-std::filesystem::path public_recordings() {
-  if (const char* folder = std::getenv("HYSTERON_RECORDINGS")) return folder;
-#ifdef HYSTERON_SOURCE_DIR
-  return std::filesystem::path(HYSTERON_SOURCE_DIR) / "../shared/recordings";
-#else
-  return {};
-#endif
-}
-
-TEST(Campaign, PublicRecordings) {
-  const auto root = public_recordings();
-  if (root.empty() || !std::filesystem::is_directory(root)) GTEST_SKIP() << "no public recordings here";
-  for (const auto& device : std::filesystem::directory_iterator(root)) {
-    if (!device.is_directory()) continue;
-    const auto campaign = load_campaign({device.path().string()});
-    EXPECT_FALSE(campaign.recordings.empty());
-    for (const auto& r : campaign.recordings) {
-      EXPECT_GE(r.size(), 100U) << r.file;
-      EXPECT_EQ(r.velocity.size(), r.size());
-      EXPECT_EQ(r.force.size(), r.size());
-      const auto [low, high] = std::minmax_element(r.displacement.begin(), r.displacement.end());
-      EXPECT_GT(*high - *low, 1e-4) << r.file;
-      EXPECT_LT(*high - *low, 0.5) << r.file;
-    }
-  }
 }
 
 // A guard against an accidental quadratic; the usual figure is a few milliseconds.
