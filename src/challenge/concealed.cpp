@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "challenge/absorption.hpp"
 #include "challenge/base.hpp"
@@ -14,6 +15,10 @@ namespace {
 
 // Grid points a second of the simulation: fine enough for the filter and the delay.
 constexpr double finest_grid = 1600.0;
+
+// Of a foreign cause beside effects, over the power of the strongest of them.
+constexpr double least_foreign_power = 0.05;
+constexpr double most_foreign_power = 2.0;
 
 Needs merged(const Needs& a, const Needs& b) {
   Needs all;
@@ -255,14 +260,22 @@ double detectability_of(const Forces& left, const Chain& chain, double peak) {
   return energy / (sigma * sigma) * (1.0 - r) / (1.0 + r);
 }
 
-// Puts the causes of the task into c.physics and writes down what they are. Foreign causes beside effects of the
-// catalogue are sized by their power over that of the strongest effect; they come last in a task.
-void hide_causes(Concealed& c, const Workshop& workshop, const Stream& stream) {
+// Foreign causes end at the bounds of their strength here and there, with less power than was drawn.
+bool foreign_in_range(const Concealed& c) {
+  if (c.task.level != Level::beside) return true;
+  return std::ranges::all_of(c.truths, [](const HiddenTruth& truth) {
+    return !hidden_effect(truth.id).foreign || (truth.power_over_strongest > 0.93 * least_foreign_power &&
+                                                truth.power_over_strongest < 1.07 * most_foreign_power);
+  });
+}
+
+// Puts the causes of the task into c.physics and writes down their sizes; returns what each changes. Foreign causes
+// beside effects of the catalogue are sized by their power over that of the strongest effect; they come last in a task.
+std::vector<Forces> hide_causes(Concealed& c, const Workshop& workshop, const Stream& stream) {
   const Task& task = c.task;
-  if (task.effects.empty()) return;
   const bool beside = task.level == Level::beside;
-  const std::vector<Forces> derivatives = workshop.derivatives();
   const std::vector<double>& peaks = workshop.peaks();
+  std::vector<Forces> changes;
   double strongest = 0.0;  // change_nrmse of an effect of the catalogue
   double first_share = 0.0;
   for (std::size_t k = 0; k < task.effects.size(); ++k) {
@@ -284,7 +297,8 @@ void hide_causes(Concealed& c, const Workshop& workshop, const Stream& stream) {
       found.strength = std::clamp(size.log_uniform(0.05, 0.3), effect.least, effect.most);
       found.change = workshop.change(*what.form, at, found.strength, shape);
     } else if (beside && effect.foreign) {
-      found = workshop.calibrate(what, shape, strongest * std::sqrt(size.log_uniform(0.05, 2.0)), nrmse);
+      const double power = size.log_uniform(least_foreign_power, most_foreign_power);
+      found = workshop.calibrate(what, shape, strongest * std::sqrt(power), nrmse);
     } else {
       found = workshop.calibrate(what, shape, wanted, share_of_peak);
     }
@@ -295,15 +309,27 @@ void hide_causes(Concealed& c, const Workshop& workshop, const Stream& stream) {
     truth.share = share_of_peak(found.change, peaks);
     truth.change_nrmse = nrmse(found.change, peaks);
     if (!effect.foreign) strongest = std::max(strongest, truth.change_nrmse);
-    const Forces left = left_over(found.change, derivatives, peaks, false);
-    c.left = c.left.empty() ? left : combined(c.left, 1.0, left);
-    truth.left_nrmse = nrmse(left, peaks);
-    truth.left_nrmse_single = nrmse(left_over(found.change, derivatives, peaks, true), peaks);
-    truth.detectability = detectability_of(left, c.chain, workshop.device().force);
     c.truths.push_back(std::move(truth));
+    changes.push_back(std::move(found.change));
   }
   for (HiddenTruth& truth : c.truths) {
     if (strongest > 0.0) truth.power_over_strongest = std::pow(truth.change_nrmse / strongest, 2.0);
+  }
+  return changes;
+}
+
+// How far a re-fit of the law would take the causes up.
+void find_what_is_left(Concealed& c, const Workshop& workshop, const std::vector<Forces>& changes) {
+  if (changes.empty()) return;
+  const std::vector<Forces> derivatives = workshop.derivatives();
+  const std::vector<double>& peaks = workshop.peaks();
+  for (std::size_t k = 0; k < changes.size(); ++k) {
+    HiddenTruth& truth = c.truths[k];
+    const Forces left = left_over(changes[k], derivatives, peaks, false);
+    c.left = c.left.empty() ? left : combined(c.left, 1.0, left);
+    truth.left_nrmse = nrmse(left, peaks);
+    truth.left_nrmse_single = nrmse(left_over(changes[k], derivatives, peaks, true), peaks);
+    truth.detectability = detectability_of(left, c.chain, workshop.device().force);
   }
 }
 
@@ -331,7 +357,8 @@ Task with_forms(const Task& task, const Stream& stream) {
   return result;
 }
 
-Concealed attempt(const Task& asked, const Stream& stream) {
+// None where `strict` and a foreign cause cannot have its power.
+std::optional<Concealed> attempt(const Task& asked, const Stream& stream, bool strict) {
   Draws draws(stream, "campaign");
   Concealed c;
   c.task = with_forms(asked, stream);
@@ -395,7 +422,9 @@ Concealed attempt(const Task& asked, const Stream& stream) {
 
   const Workshop workshop(c, c.physics, device);
   c.peaks = workshop.peaks();
-  hide_causes(c, workshop, stream);
+  const std::vector<Forces> changes = hide_causes(c, workshop, stream);
+  if (strict && !foreign_in_range(c)) return std::nullopt;
+  find_what_is_left(c, workshop, changes);
 
   std::vector<Physics> per_test(c.excitation.tests.size(), c.physics);
   if (c.disturbance == "scatter between recordings") {
@@ -425,9 +454,9 @@ Concealed attempt(const Task& asked, const Stream& stream) {
   return c;
 }
 
-// A damper that a test rig would be stopped for: a force that is no number or many times that of the damper as drawn,
-// or a cause that should be excited and changes next to nothing.
-bool is_sane(const Concealed& c) {
+// Not a damper that a test rig would be stopped for: a force that is no number or many times that of the damper as
+// drawn, or a cause that should be excited and changes next to nothing.
+bool runs(const Concealed& c) {
   const double peak = *std::ranges::max_element(c.peaks);
   if (!(c.range.force < 6.0 * peak)) return false;
   for (const Measured& recording : c.recordings) {
@@ -441,9 +470,11 @@ bool is_sane(const Concealed& c) {
 Concealed make_concealed(const Task& task, std::uint64_t seed) {
   const Stream stream = Stream(seed).child("campaign").child(static_cast<std::uint64_t>(task.number));
   constexpr std::uint64_t attempts = 8;
-  for (std::uint64_t k = 0; k < attempts; ++k) {
-    Concealed c = attempt(task, stream.child(k));
-    if (is_sane(c)) return c;
+  for (const bool strict : {true, false}) {
+    for (std::uint64_t k = 0; k < attempts; ++k) {
+      std::optional<Concealed> c = attempt(task, stream.child(k), strict);
+      if (c && runs(*c)) return *std::move(c);
+    }
   }
   throw WorkError(fmt::format("campaign {}: no damper with these causes runs", task.number));
 }

@@ -721,7 +721,7 @@ void add_foreign(Effects& list) {
       [](const D& d, double s, Draws) { return part<DriverThreshold>(s * d.level); });
   add({"foreign:lever", "lever ratio that changes over the stroke", Group::even, anything, all_laws, 1e-3, 0.8},
       [](const D& d, double s, Draws shape) { return part<LeverGeometry>(shape.chance(0.5) ? s : -s, d.amplitude); });
-  add({"foreign:load-cell-square", "load cell with a square term", Group::even, anything, all_laws, 1e-3, 0.4},
+  add({"foreign:load-cell-square", "load cell with a square term", Group::even, anything, all_laws, 1e-3, 0.2},
       [](const D& d, double s, Draws shape) { return part<LoadCellSquare>(shape.chance(0.5) ? s : -s, d.force); });
   add({"foreign:field-spring",
        "stiffness that grows with the drive",

@@ -97,7 +97,7 @@ std::vector<Table> tables_of(const json& result) {
 
   tables.push_back(outcome_table(s.at("levels"), "Levels", "", "level"));
   tables.push_back(outcome_table(s.at("effects"), "Single causes that can be seen",
-                                 "foreign: causes are right when refused (unattributed).", "effect"));
+                                 "foreign: causes are right when refused: no name, and not complete.", "effect"));
   tables.push_back(outcome_table(s.at("disturbances"), "Negative controls", "", "disturbance"));
   tables.push_back(size_table(s.at("by_share_of_peak"), "Size: RMS of the change of force over peak force",
                               "Single causes of the catalogue, excited, told the true law."));
@@ -227,7 +227,7 @@ std::string headline(const json& result) {
       "declared set in {} more. ",
       counted(known.at("rate_right")), known.at("in_set").get<int>());
   const json& names = s.at("names");
-  std::string foreign = "foreign causes alone were not put";
+  std::string foreign = "no campaign has foreign causes alone";
   for (const json& level : s.at("levels")) {
     if (level.at("level") == "foreign")
       foreign = "foreign causes alone were refused in " + counted(level.at("rate_right"));

@@ -16,6 +16,7 @@
 #include "challenge/forms_series.hpp"
 #include "challenge/forms_slow.hpp"
 #include "challenge/forms_springs.hpp"
+#include "io/file.hpp"
 
 namespace hysteron::challenge {
 namespace {
@@ -82,6 +83,16 @@ TEST(Forms, EveryEffectHasThreeAndNoneTwice) {
   EXPECT_GE(foreign, 12);
   std::ranges::sort(ids);
   EXPECT_EQ(std::ranges::adjacent_find(ids), ids.end());
+}
+
+TEST(Forms, TheirPageHoldsThemAll) {
+  const std::string page = read_file(HYSTERON_SOURCE_DIR "/docs/challenge.md");
+  for (const HiddenEffect& effect : hidden_effects()) {
+    for (const HiddenForm& form : effect.forms) {
+      EXPECT_NE(page.find("| " + form.id + " "), std::string::npos) << form.id;
+      EXPECT_NE(page.find("| " + std::string(form.words) + " "), std::string::npos) << form.words;
+    }
+  }
 }
 
 TEST(Forms, OneSlipElementIsElasticPlastic) {
