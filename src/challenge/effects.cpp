@@ -58,6 +58,7 @@ double stribeck_speed(const D& d, Draws& shape) {
 
 std::vector<double> scatter_of(Draws& shape, double size) {
   std::vector<double> values;
+  values.reserve(16);
   for (int k = 0; k < 16; ++k) values.push_back(size * shape.normal());
   return values;
 }
@@ -414,6 +415,7 @@ void add_slow(Effects& list) {
                             }),
                        form("force-drift/walk", "smoothed random walk", [](const D& d, double s, Draws shape) {
                          std::vector<double> phases;
+                         phases.reserve(64);
                          for (int k = 0; k < 64; ++k) phases.push_back(shape.uniform(0.0, 2.0 * std::numbers::pi));
                          return part<WalkDrift>(0.5 * s * d.force, 2.0 * std::numbers::pi * 0.3 / d.longest, phases);
                        })};
