@@ -35,7 +35,7 @@ T on_film(const T& film, const T& v) {
 // Bound of |dz'/dz| for speeds (m/s) up to `speed`.
 template <class T>
 T bristle_stiffness(const T& length, double speed) {
-  return T(speed) / (length + T(bristle_time * speed));
+  return T(speed) / (length + T(bristle_time) * T(speed));
 }
 
 }  // namespace hysteron

@@ -78,6 +78,7 @@ const std::string& command_line();
 void add_fit(CLI::App& program);
 void add_simulate(CLI::App& program);
 void add_score(CLI::App& program);
+void add_export(CLI::App& program);
 void add_catalogue(CLI::App& program);
 void add_generate(CLI::App& program);
 void add_diagnose(CLI::App& program);

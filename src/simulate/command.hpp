@@ -21,7 +21,9 @@ struct Command {
   // Drive `lag` s before the sample (negative: after it), linear between samples and held beyond the ends.
   template <class T>
   [[nodiscard]] T earlier(const T& lag) const {
-    if constexpr (std::is_same_v<T, double>) {
+    if constexpr (requires { lag.node; }) {
+      return drive_before(lag);  // recorded (scalar/trace.hpp), not looked up
+    } else if constexpr (std::is_same_v<T, double>) {
       return point(lag).value;
     } else if constexpr (std::is_same_v<T, Lanes>) {
       T result;

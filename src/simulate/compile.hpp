@@ -1,5 +1,5 @@
-// Turns a part's equations into its catalogue row: instantiates them for doubles, packs and duals in the part's own
-// translation unit.
+// Turns a part's equations into its catalogue row: instantiates them for doubles, packs and duals, and for recording,
+// in the part's own translation unit.
 #pragma once
 
 #include <algorithm>
@@ -7,6 +7,7 @@
 #include "simulate/knowledge.hpp"
 #include "simulate/march.hpp"
 #include "simulate/part.hpp"
+#include "simulate/traced.hpp"
 
 namespace hysteron {
 
@@ -106,8 +107,6 @@ struct Fused {
       return value_t<T>(0.0);
     }
   }
-
- private:
   // What drives the state that settles.
   template <class T>
   [[gnu::always_inline]] static value_t<T> towards([[maybe_unused]] const T* p, [[maybe_unused]] const T* s,
@@ -118,6 +117,8 @@ struct Fused {
       return value_of(in.v);
     }
   }
+
+ private:
   // Bounds need no derivatives.
   template <class T>
   [[gnu::always_inline]] static std::array<value_t<T>, parameter_count<M>> values(const T* p) {
@@ -193,7 +194,7 @@ constexpr PartOperations<T> operations() {
   result.force = [](const T* p, const T* s, const Input<T>& in, T& force) {
     force = M::force(as_array<T, parameter_count<M>>(p), as_array<T, M::states>(s), in, force);
   };
-  if constexpr (!HasLoadedRate<M>) {
+  if constexpr (!HasLoadedRate<M> && !std::is_same_v<T, Trace>) {
     result.march = [](const Motion& motion, const T* p, std::size_t stride, std::size_t begin, std::size_t end,
                       T* state, T* out) { march<T>(Fused<M>{}, motion, p, stride, begin, end, state, out); };
   }
@@ -216,6 +217,29 @@ constexpr bool knows_its_parameters() {
                              [](const KindredParameter& row) { return has_parameter<M>(row.parameter); });
 }
 
+template <class M>
+constexpr TracedPart traced_part() {
+  if constexpr (IsSeries<M>) {
+    return {series_operations<M, Trace>()};
+  } else {
+    TracedPart result{operations<M, Trace>()};
+    if constexpr (Settles<M>) {
+      result.towards = [](const Trace* p, const Trace* s, const Input<Trace>& in) {
+        return Fused<M>::towards(p, s, in);
+      };
+    }
+    if constexpr (requires { &M::template stiffness_near<double>; }) {
+      result.stiffness_near = [](const Trace* p, const Trace* s, const Trace& v, double speed, double change) {
+        return M::stiffness_near(as_array<Trace, parameter_count<M>>(p), as_array<Trace, M::states>(s), v, speed,
+                                 change);
+      };
+    }
+    return result;
+  }
+}
+template <class M>
+inline constexpr TracedPart traced = traced_part<M>();
+
 }  // namespace detail
 
 template <class M>
@@ -228,6 +252,7 @@ constexpr Part compile() {
   part.equations = M::equations;
   part.parameters = M::parameters;
   part.states = M::states;
+  part.traced = &detail::traced<M>;
   if constexpr (requires { M::starts; }) {
     static_assert(std::size(M::starts) == 8);
     part.starts = M::starts;

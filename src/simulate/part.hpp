@@ -146,6 +146,8 @@ struct PartOperations {
 };
 
 struct Knowledge;
+// The operations on the recording scalar (simulate/traced.hpp).
+struct TracedPart;
 
 // A catalogue row of a law or an effect.
 struct Part {
@@ -163,6 +165,7 @@ struct Part {
   PartOperations<double> on_double;
   PartOperations<Lanes> on_lanes;
   PartOperations<LaneDual> on_dual;
+  const TracedPart* traced = nullptr;
 
   // Shares its force with what is below and takes part of the motion.
   [[nodiscard]] bool in_series() const { return on_double.yield != nullptr; }

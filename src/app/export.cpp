@@ -1,0 +1,106 @@
+// hysteron export: an identified model for use elsewhere, with a test vector.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "app/command.hpp"
+#include "app/model_file.hpp"
+#include "core/error.hpp"
+#include "export/targets.hpp"
+#include "io/output.hpp"
+
+namespace hysteron::app {
+namespace {
+
+struct Options {
+  std::string model;
+  std::string to;
+  std::string out;
+  std::string name;
+  std::string motion;
+  DataOptions data;
+  double tolerance = 1e-4;
+  int most_substeps = 65536;
+  int substeps = 0;
+};
+
+Recording motion_of(const Options& options) {
+  if (options.motion.empty()) {
+    return motion_for_testing();
+  }
+  DataOptions data = options.data;
+  data.data = {options.motion};
+  const Campaign campaign = load(data, false);
+  if (campaign.recordings.size() != 1) {
+    throw InputError(options.motion + ": holds " + std::to_string(campaign.recordings.size()) +
+                     " recordings, expected one");
+  }
+  return campaign.recordings[0];
+}
+
+void run(const Options& options) {
+  const ExportTarget& target = export_target(options.to);
+  const StoredModel stored = read_model(options.model);
+  ExportedModel exported{stored.model, stored.held, stored.terms, options.name};
+  exported.tolerance = options.tolerance;
+  exported.most_substeps = options.most_substeps;
+  exported.substeps = options.substeps;
+  const std::filesystem::path out(options.out);
+  const bool one_file = !target.extension.empty() && out.extension() == target.extension;
+  const std::filesystem::path folder = one_file ? out.parent_path() : out;
+  if (exported.name.empty()) {
+    exported.name = identifier(one_file ? out.stem().string() : std::string(stored.model.law->id));
+  } else if (exported.name != identifier(exported.name)) {
+    throw InputError("--name: '" + exported.name + "' is not an identifier, expected letters, digits and underscores");
+  }
+  const TestVector vector = test_vector(exported, motion_of(options));
+  const Export result = target.write(exported, vector);
+  if (!folder.empty()) {
+    make_output_folder(folder);
+  }
+  for (const auto& [file, text] : result.files) {
+    const std::filesystem::path path = one_file && result.files.size() == 1 ? out : folder / file;
+    if (path.has_parent_path()) {
+      make_output_folder(path.parent_path());
+    }
+    write_file_atomically(path, text);
+    fmt::print("{}\n", path.string());
+  }
+  fmt::print("{}\n", result.note);
+}
+
+}  // namespace
+
+void add_export(CLI::App& program) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = program.add_subcommand("export", "an identified model for use elsewhere, with a test vector");
+  command->add_option("MODEL", options->model, "model.json written by fit or diagnose")->required();
+  command->add_option("--to", options->to, "c, fmu, simulink, modelica or python")->required();
+  command->add_option("--out", options->out, "folder, or the file (.c, .fmu, .py) with its companions beside it")
+      ->required();
+  command->add_option("--name", options->name, "name in the code; default that of the file or the law");
+  command->add_option(
+      "--motion", options->motion,
+      "recording whose motion the test vector replays; default a motion of 10 mm and a drive about 0.5");
+  command->add_option("--column", options->data.columns, "channel=NAME [UNIT] of a column of it; repeatable")
+      ->allow_extra_args(false);
+  command->add_option("--tolerance", options->tolerance, "relative force error allowed to the integration")
+      ->check(CLI::Range(1e-10, 1e-2))
+      ->capture_default_str();
+  command->add_option("--most-substeps", options->most_substeps, "steps of the integration between two samples at most")
+      ->check(CLI::Range(1, 65536))
+      ->capture_default_str();
+  command
+      ->add_option("--substeps", options->substeps,
+                   "always so many steps between two samples, for a fixed time a sample; 0: as the stiffness asks")
+      ->check(CLI::Range(0, 65536))
+      ->capture_default_str();
+  command->footer(
+      "Examples:\n"
+      "  hysteron export out/model.json --to c --out damper/ --motion recordings/r1.csv\n"
+      "  hysteron export out/model.json --to fmu --out damper.fmu");
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace hysteron::app

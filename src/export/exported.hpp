@@ -1,0 +1,63 @@
+// What every target of `export` starts from: an identified model, and a motion with its force to check a copy with.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/recording.hpp"
+#include "export/equations.hpp"
+#include "fit/layout.hpp"
+
+namespace hysteron {
+
+struct ExportedModel {
+  CompositeModel model;
+  std::vector<double> held;
+  std::vector<Term> terms;
+  std::string name;           // an identifier of C, Python and Modelica
+  double tolerance = 1e-4;    // of the integration, as in simulate
+  int most_substeps = 65536;  // between two samples
+  int substeps = 0;           // always so many; 0: as many as the stiffness asks for
+
+  [[nodiscard]] std::string title() const;
+  [[nodiscard]] bool follows_drive() const;
+  [[nodiscard]] bool follows_frequency() const;
+};
+
+// A part in its place: law first, then the effects from the law outwards.
+struct ExportedLink {
+  const Part* part;
+  PartEquations equations;
+  std::string name;  // of its functions
+  std::size_t parameter;
+  int state;
+  int memory;  // of an excite operation; -1: none
+};
+// Throws InputError where the model cannot be written without knowing the future of the drive.
+std::vector<ExportedLink> links_of(const ExportedModel& exported);
+
+// Samples as simulate sees them.
+struct TestSample {
+  double time;
+  double displacement;
+  double velocity;
+  double slope;
+  double acceleration;
+  double jerk;
+  double drive;
+};
+struct TestVector {
+  double frequency = 0.0;           // Hz
+  std::vector<TestSample> lead_in;  // marched beforehand, where the recording begins in mid-motion
+  std::vector<TestSample> samples;
+  std::vector<double> force;  // N, by simulate; one a sample
+};
+TestVector test_vector(const ExportedModel& exported, const Recording& motion);
+
+// A motion from rest with two tones, 10 mm, and a drive that swings about 0.5.
+Recording motion_for_testing();
+
+// "bouc-wen" -> "bouc_wen".
+std::string identifier(std::string_view text);
+
+}  // namespace hysteron

@@ -1,0 +1,218 @@
+// Python: one module of the same equations, nothing but the standard library, and one that replays a test vector.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "export/runtime.hpp"
+#include "export/targets.hpp"
+#include "export/writer.hpp"
+
+namespace hysteron {
+namespace {
+
+std::string quoted(std::string_view text) { return replaced(std::string(text), "\"\"\"", "'''"); }
+
+// Results in the order of the function's targets are handed back as a tuple, but for a drive, which changes `seen`.
+std::string function(const ExportedLink& link, const std::string& kind, const std::string& arguments,
+                     const Function& code) {
+  const Statements statements = write_statements(code, link.part->parameters, Language::python);
+  std::string text = fmt::format("\n\ndef {}_{}({}):\n", link.name, kind, arguments);
+  std::vector<int> parameters;
+  for (const QuantityNumber& used : statements.used) {
+    if (used.quantity == Quantity::parameter) {
+      parameters.push_back(used.index);
+    }
+  }
+  std::ranges::sort(parameters);
+  for (const int k : parameters) {
+    text +=
+        fmt::format("    {} = p[{}]\n", parameter_identifier(link.part->parameters[static_cast<std::size_t>(k)]), k);
+  }
+  for (const std::string& line : statements.lines) {
+    text += "    " + line + "\n";
+  }
+  static constexpr const char* motion_members[] = {"x", "v", "drive", "time", "age", "a", "jerk"};
+  std::string targets;
+  std::string values;
+  std::string acting;
+  for (const Statements::Result& result : statements.results) {
+    std::string target;
+    if (kind == "drive") {
+      target = std::string("seen.") +
+               motion_members[static_cast<int>(result.target.quantity) - static_cast<int>(Quantity::x)];
+    } else if (result.target.quantity == Quantity::memory) {
+      target = fmt::format("memory[{}]", result.target.index);
+    } else if (kind.starts_with("excite")) {
+      target = "acting";
+    }
+    targets += (targets.empty() ? "" : ", ") + target;
+    values += (values.empty() ? "" : ", ") + result.expression;
+  }
+  if (kind == "drive") {
+    text += fmt::format("    {} = {}\n", targets, values);
+  } else if (kind.starts_with("excite")) {
+    text += fmt::format("    {} = {}\n    return acting\n", targets, values);
+  } else {
+    const bool list = kind == "rate" || kind == "yield";
+    text += list ? "    return [" + values + "]\n" : "    return " + values + "\n";
+  }
+  return text;
+}
+
+std::string functions_of(const ExportedLink& link) {
+  const PartEquations& e = link.equations;
+  std::string text = fmt::format("\n\n# {}\n", link.part->title);
+  for (const std::string_view equation : link.part->equations) {
+    text += fmt::format("#   {}\n", equation);
+  }
+  text += fmt::format("# {}", link.part->reference);
+  const auto add = [&](const char* kind, const char* arguments, const std::optional<Function>& code) {
+    if (code) {
+      text += function(link, kind, arguments, *code);
+    }
+  };
+  add("drive", "p, s, seen", e.drive);
+  add("rate", "p, s, seen, below", e.rate);
+  add("force", "p, s, seen, below", e.force);
+  add("stiffness", "p, speed", e.stiffness);
+  add("towards", "p, s, seen", e.towards);
+  add("slack", "p", e.slack);
+  add("stiffness_near", "p, s, seen, speed, change", e.stiffness_near);
+  add("yield", "p, s", e.yield);
+  add("recall", "p, past, drive", e.recall);
+  add("excite_first", "p, memory, elapsed, drive", e.excite_first);
+  add("excite", "p, memory, elapsed, drive", e.excite);
+  return text;
+}
+
+std::string table_of(const std::vector<ExportedLink>& links) {
+  std::string text;
+  for (const ExportedLink& link : links) {
+    const PartEquations& e = link.equations;
+    const auto name = [&](const std::optional<Function>& code, const char* kind) {
+      return code ? link.name + "_" + kind : std::string("None");
+    };
+    text += fmt::format("    Link({}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}),\n", link.parameter, link.state,
+                        link.part->states, e.settles, name(e.drive, "drive"), name(e.rate, "rate"),
+                        name(e.force, "force"), name(e.stiffness, "stiffness"), name(e.towards, "towards"),
+                        name(e.slack, "slack"), name(e.stiffness_near, "stiffness_near"), name(e.yield, "yield"));
+  }
+  return text;
+}
+
+std::string parameters_at(const ExportedModel& exported) {
+  std::string text =
+      "def parameters_at(drive, frequency):\n"
+      "    \"\"\"Parameters of all links where the drive that acts has this value.\"\"\"\n    return [\n";
+  const std::vector<Parameter> cards = exported.model.parameters();
+  const std::vector<std::string> names = exported.model.parameter_names();
+  for (std::size_t k = 0; k < cards.size(); ++k) {
+    std::string value;
+    for (const Term& term : exported.terms) {
+      if (term.parameter != k) {
+        continue;
+      }
+      std::string product = literal(term.value);
+      for (int power = 0; power < term.drive_power; ++power) {
+        product += " * drive";
+      }
+      for (int power = 0; power < term.frequency_power; ++power) {
+        product += " * frequency";
+      }
+      value += (value.empty() ? "" : " + ") + product;
+    }
+    text += fmt::format("        {},  # {} [{}]: {}\n", value.empty() ? literal(exported.held[k]) : value, names[k],
+                        cards[k].unit, cards[k].meaning);
+  }
+  return text + "    ]\n";
+}
+
+std::string acting(const std::vector<ExportedLink>& links) {
+  std::string acts;
+  bool recalls = false;
+  for (std::size_t i = links.size(); i-- > 0;) {
+    if (links[i].equations.recall) {
+      recalls = true;
+      acts += fmt::format("        drive = {}_recall(p[{}:], self, drive)\n", links[i].name, links[i].parameter);
+    }
+  }
+  for (std::size_t i = links.size(); i-- > 0;) {
+    const ExportedLink& link = links[i];
+    if (link.equations.excite) {
+      acts += fmt::format(
+          "        act = {0}_excite if self.samples else {0}_excite_first\n"
+          "        drive = act(p[{1}:], self.memory[{2}], elapsed, drive)\n",
+          link.name, link.parameter, link.memory);
+    }
+  }
+  if (acts.empty()) {
+    return "        return parameters_at(now.drive, self.frequency)\n";
+  }
+  std::string text = "        drive = now.drive\n        p = parameters_at(drive, self.frequency)\n";
+  if (recalls) {
+    text += "        self.history.append((now.time, drive))\n";
+  }
+  return text + acts + "        return parameters_at(drive, self.frequency)\n";
+}
+
+std::string rows(const std::vector<TestSample>& samples) {
+  std::string text;
+  for (const TestSample& s : samples) {
+    text +=
+        fmt::format("    ({}, {}, {}, {}, {}, {}, {}),\n", literal(s.time), literal(s.displacement),
+                    literal(s.velocity), literal(s.slope), literal(s.acceleration), literal(s.jerk), literal(s.drive));
+  }
+  return text;
+}
+
+}  // namespace
+
+Export export_python(const ExportedModel& exported, const TestVector& vector) {
+  const std::vector<ExportedLink> links = links_of(exported);
+  const auto any_link = [&](auto holds) { return std::ranges::any_of(links, holds); };
+  const bool series = any_link([](const ExportedLink& link) { return link.equations.yield || link.equations.loaded; });
+  const bool settles = any_link([](const ExportedLink& link) { return link.equations.settles >= 0; });
+  const bool alone = std::ranges::all_of(links.begin() + 1, links.end(), [](const ExportedLink& link) {
+    return link.part->states == 0 && !link.equations.drive;
+  });
+  int memories = 0;
+  std::string equations;
+  for (const ExportedLink& link : links) {
+    memories += link.memory >= 0 ? 1 : 0;
+    equations += functions_of(link);
+  }
+  std::string text(runtime::python_py());
+  const auto truth = [](bool value) { return std::string(value ? "True" : "False"); };
+  const std::pair<const char*, std::string> pieces[] = {
+      {"@title@", quoted(exported.title())},
+      {"@frequency@", literal(vector.frequency)},
+      {"@states@", std::to_string(exported.model.states())},
+      {"@settles@", truth(settles)},
+      {"@alone@", truth(alone)},
+      {"@series@", truth(series)},
+      {"@step_limit@", literal(make_motion({}, {}, {}, {}, exported.tolerance).step_limit)},
+      {"@most_substeps@", std::to_string(exported.most_substeps)},
+      {"@substeps@", std::to_string(exported.substeps)},
+      {"@memories@", std::to_string(memories)},
+      {"@equations@", equations},
+      {"@links@", table_of(links)},
+      {"@parameters_at@", parameters_at(exported)},
+      {"@acting@\n", acting(links)}};
+  for (const auto& [what, with] : pieces) {
+    text = replaced(text, what, with);
+  }
+  std::string force;
+  for (const double f : vector.force) {
+    force += fmt::format("    {},\n", literal(f));
+  }
+  std::string test(runtime::python_test_py());
+  test = replaced(test, "@name@", exported.name);
+  test = replaced(test, "@frequency@", literal(vector.frequency));
+  test = replaced(test, "@lead_in@", rows(vector.lead_in));
+  test = replaced(test, "@samples@", rows(vector.samples));
+  test = replaced(test, "@force@", force);
+  return {{{exported.name + ".py", text}, {exported.name + "_test.py", test}},
+          "replay: python3 " + exported.name + "_test.py in that folder"};
+}
+
+}  // namespace hysteron

@@ -1,0 +1,214 @@
+#include "export/writer.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+
+namespace hysteron {
+namespace {
+
+// Longer expressions are given a name.
+constexpr std::size_t longest_expression = 80;
+
+// How tightly an expression holds together, in both languages.
+enum Tightness { choice, disjunction, conjunction, comparison, sum, product, sign, whole };
+
+struct Expression {
+  std::string text;
+  Tightness tightness = whole;
+};
+
+class Printer {
+ public:
+  Printer(const Function& function, std::span<const Parameter> parameters, Language language)
+      : function_(function), parameters_(parameters), language_(language), uses_(function.nodes.size(), 0) {
+    std::vector<bool> needed(function.nodes.size(), false);
+    for (const Function::Result& result : function.results) {
+      needed[static_cast<std::size_t>(result.node)] = true;
+      ++uses_[static_cast<std::size_t>(result.node)];
+    }
+    for (std::size_t k = function.nodes.size(); k-- > 0;) {
+      const Tape::Node& node = function.nodes[k];
+      if (!needed[k] || node.operation == TraceOperation::input || node.operation == TraceOperation::constant) {
+        continue;
+      }
+      for (const int argument : {node.a, node.b, node.c}) {
+        if (argument >= 0) {
+          needed[static_cast<std::size_t>(argument)] = true;
+          ++uses_[static_cast<std::size_t>(argument)];
+        }
+      }
+    }
+    expressions_.resize(function.nodes.size());
+    for (std::size_t k = 0; k < function.nodes.size(); ++k) {
+      if (needed[k]) {
+        place(k);
+      }
+    }
+  }
+
+  Statements statements() {
+    for (const Function::Result& result : function_.results) {
+      statements_.results.push_back({result.target, expressions_[static_cast<std::size_t>(result.node)].text});
+    }
+    return std::move(statements_);
+  }
+
+ private:
+  void place(std::size_t k) {
+    const Tape::Node& node = function_.nodes[k];
+    Expression expression = print(node);
+    const bool truth = node.operation == TraceOperation::less || node.operation == TraceOperation::both ||
+                       node.operation == TraceOperation::either;
+    const bool plain = node.operation == TraceOperation::input || node.operation == TraceOperation::constant;
+    if (!plain && !truth && (uses_[k] > 1 || expression.text.size() > longest_expression)) {
+      const std::string name = fmt::format("t{}", ++temporaries_);
+      statements_.lines.push_back(language_ == Language::c ? fmt::format("const double {} = {};", name, expression.text)
+                                                           : fmt::format("{} = {}", name, expression.text));
+      expression = {name, whole};
+    }
+    expressions_[k] = expression;
+  }
+
+  [[nodiscard]] std::string inside(int node, Tightness least) const {
+    const Expression& expression = expressions_[static_cast<std::size_t>(node)];
+    return expression.tightness < least ? "(" + expression.text + ")" : expression.text;
+  }
+  [[nodiscard]] const std::string& bare(int node) const { return expressions_[static_cast<std::size_t>(node)].text; }
+  [[nodiscard]] std::string call(const char* c, const char* python, const Tape::Node& node) const {
+    std::string text = std::string(language_ == Language::c ? c : python) + "(" + bare(node.a);
+    if (node.b >= 0) {
+      text += ", " + bare(node.b);
+    }
+    return text + ")";
+  }
+
+  Expression print(const Tape::Node& node) {
+    const bool c = language_ == Language::c;
+    switch (node.operation) {
+      case TraceOperation::constant:
+        return {literal(node.value), node.value < 0.0 ? sign : whole};
+      case TraceOperation::input:
+        return {input(quantity_of_input(node.a)), whole};
+      case TraceOperation::negate:
+        return {"-" + inside(node.a, whole), sign};
+      case TraceOperation::add:
+        return {inside(node.a, sum) + " + " + inside(node.b, product), sum};
+      case TraceOperation::subtract:
+        return {inside(node.a, sum) + " - " + inside(node.b, product), sum};
+      case TraceOperation::multiply:
+        return {inside(node.a, product) + " * " + inside(node.b, sign), product};
+      case TraceOperation::divide:
+        // Python raises an error where C gives an infinity.
+        return c ? Expression{inside(node.a, product) + " / " + inside(node.b, sign), product}
+                 : Expression{call("", "quotient", node), whole};
+      case TraceOperation::minimum:
+        return {call("lesser", "lesser", node), whole};
+      case TraceOperation::maximum:
+        return {call("greater", "greater", node), whole};
+      case TraceOperation::absolute:
+        return {call("fabs", "abs", node), whole};
+      case TraceOperation::square_root:
+        return {call("sqrt", "square_root", node), whole};
+      case TraceOperation::exponential:
+        return {call("exponential", "exponential", node), whole};
+      case TraceOperation::logarithm:
+        return {call("logarithm", "logarithm", node), whole};
+      case TraceOperation::power:
+        return {call("power", "power", node), whole};
+      case TraceOperation::power_law:
+        return {call("power_law", "power_law", node), whole};
+      case TraceOperation::hyperbolic_tangent:
+        return {call("tanh", "tanh", node), whole};
+      case TraceOperation::earlier:
+        return {(c ? "drive_before(past, " : "past.drive_before(") + bare(node.a) + ")", whole};
+      case TraceOperation::less:
+        return {inside(node.a, sum) + " < " + inside(node.b, sum), comparison};
+      case TraceOperation::both:
+        return {inside(node.a, comparison) + (c ? " && " : " and ") + inside(node.b, comparison), conjunction};
+      case TraceOperation::either:
+        return {inside(node.a, comparison) + (c ? " || " : " or ") + inside(node.b, comparison), disjunction};
+      case TraceOperation::choose:
+        return c ? Expression{inside(node.a, whole) + " ? " + inside(node.b, sum) + " : " + inside(node.c, sum), choice}
+                 : Expression{
+                       inside(node.b, sum) + " if " + inside(node.a, disjunction) + " else " + inside(node.c, sum),
+                       choice};
+    }
+    return {};
+  }
+
+  std::string input(const QuantityNumber& number) {
+    if (std::ranges::none_of(statements_.used, [&](const QuantityNumber& other) {
+          return other.quantity == number.quantity && other.index == number.index;
+        })) {
+      statements_.used.push_back(number);
+    }
+    const char* member = language_ == Language::c ? "in->" : "seen.";
+    switch (number.quantity) {
+      case Quantity::parameter:
+        return parameter_identifier(parameters_[static_cast<std::size_t>(number.index)]);
+      case Quantity::state:
+        return fmt::format("s[{}]", number.index);
+      case Quantity::memory:
+        return fmt::format("memory[{}]", number.index);
+      case Quantity::x:
+        return member + std::string("x");
+      case Quantity::v:
+        return member + std::string("v");
+      case Quantity::drive:
+        return member + std::string("drive");
+      case Quantity::time:
+        return member + std::string("time");
+      case Quantity::age:
+        return member + std::string("age");
+      case Quantity::a:
+        return member + std::string("a");
+      case Quantity::jerk:
+        return member + std::string("jerk");
+      case Quantity::below:
+        return "below";
+      case Quantity::speed:
+        return "speed";
+      case Quantity::change:
+        return "change";
+      case Quantity::elapsed:
+        return "elapsed";
+      case Quantity::acting:
+        return "drive";
+    }
+    return {};
+  }
+
+  const Function& function_;
+  std::span<const Parameter> parameters_;
+  Language language_;
+  std::vector<int> uses_;
+  std::vector<Expression> expressions_;
+  Statements statements_;
+  int temporaries_ = 0;
+};
+
+}  // namespace
+
+std::string literal(double value) {
+  std::string text = fmt::format("{}", value);
+  if (text.find_first_of(".en") == std::string::npos) {
+    text += ".0";
+  }
+  return text;
+}
+
+std::string parameter_identifier(const Parameter& parameter) {
+  std::string text = "p_";
+  for (const char letter : parameter.name) {
+    text += std::isalnum(static_cast<unsigned char>(letter)) != 0 ? letter : '_';
+  }
+  return text;
+}
+
+Statements write_statements(const Function& function, std::span<const Parameter> parameters, Language language) {
+  return Printer(function, parameters, language).statements();
+}
+
+}  // namespace hysteron
