@@ -82,7 +82,8 @@ std::string function(const ExportedLink& link, const std::string& kind, const st
   }
   std::string unused;
   const std::string all = body + stores;
-  for (const auto& [declaration, name] : arguments) {
+  for (const auto& argument : arguments) {
+    const std::string& name = argument.second;
     const bool pointer_used = uses(all, name + "[") || uses(all, name + "->");
     const bool value_used = std::ranges::any_of(statements.used,
                                                 [&](const QuantityNumber& used) {

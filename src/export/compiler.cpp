@@ -41,6 +41,7 @@ class TemporaryFolder {
 // Runs a program of the path in a folder without its output; false where it is missing or fails.
 bool runs(const std::vector<std::string>& words, const std::filesystem::path& folder) {
   std::vector<char*> arguments;
+  arguments.reserve(words.size() + 1);
   for (const std::string& word : words) {
     arguments.push_back(const_cast<char*>(word.c_str()));
   }
