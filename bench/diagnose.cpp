@@ -63,7 +63,7 @@ void diagnose_campaign(benchmark::State& bench, const Campaign& campaign) {
   options.layout.by_current = campaign.by_current;
   for (auto _ : bench) {
     const auto diagnosis = diagnose(campaign, options, [](double, const std::string&) {});
-    std::string said = diagnosis->verdict.word;
+    std::string said(name_of(diagnosis->verdict.answer));
     for (const Named& named : diagnosis->verdict.effects) {
       said += " " + named.id;
     }

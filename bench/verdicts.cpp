@@ -28,12 +28,19 @@ using nlohmann::json;
 
 // What the score asks of a diagnosis.
 json diagnosis_with(const hysteron::Verdict& verdict) {
-  json effects = json::array();
-  for (const hysteron::Named& named : verdict.effects) {
-    effects.push_back(
-        {{"id", named.id}, {"confidence", named.confidence}, {"indistinguishable_from", named.indistinguishable_from}});
-  }
-  return {{"verdict", verdict.word}, {"effects", effects}};
+  const auto rows_of = [](const std::vector<hysteron::Named>& names) {
+    json rows = json::array();
+    for (const hysteron::Named& named : names) {
+      rows.push_back({{"id", named.id},
+                      {"grade", name_of(named.grade)},
+                      {"confidence", named.confidence},
+                      {"indistinguishable_from", named.indistinguishable_from}});
+    }
+    return rows;
+  };
+  return {{"verdict", name_of(verdict.answer)},
+          {"effects", rows_of(verdict.effects)},
+          {"suggestions", rows_of(verdict.suggestions)}};
 }
 
 std::string listed(const json& names) {
@@ -70,7 +77,7 @@ int run(int argc, char** argv) {
         ++left_out;
         continue;
       }
-      const hysteron::Verdict verdict = hysteron::verdict_of(hysteron::findings_from(diagnosis.at("evidence")));
+      const hysteron::Verdict verdict = hysteron::verdict_of(hysteron::evidence_from(diagnosis.at("evidence")));
       const json row = hysteron::challenge::score_campaign(answer, diagnosis_with(verdict));
       const std::string outcome = row.at("outcome");
       const std::string held = hysteron::challenge::score_campaign(answer, diagnosis).at("outcome");
@@ -80,7 +87,7 @@ int run(int argc, char** argv) {
       changed += outcome == held ? 0 : 1;
       if (list && (outcome != "right" || outcome != held)) {
         fmt::print("{} {} {:<10} truth: {:<40} {:<15} {:<10}{} names: {} candidates: {}\n", folder.filename().string(),
-                   name.substr(name.size() - 4), level, listed(row.at("truth")), verdict.word, outcome,
+                   name.substr(name.size() - 4), level, listed(row.at("truth")), name_of(verdict.answer), outcome,
                    outcome == held ? "" : " *was " + held, listed(row.at("named")), listed(row.at("candidates")));
       }
     }

@@ -30,26 +30,28 @@ struct Options {
   std::string by_current;
   std::string by_frequency;
   std::vector<std::string> effects;
-  int most_effects = 3;
+  int most_effects = 5;
   bool json = false;
   std::string out;
 };
 
 std::string explanation(const Diagnosis& diagnosis) {
-  const std::string& word = diagnosis.verdict.word;
-  if (word == "complete") {
+  const Answer answer = diagnosis.verdict.answer;
+  if (answer == Answer::complete) {
     return above_noise_floor(diagnosis)
                ? "What is left cannot be told from noise: the base model is complete as far as these recordings tell."
                : "Nothing but noise is left: the base model is complete for these recordings.";
   }
-  if (word == "missing-physics") {
+  if (answer == Answer::missing_physics) {
     return diagnosis.verdict.remaining_structure ? "Physics is missing; what is named below is not the whole story."
                                                  : "Physics is missing, and what is named below explains it.";
   }
-  if (word == "ambiguous") {
+  if (answer == Answer::ambiguous) {
     return "Physics is missing; these recordings cannot tell the candidates below apart.";
   }
-  return "What is left is neither told to be noise nor explained by a known effect.";
+  return diagnosis.verdict.suggestions.empty()
+             ? "What is left is neither told to be noise nor explained by a known effect."
+             : "The model misses something; what is suggested below is no more than likely.";
 }
 
 Identification identification_of(const Diagnosis& diagnosis, const Campaign& campaign,
@@ -76,7 +78,7 @@ Identification identification_of(const Diagnosis& diagnosis, const Campaign& cam
 
 void print_summary(const Diagnosis& diagnosis, const std::filesystem::path& out) {
   const Search& search = diagnosis.search;
-  fmt::print("verdict: {}\n{}\n\n", diagnosis.verdict.word, explanation(diagnosis));
+  fmt::print("verdict: {}\n{}\n\n", name_of(diagnosis.verdict.answer), explanation(diagnosis));
   fmt::print("{}\n",
              table({"model", "NRMSE fit", "NRMSE held out"},
                    {{search.base.what.model, format_number(search.base.cost, 4), format_number(search.base.heldout, 4)},
@@ -85,8 +87,15 @@ void print_summary(const Diagnosis& diagnosis, const std::filesystem::path& out)
                      format_number(search.augmented.cost, 4), format_number(search.augmented.heldout, 4)},
                     {"noise floor (" + std::string(word_of(diagnosis.noise_floor_method)) + ")",
                      format_number(diagnosis.noise_floor, 4), format_number(diagnosis.noise_floor_heldout, 4)}}));
-  for (std::size_t k = 0; k < diagnosis.sentences.size(); ++k) {
-    fmt::print("- {} (confidence {:.0f} %)\n", diagnosis.sentences[k], 100.0 * diagnosis.verdict.effects[k].confidence);
+  const std::vector<Named> names = listed(diagnosis.verdict);
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    const Named& named = names[k];
+    fmt::print("- {} ({:.0f} %{}): {}\n", name_of(named.grade), 100.0 * named.confidence,
+               named.indistinguishable_from.empty() ? "" : " that it is one of these", diagnosis.sentences[k]);
+  }
+  if (diagnosis.verdict.answer != Answer::complete) {
+    fmt::print("{}{:.0f} % of the base model's misfit beyond the noise has no name.\n", names.empty() ? "" : "\n",
+               100.0 * diagnosis.verdict.unknown_share);
   }
   if (!diagnosis.locations.empty()) {
     fmt::print("\nwhere the base model's misfit sits:\n");

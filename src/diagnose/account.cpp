@@ -57,8 +57,8 @@ std::string sentence_of(const Diagnosis& diagnosis, const Named& named,
   }
   std::string text = "Consistent with " + title_of(named.id);
   for (const Found& found : diagnosis.search.found) {
-    if (found.id == named.id && !found.by_law.empty()) {
-      text += ": " + found.by_law + " rises ever less with the drive";
+    if (found.part.effect == named.id && found.by_law) {
+      text += ": " + *found.by_law + " rises ever less with the drive";
     }
   }
   if (!values.empty()) {
@@ -82,76 +82,78 @@ std::string sentence_of(const Diagnosis& diagnosis, const Named& named,
     }
     text += "; these recordings cannot tell it from " + joined(others, " or ");
   }
-  if (!named.laws_as_good.empty()) {
-    text += "; a richer dependence of " + joined(named.laws_as_good, " or ") + " on the drive would explain as much";
+  const std::vector<Contender>& contenders = diagnosis.evidence.candidates[named.candidate].contenders;
+  const auto rival = std::ranges::find_if(contenders, [&](const Contender& row) {
+    return !row.law && row.id != named.id &&
+           std::ranges::find(named.indistinguishable_from, row.id) == named.indistinguishable_from.end();
+  });
+  if (!named.in_place_of && rival != contenders.end()) {
+    text += fmt::format("; next best in its place: {} ({:.0f} % of its gain)", title_of(rival->id),
+                        100.0 * std::clamp(rival->share, 0.0, 1.0));
   }
-  for (const Found& found : diagnosis.search.found) {
-    if (found.id != named.id || !named.indistinguishable_from.empty()) {
-      continue;
-    }
-    std::vector<std::string> beaten;
-    for (const Rival& rival : found.rivals) {
-      if (beaten.size() < 2 && find_effect(rival.id) != nullptr && rival.share > 0.05) {
-        beaten.push_back(
-            fmt::format("{} ({:.0f} % of its gain)", title_of(rival.id), 100.0 * std::min(rival.share, 1.0)));
-      }
-    }
-    if (!beaten.empty()) {
-      text += "; next best in its place: " + joined(beaten, " and ");
-    }
+  if (!named.in_place_of) {
+    text += fmt::format(
+        ". To explain it away, unmodelled physics would have to explain {:.0f} % of what stays and share {:.0f} % of "
+        "its shape",
+        100.0 * named.robustness, 100.0 * named.robustness);
   }
   return text + ".";
 }
 
-bool is_named(const Verdict& verdict, const std::string& effect) {
-  return std::ranges::any_of(verdict.effects, [&](const Named& named) { return named.id == effect; });
-}
-
 std::vector<Rejected> rejected_of(const Diagnosis& diagnosis) {
   std::vector<Rejected> result;
-  const Fit& before = diagnosis.search.quick_base;
-  const double base = before.cost * before.cost;
-  const double augmented = diagnosis.search.quick_augmented.cost * diagnosis.search.quick_augmented.cost;
+  const auto is_listed = [&](const std::string& id) {
+    const std::vector<Named> all = listed(diagnosis.verdict);
+    return std::ranges::find(all, id, &Named::id) != all.end();
+  };
+  for (const Named& row : diagnosis.verdict.doubtful) {
+    result.push_back({row.id, fmt::format("in the augmented model as a shape that predicts better; as a cause it is "
+                                          "less likely than not ({:.0f} %)",
+                                          100.0 * row.confidence)});
+  }
+  const double base = squared(diagnosis.search.quick_base.cost);
+  const double all = std::max(base - squared(diagnosis.search.quick_augmented.cost), 1e-300);
   for (const Tried& tried : diagnosis.search.first_stage) {
-    if (is_named(diagnosis.verdict, tried.id) || find_effect(tried.id) == nullptr) {
+    const std::string& id = tried.part.effect;
+    const bool told =
+        tried.part.is_law() || is_listed(id) || std::ranges::find(result, id, &Rejected::id) != result.end();
+    if (told) {
       continue;
     }
-    Rejected row;
-    row.id = tried.id;
-    const double share = std::max(0.0, tried.gain) / std::max(base - augmented, 1e-300);
+    const double share = std::max(0.0, tried.gain);
     if (tried.evidence < 0.0) {
-      row.reason = "alone it explains no more than the best of so many candidates would by chance";
+      result.push_back({id, "alone it explains no more than chance would"});
     } else if (!diagnosis.search.found.empty()) {
-      row.reason =
-          fmt::format("alone it explains {:.0f} % of what the augmented model explains", 100.0 * std::min(share, 1.0));
+      result.push_back({id, fmt::format("alone it explains {:.0f} % of what the augmented model explains",
+                                        100.0 * std::min(share / all, 1.0))});
     } else {
-      row.reason =
-          fmt::format("alone it takes {:.2g} % off the squared error: too little, or not on the held-out recordings",
-                      100.0 * tried.gain / base);
+      result.push_back({id, fmt::format("alone it takes {:.2g} % off the squared error: too little, or not on "
+                                        "recordings left out",
+                                        100.0 * share / base)});
     }
-    result.push_back(std::move(row));
   }
   return result;
 }
 
-std::string experiment_after(const Verdict& verdict) {
+std::string experiment_after(const Diagnosis& diagnosis) {
+  const Verdict& verdict = diagnosis.verdict;
   std::vector<std::string> candidates;
-  for (const Named& named : verdict.effects) {
+  for (const Named& named : listed(verdict)) {
     candidates.push_back(named.id);
   }
-  if (verdict.word == "ambiguous") {
+  if (verdict.answer == Answer::ambiguous) {
     return next_experiment(candidates);
   }
-  if (!verdict.better_law.empty()) {
-    return "none yet: diagnose these recordings with --model " + verdict.better_law + " first";
-  }
-  if (verdict.word == "unattributed") {
-    return next_experiment({});
-  }
-  if (verdict.word == "missing-physics") {
+  if (verdict.answer == Answer::missing_physics || !candidates.empty()) {
     return "to confirm: " + next_experiment(candidates);
   }
-  return "none is needed for this model; effects listed as not observable need their own recordings";
+  if (verdict.answer == Answer::complete) {
+    return "none is needed for this model; effects listed as not observable need their own recordings";
+  }
+  if (const std::string law = better_law(diagnosis.evidence); !law.empty()) {
+    return "none yet: diagnose these recordings with --model " + law + " first";
+  }
+  return next_experiment({});
 }
 
 bool above_noise_floor(const Diagnosis& diagnosis) {
@@ -161,19 +163,23 @@ bool above_noise_floor(const Diagnosis& diagnosis) {
 }
 
 void note_verdict(Diagnosis& diagnosis) {
-  if (!diagnosis.verdict.reason.empty()) {
-    diagnosis.notes.push_back(diagnosis.verdict.reason);
+  const Verdict& verdict = diagnosis.verdict;
+  if (!verdict.reason.empty()) {
+    diagnosis.notes.push_back(verdict.reason);
   }
-  if (diagnosis.verdict.word == "complete" && above_noise_floor(diagnosis)) {
+  if (verdict.answer == Answer::complete && above_noise_floor(diagnosis)) {
     diagnosis.notes.push_back(
         fmt::format("what is left is {:.2f} times the noise floor, {:.2f} times on the held-out recordings; too little "
-                    "of it is seen "
-                    "to follow the motion to tell it from slow noise, of which the floor misses a part",
+                    "of it is seen to follow the motion to tell it from slow noise, of which the floor misses a part",
                     diagnosis.search.augmented.cost / diagnosis.noise_floor,
                     diagnosis.search.augmented.heldout / diagnosis.noise_floor_heldout));
   }
-  if (diagnosis.verdict.word == "unattributed" && !diagnosis.search.augmented.what.effects.empty()) {
-    diagnosis.notes.push_back("the augmented model uses " + joined(diagnosis.search.augmented.what.effects, " and ") +
+  std::vector<std::string> shapes;
+  for (const Named& row : verdict.doubtful) {
+    shapes.push_back(row.id);
+  }
+  if (!shapes.empty()) {
+    diagnosis.notes.push_back("the augmented model uses " + joined(shapes, " and ") +
                               " as a shape that predicts better; it is not offered as the cause");
   }
   for (const DriftOfParameter& before : diagnosis.drift_of_base.parameters) {
@@ -191,13 +197,11 @@ void note_verdict(Diagnosis& diagnosis) {
                     : after->follows.empty() ? ", with the effects found no longer"
                                              : ", with the effects found still"));
   }
-  if (is_named(diagnosis.verdict, diagnosis.search.tried)) {
-    for (const Trial& trial : diagnosis.search.trials) {
-      diagnosis.notes.push_back(
-          survived(trial)
-              ? fmt::format("{} is needed {} too, where it keeps {:.0f} % of its gain", diagnosis.search.tried,
-                            trial.under, 100.0 * std::min(trial.share, 1.0))
-              : fmt::format("{} is not needed {}: take its name with care", diagnosis.search.tried, trial.under));
+  for (const Named& named : verdict.effects) {
+    const Candidate& candidate = diagnosis.evidence.candidates[named.candidate];
+    for (std::size_t k = 0; k < candidate.kept.size() && !named.in_place_of; ++k) {
+      diagnosis.notes.push_back(fmt::format("behind {} {} keeps {:.0f} % of its gain", diagnosis.search.swaps[k].model,
+                                            named.id, 100.0 * std::clamp(candidate.kept[k], 0.0, 1.0)));
     }
   }
   const std::set<std::string> richer(diagnosis.search.richer.begin(), diagnosis.search.richer.end());

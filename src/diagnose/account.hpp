@@ -16,11 +16,10 @@ std::string joined(const std::vector<std::string>& words, const std::string& las
 std::string sentence_of(const Diagnosis& diagnosis, const Named& named,
                         const std::vector<ParameterInterval>& parameters);
 
-bool is_named(const Verdict& verdict, const std::string& effect);
 // Effects that were tried and not named, with reasons.
 std::vector<Rejected> rejected_of(const Diagnosis& diagnosis);
 // A recording that would decide or confirm.
-std::string experiment_after(const Verdict& verdict);
+std::string experiment_after(const Diagnosis& diagnosis);
 // Whether the augmented model leaves clearly more than the noise floor, fitted or held out.
 bool above_noise_floor(const Diagnosis& diagnosis);
 // Adds why the verdict is what it is, and what the augmented model holds without being offered as a cause.

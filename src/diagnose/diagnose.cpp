@@ -11,7 +11,7 @@
 #include "core/error.hpp"
 #include "diagnose/account.hpp"
 #include "diagnose/residual/wander.hpp"
-#include "diagnose/search/extend.hpp"
+#include "diagnose/search/of_fit.hpp"
 #include "diagnose/signal/noise.hpp"
 #include "diagnose/signal/outliers.hpp"
 #include "diagnose/signal/thin.hpp"
@@ -22,10 +22,8 @@ namespace hysteron {
 namespace {
 
 // What hypotheses are compared on.
-constexpr std::size_t quick_samples = 4000;
+constexpr std::size_t quick_samples = 3000;
 constexpr std::size_t quick_recordings = 8;
-// Effects that make the prediction of the judging recordings worse than this are no answer.
-constexpr double most_loss = 1.01;
 // A held-out recording that is this many times further above its white noise, in squares, than every fitted one shows
 // what these do not.
 constexpr double surprise = 4.0;
@@ -39,16 +37,8 @@ constexpr double values_per_parameter = 4.0;
 constexpr double least_noise = 1e-4;
 // A recorded velocity correlates with the slope of the displacement at least so.
 constexpr double least_likeness = 0.5;
-// Another law takes the place of the one asked for if at most this part of the squared error stays on the judging
-// recordings.
-constexpr double least_swap = 0.8;
-// Where less than this many times the squares of the noise stay, nothing more is added for the sake of prediction.
-constexpr double far_from_noise = 4.0;
-// What may join the augmented model for the sake of prediction, and derivative evaluations of it on more samples.
-constexpr int most_added = 4;
-constexpr int refitting_rounds = 10;
 // What the base and the augmented model are then fitted on; every sample is predicted in the end.
-constexpr std::size_t fine_samples = 12000;
+constexpr std::size_t fine_samples = 8000;
 
 std::vector<Estimate> estimates_of(const Workbench& bench, const Fit& fit) {
   const Objective objective(*fit.layout, bench.split().fit, bench.options());
@@ -89,6 +79,29 @@ std::vector<std::string> surprises(const Workbench& bench, const Fit& fit) {
 }
 
 }  // namespace
+
+std::vector<Named> listed(const Verdict& verdict) {
+  std::vector<Named> result = verdict.effects;
+  result.insert(result.end(), verdict.suggestions.begin(), verdict.suggestions.end());
+  return result;
+}
+
+const Fit& fit_of(const Search& search, const Named& named) {
+  if (!named.in_place_of) {
+    return search.augmented;
+  }
+  const auto found =
+      std::ranges::find_if(search.found, [&](const Found& one) { return one.part.effect == *named.in_place_of; });
+  const auto rival =
+      std::ranges::find_if(found->rivals, [&](const Rival& one) { return one.fit && one.part.effect == named.id; });
+  return rival == found->rivals.end() ? search.augmented : *rival->fit;
+}
+
+const Fit& without_of(const Search& search, const Named& named) {
+  const auto found = std::ranges::find_if(
+      search.found, [&](const Found& one) { return one.part.effect == named.in_place_of.value_or(named.id); });
+  return found->without;
+}
 
 std::map<std::string, int> base_laws(const std::string& model, const std::vector<Recording>& recordings) {
   std::set<long> levels;
@@ -147,41 +160,13 @@ std::vector<std::string> candidates_of(const DiagnoseOptions& options, Diagnosis
   return result;
 }
 
-// What was found on fewer samples, of every sample at the tolerance asked for. Nothing is found where that predicts
-// worse; whether that is so.
-bool score_on_all(Search& found, const Workbench& bench) {
-  found.base = bench.scored(found.base);
-  found.augmented = bench.scored(found.augmented);
-  for (Found& one : found.found) {
-    one.without = bench.scored(one.without);
-    for (Rival& rival : one.rivals) {
-      if (rival.share > 0.5) {
-        rival.fit = bench.scored(rival.fit);
-      }
-    }
-  }
-  if (found.augmented.heldout <= most_loss * found.base.heldout) {
-    return false;
-  }
-  found.augmented = found.base;
-  found.quick_augmented = found.quick_base;
-  found.misfit = found.base_misfit;
-  found.found.clear();
-  found.richer.clear();
-  return true;
-}
-
 // Why more than noise is left though no effect helps: a held-out recording, or the residual's bond to the force, shows
 // it. Empty where nothing does.
 std::string doubt_of_completeness(const Search& search, const Workbench& fine,
-                                  const std::vector<std::string>& surprising, bool dropped) {
+                                  const std::vector<std::string>& surprising) {
   if (!surprising.empty()) {
     return "nothing but noise is left on the fitted recordings, but not on " + joined(surprising, " and ") +
            ": what is missing shows there only, and only a fitted recording can tell its cause";
-  }
-  if (dropped) {
-    return "effects improve the fit by more than chance and make the prediction of the held-out recordings worse: "
-           "something is missing that none of them is";
   }
   const Misfit& left = search.misfit;
   const auto parameters = static_cast<double>(search.augmented.dimension());
@@ -237,15 +222,15 @@ std::string doubt_of_velocity(const std::vector<Recording>& recordings) {
   return {};
 }
 
-// What speaks for and against names after a search.
+// A search with what it allows to say.
 struct Judgement {
+  Search search;
   std::vector<std::string> surprising;
-  Findings findings;
+  Evidence evidence;
   Verdict verdict;
 };
 
-// Effects found on fewer samples were `dropped` where they predict worse.
-Judgement judged(const Search& found, bool dropped, const Workbench& bench, const Workbench& fine) {
+Judgement judged(Search found, const Workbench& bench, const Workbench& fine) {
   std::map<const Fit*, std::vector<Estimate>> estimates;  // fits are asked for several effects
   const Circumstances known = {[&](const Fit& fit, const std::string& effect) {
                                  if (!estimates.contains(&fit)) {
@@ -254,76 +239,68 @@ Judgement judged(const Search& found, bool dropped, const Workbench& bench, cons
                                  return intervals_of(estimates[&fit], effect);
                                },
                                velocity_channel_lag(bench.split().fit)};
-  Judgement result;
-  result.surprising = surprises(bench, found.augmented);
-  result.findings = findings_of(found, known);
-  result.findings.doubt_of_completeness = doubt_of_completeness(found, fine, result.surprising, dropped);
-  result.findings.doubt_of_data = doubt_of_velocity(bench.split().fit);
-  result.verdict = verdict_of(result.findings);
+  Judgement result{std::move(found), {}, {}, {}};
+  result.surprising = surprises(bench, result.search.augmented);
+  result.evidence = evidence_of(result.search, fine, known);
+  result.evidence.doubt_of_completeness = doubt_of_completeness(result.search, fine, result.surprising);
+  result.evidence.doubt_of_data = doubt_of_velocity(bench.split().fit);
+  result.verdict = verdict_of(result.evidence);
   return result;
 }
 
-void take(Diagnosis& diagnosis, Judgement judgement) {
-  diagnosis.surprises = std::move(judgement.surprising);
-  diagnosis.findings = std::move(judgement.findings);
-  diagnosis.verdict = std::move(judgement.verdict);
-}
-
-// Where another damper law does as well without any effect, what is missing behind that one is looked for. If there are
-// names for it, and the judging recordings are predicted better, the law takes the place of the one asked for; errors
-// and place of the misfit stay those of the latter. Whether it does.
-bool swap_law(Diagnosis& diagnosis, const Workbench& quick, const Workbench& fine, const SearchOptions& searching,
-              const SearchProgress& progress) {
-  Search& first = diagnosis.search;
-  const std::string law = diagnosis.verdict.better_law;
+// Where another damper law does as well without any effect, what is missing behind that one is looked for. It takes the
+// place of the one asked for where it predicts recordings left out better, effects and all.
+void try_better_law(Judgement& first, const Workbench& bench, const Workbench& quick, const Workbench& fine,
+                    const SearchOptions& searching, const SearchProgress& progress, std::vector<std::string>& notes) {
+  const std::string law = better_law(first.evidence);
   if (law.empty()) {
-    return false;
+    return;
   }
-  Search second = search(quick, fine, {law, {}, {}}, searching, [&](double share, const std::string& stage) {
-    progress(0.8 + 0.05 * share, "behind " + law + ": " + stage);
-  });
-  const bool dropped = score_on_all(second, diagnosis.bench);
-  Judgement judgement = judged(second, dropped, diagnosis.bench, fine);
-  if (judgement.verdict.effects.empty() ||
-      squared(second.augmented.heldout) > least_swap * squared(first.augmented.heldout)) {
-    return false;
+  Judgement second = judged(search(quick, fine, {law, {}, {}}, searching,
+                                   [&](double share, const std::string& stage) {
+                                     progress(0.9 + 0.04 * share, "behind " + law + ": " + stage);
+                                   }),
+                            bench, fine);
+  const std::vector<LeftOut> both = left_out(fine, {&first.search.augmented, &second.search.augmented});
+  if (block_score(both[0].predicted, both[1].predicted, noise_of(fine)).mean <= 0.0) {
+    return;
   }
-  const Fit asked = first.base;
-  const Misfit asked_misfit = first.base_misfit;
+  const std::string asked = first.search.base.what.model;
+  // Of the misfit of the law asked for, part of which the other law takes.
+  const Left before = first.evidence.base;
+  for (std::vector<Named>* list : {&second.verdict.effects, &second.verdict.suggestions, &second.verdict.doubtful}) {
+    for (Named& named : *list) {
+      named.share_of_misfit *= std::clamp(second.evidence.base.excess() / std::max(before.excess(), 1e-300), 0.0, 1.0);
+    }
+  }
+  const Fit base = first.search.base;
+  const Misfit misfit = first.search.base_misfit;
   first = std::move(second);
-  // Of the misfit of the law asked for, most of which the other law may take.
-  const double left = first.misfit.squares - first.misfit.structure;
-  for (Named& named : judgement.verdict.effects) {
-    named.share_of_misfit *=
-        std::clamp((first.base_misfit.squares - left) / std::max(asked_misfit.squares - left, 1e-300), 0.0, 1.0);
-  }
-  take(diagnosis, std::move(judgement));
-  diagnosis.notes.push_back(fmt::format(
-      "{} takes the place of {}, which with effects leaves no less than {} without: what is named is missing behind {}",
-      law, asked.what.model, law, law));
-  first.base = asked;
-  first.base_misfit = asked_misfit;
-  return true;
+  first.search.base = base;
+  first.search.base_misfit = misfit;
+  notes.push_back(
+      fmt::format("{} takes the place of {}, with which recordings left out are predicted worse: what is "
+                  "named is missing behind {}",
+                  law, asked, law));
 }
 
-// Where no name is given, what else improves the prediction of the judging recordings joins the augmented model.
-void extend(Diagnosis& diagnosis, const Workbench& quick, const Workbench& fine) {
-  Search& found = diagnosis.search;
-  if (diagnosis.verdict.word != "unattributed" || !diagnosis.verdict.better_law.empty() ||
-      found.misfit.squares < far_from_noise * found.misfit.floor || !diagnosis.surprises.empty()) {
-    return;
-  }
-  const Fit more = extended(quick, found.quick_augmented, found.promising, found.effective, most_added);
-  if (more.what == found.quick_augmented.what) {
-    return;
-  }
-  Fit refitted = diagnosis.bench.scored(fine.polished(more, refitting_rounds));
-  if (refitted.cost < found.augmented.cost && refitted.heldout < found.augmented.heldout) {
-    found.augmented = std::move(refitted);
-    found.quick_augmented = more;
-    found.misfit = misfit_of(fine, found.augmented);
-    found.richer = found.augmented.what.richer;
-    diagnosis.verdict.remaining_structure = structured(found.misfit);
+// Damper laws that may stand in for one another: those with hysteresis and few parameters.
+std::vector<std::string> comparable_laws() {
+  return {"bouc-wen", "modified-bouc-wen", "hyperbolic-tangent", "algebraic-hysteresis", "modified-dahl", "lugre"};
+}
+
+// What is reported is of every sample at the tolerance asked for, and of the judging recordings, which nothing before
+// has looked at.
+void score_on_all(Search& found, const std::vector<Named>& names, const Workbench& bench) {
+  found.base = bench.scored(found.base);
+  found.augmented = bench.scored(found.augmented);
+  for (Found& one : found.found) {
+    one.without = bench.scored(one.without);
+    for (Rival& rival : one.rivals) {
+      if (rival.fit && std::ranges::find(names, rival.part.effect, &Named::id) != names.end()) {
+        rival.fit = bench.scored(*rival.fit);
+      }
+    }
   }
 }
 
@@ -376,35 +353,35 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const Split& split
   SearchOptions searching;
   searching.most_effects = options.most_effects;
   searching.candidates = candidates_of(options, diagnosis);
-  Split fewer = diagnosis.bench.split();
-  Split some = fewer;
-  fewer.fit = thinned(spread(fewer.fit, quick_recordings), quick_samples);
-  some.fit = thinned(some.fit, fine_samples);
+  searching.laws = comparable_laws();
+  // Nothing before the verdict sees the judging recordings.
+  Split fewer{thinned(spread(diagnosis.bench.split().fit, quick_recordings), quick_samples), {}, {}, false};
+  Split some{thinned(diagnosis.bench.split().fit, fine_samples), {}, {}, false};
   ObjectiveOptions coarse = objective;
   coarse.comparing = true;
   const Workbench quick(scale, std::move(fewer), layout, coarse, options.seed, options.stopped);
   const Workbench fine(scale, std::move(some), layout, coarse, options.seed, options.stopped);
-  diagnosis.search = search(quick, fine, {options.model, {}, {}}, searching, progress);
-  const bool dropped = score_on_all(diagnosis.search, diagnosis.bench);
-  take(diagnosis, judged(diagnosis.search, dropped, diagnosis.bench, fine));
-  const bool swapped = swap_law(diagnosis, quick, fine, searching, progress);
-  if (dropped && !swapped && diagnosis.verdict.reason != diagnosis.findings.doubt_of_completeness) {
-    diagnosis.notes.push_back(
-        "effects that improved the fit made the prediction of the held-out recordings worse and were dropped");
-  }
-  progress(0.85, "looking for what else improves the prediction");
-  extend(diagnosis, quick, fine);
+  Judgement judgement =
+      judged(search(quick, fine, {options.model, {}, {}}, searching, progress), diagnosis.bench, fine);
+  try_better_law(judgement, diagnosis.bench, quick, fine, searching, progress, diagnosis.notes);
+  diagnosis.search = std::move(judgement.search);
+  diagnosis.surprises = std::move(judgement.surprising);
+  diagnosis.evidence = std::move(judgement.evidence);
+  diagnosis.verdict = std::move(judgement.verdict);
+  const bool swapped = diagnosis.search.augmented.what.model != options.model;
+  const std::vector<Named> names = listed(diagnosis.verdict);
+  score_on_all(diagnosis.search, names, diagnosis.bench);
   estimate_noise_floor(diagnosis, options.objective.normalisation);
 
   progress(0.95, "locating the misfit");
   // Where nothing but noise is left, places of it would be those of chance.
-  if (diagnosis.verdict.word != "complete" &&
+  if (diagnosis.verdict.answer != Answer::complete &&
       (structured(diagnosis.search.base_misfit) || !diagnosis.search.found.empty())) {
     diagnosis.locations = locate(diagnosis.bench.split().fit, diagnosis.bench.residuals(diagnosis.search.base));
   }
   diagnosis.drift_of_base = drift_of(fine, diagnosis.search.base);
   diagnosis.drift_of_augmented = drift_of(fine, diagnosis.search.augmented);
-  for (const Named& named : diagnosis.verdict.effects) {
+  for (const Named& named : names) {
     diagnosis.parameters.push_back(intervals_of(estimates_of(fine, fit_of(diagnosis.search, named)), named.id));
     diagnosis.sentences.push_back(sentence_of(diagnosis, named, diagnosis.parameters.back()) +
                                   (swapped ? " All this behind " + diagnosis.search.augmented.what.model +
@@ -414,16 +391,18 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const Split& split
   std::vector<std::string> absent;
   for (const std::string& id : searching.candidates) {
     const std::vector<std::string>& used = diagnosis.search.augmented.what.effects;
-    if (!is_named(diagnosis.verdict, id) && std::ranges::find(used, id) == used.end()) {
+    if (std::ranges::find(names, id, &Named::id) == names.end() && std::ranges::find(used, id) == used.end()) {
       absent.push_back(id);
     }
   }
-  for (Unobservable& row : detection_limits(fine, diagnosis.search.augmented, diagnosis.search.misfit, absent)) {
+  // What the effects of the augmented model imitate of others is little beside what the law does, and behind a series
+  // element every simulation takes several times as long.
+  for (Unobservable& row : detection_limits(quick, diagnosis.search.base, diagnosis.search.misfit, absent)) {
     diagnosis.not_observable.push_back(std::move(row));
   }
   diagnosis.alias = alias_map(quick, diagnosis.search.base, searching.candidates);
   diagnosis.rejected = rejected_of(diagnosis);
-  diagnosis.next_experiment = experiment_after(diagnosis.verdict);
+  diagnosis.next_experiment = experiment_after(diagnosis);
   note_verdict(diagnosis);
 
   progress(0.98, "final fit");

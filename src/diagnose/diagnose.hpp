@@ -8,7 +8,7 @@
 #include "diagnose/residual/drift.hpp"
 #include "diagnose/residual/locate.hpp"
 #include "diagnose/search/alias.hpp"
-#include "diagnose/search/observe.hpp"
+#include "diagnose/search/gather.hpp"
 #include "diagnose/signal/noise.hpp"
 
 namespace hysteron {
@@ -18,7 +18,7 @@ struct DiagnoseOptions {
   LayoutOptions layout;  // laws of the base model; none given and a drive that varies: see base_laws
   ObjectiveOptions objective;
   std::uint64_t seed = 1;
-  int most_effects = 3;
+  int most_effects = 5;
   std::vector<std::string> candidates;  // empty: every effect of the catalogue
   // Asked often while fitting; once true the fits end soon and the progress is told, which may throw.
   std::function<bool()> stopped = [] { return false; };
@@ -34,7 +34,7 @@ struct Diagnosis {
 
   Workbench bench;
   Search search;
-  Findings findings;  // of the search, before the augmented model was extended
+  Evidence evidence;
   Verdict verdict;
   double noise_floor = 0.0;          // of the force, NRMSE over the fitted recordings
   double noise_floor_heldout = 0.0;  // likewise over the judging ones
@@ -42,8 +42,9 @@ struct Diagnosis {
   std::vector<Location> locations;
   Drift drift_of_base;
   Drift drift_of_augmented;
-  std::vector<std::vector<ParameterInterval>> parameters;  // of verdict.effects
-  std::vector<std::string> sentences;                      // likewise
+  // Of the verdict's effects, then of its suggestions.
+  std::vector<std::vector<ParameterInterval>> parameters;
+  std::vector<std::string> sentences;
   std::vector<Rejected> rejected;
   std::vector<Unobservable> not_observable;
   AliasMap alias;  // of the effects considered, beside the base model
@@ -52,6 +53,12 @@ struct Diagnosis {
   Fit final;                           // the augmented model fitted to everything that may be fitted
   std::vector<std::string> notes;
 };
+
+// The effects of the verdict, then its suggestions.
+std::vector<Named> listed(const Verdict& verdict);
+// The hypothesis that holds what is listed, and the same less it. References into `search`, of which the verdict is.
+const Fit& fit_of(const Search& search, const Named& named);
+const Fit& without_of(const Search& search, const Named& named);
 
 // Orders of the laws of a base model when none are given: every yield force and damping that has a drive to depend on
 // becomes linear in it.

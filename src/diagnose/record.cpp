@@ -35,27 +35,39 @@ json drift_json(const Diagnosis& diagnosis) {
 
 }  // namespace
 
+namespace {
+
+json named_json(const Diagnosis& diagnosis, const Named& named, std::size_t index) {
+  json parameters = json::array();
+  for (const ParameterInterval& p : diagnosis.parameters[index]) {
+    parameters.push_back(
+        {{"name", p.name},
+         {"value", p.value},
+         {"unit", p.unit},
+         {"ci95", p.half_width ? json{p.value - *p.half_width, p.value + *p.half_width} : json(nullptr)}});
+  }
+  return {{"id", named.id},
+          {"grade", name_of(named.grade)},
+          {"confidence", named.confidence},
+          {"confidence_alone", named.alone},
+          {"indistinguishable_from", named.indistinguishable_from},
+          {"sentence", diagnosis.sentences[index]},
+          {"robustness_value", named.robustness},
+          {"parameters", parameters},
+          {"nrmse_heldout_before", without_of(diagnosis.search, named).heldout},
+          {"nrmse_heldout_after", fit_of(diagnosis.search, named).heldout},
+          {"share_of_misfit", named.share_of_misfit}};
+}
+
+}  // namespace
+
 json diagnosis_json(const Diagnosis& diagnosis) {
   const Search& search = diagnosis.search;
   json effects = json::array();
-  for (std::size_t k = 0; k < diagnosis.verdict.effects.size(); ++k) {
-    const Named& named = diagnosis.verdict.effects[k];
-    json parameters = json::array();
-    for (const ParameterInterval& p : diagnosis.parameters[k]) {
-      parameters.push_back(
-          {{"name", p.name},
-           {"value", p.value},
-           {"unit", p.unit},
-           {"ci95", p.half_width ? json{p.value - *p.half_width, p.value + *p.half_width} : json(nullptr)}});
-    }
-    effects.push_back({{"id", named.id},
-                       {"confidence", named.confidence},
-                       {"indistinguishable_from", named.indistinguishable_from},
-                       {"sentence", diagnosis.sentences[k]},
-                       {"parameters", parameters},
-                       {"nrmse_heldout_before", without_of(search, named).heldout},
-                       {"nrmse_heldout_after", fit_of(search, named).heldout},
-                       {"share_of_misfit", named.share_of_misfit}});
+  json suggestions = json::array();
+  const std::vector<Named> names = listed(diagnosis.verdict);
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    (k < diagnosis.verdict.effects.size() ? effects : suggestions).push_back(named_json(diagnosis, names[k], k));
   }
   json locations = json::array();
   for (const Location& location : diagnosis.locations) {
@@ -80,7 +92,7 @@ json diagnosis_json(const Diagnosis& diagnosis) {
       hidden.push_back({{"id", row.id}, {"reason", row.reason}});
     }
   }
-  return {{"schema", "hysteron.diagnosis/1"},
+  return {{"schema", "hysteron.diagnosis/2"},
           {"baseline",
            {{"model", search.base.what.model},
             {"nrmse_fit", search.base.cost},
@@ -88,8 +100,10 @@ json diagnosis_json(const Diagnosis& diagnosis) {
             {"noise_floor_nrmse", diagnosis.noise_floor},
             {"noise_floor_heldout_nrmse", diagnosis.noise_floor_heldout},
             {"noise_floor_method", word_of(diagnosis.noise_floor_method)}}},
-          {"verdict", diagnosis.verdict.word},
+          {"verdict", name_of(diagnosis.verdict.answer)},
           {"effects", effects},
+          {"suggestions", suggestions},
+          {"unknown_share", diagnosis.verdict.unknown_share},
           {"locations", locations},
           {"rejected", rejected},
           {"not_observable", hidden},
@@ -101,7 +115,7 @@ json diagnosis_json(const Diagnosis& diagnosis) {
             {"nrmse_fit", search.augmented.cost},
             {"nrmse_heldout", search.augmented.heldout},
             {"remaining_structure", diagnosis.verdict.remaining_structure}}},
-          {"evidence", findings_json(diagnosis.findings)},
+          {"evidence", evidence_json(diagnosis.evidence)},
           {"drift", drift_json(diagnosis)},
           {"next_experiment", diagnosis.next_experiment},
           {"notes", diagnosis.notes}};

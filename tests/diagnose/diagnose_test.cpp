@@ -66,7 +66,7 @@ const std::vector<std::string> few = {"quadratic-damping", "shear-thinning", "in
 
 TEST(Diagnosis, NamesAndMeasuresAConcealedMass) {
   const auto diagnosis = diagnosis_of(campaign_with({"inertia"}, {{"inertia.m", 8.0}}, 0.01), few);
-  ASSERT_EQ(diagnosis->verdict.word, "missing-physics");
+  ASSERT_EQ(diagnosis->verdict.answer, Answer::missing_physics);
   ASSERT_EQ(diagnosis->verdict.effects.size(), 1U);
   EXPECT_EQ(diagnosis->verdict.effects[0].id, "inertia");
   ASSERT_FALSE(diagnosis->parameters[0].empty());
@@ -85,7 +85,7 @@ TEST(Diagnosis, NamesNothingWhereTheVelocityIsNotThatOfTheDisplacement) {
     }
   }
   const auto diagnosis = diagnosis_of(campaign, few);
-  EXPECT_EQ(diagnosis->verdict.word, "unattributed");
+  EXPECT_EQ(diagnosis->verdict.answer, Answer::unattributed);
   EXPECT_TRUE(diagnosis->verdict.effects.empty());
   EXPECT_NE(diagnosis->verdict.reason.find("not the slope of the displacement (correlation -1.00)"), std::string::npos)
       << diagnosis->verdict.reason;
@@ -93,7 +93,7 @@ TEST(Diagnosis, NamesNothingWhereTheVelocityIsNotThatOfTheDisplacement) {
 
 TEST(Diagnosis, NamesNothingWhereNothingIsMissing) {
   const auto diagnosis = diagnosis_of(campaign_with({}, {}, 0.02), few);
-  EXPECT_EQ(diagnosis->verdict.word, "complete");
+  EXPECT_EQ(diagnosis->verdict.answer, Answer::complete);
   EXPECT_TRUE(diagnosis->verdict.effects.empty());
 }
 
@@ -104,7 +104,7 @@ TEST(Diagnosis, NamesWhatIsMissingBehindALawThatTakesThePlaceOfTheOneAskedFor) {
   options.candidates = few;
   const auto diagnosis =
       diagnose(campaign_with({"inertia"}, {{"inertia.m", 2.0}}, 0.01), options, [](double, const std::string&) {});
-  ASSERT_EQ(diagnosis->verdict.word, "missing-physics") << diagnosis->verdict.reason;
+  ASSERT_EQ(diagnosis->verdict.answer, Answer::missing_physics) << diagnosis->verdict.reason;
   ASSERT_EQ(diagnosis->verdict.effects.size(), 1U);
   EXPECT_EQ(diagnosis->verdict.effects[0].id, "inertia");
   EXPECT_NEAR(diagnosis->parameters[0][0].value, 2.0, 0.6);
@@ -128,18 +128,18 @@ TEST(Diagnosis, NamesAStiffnessThatAnotherLawHasOfItsOwn) {
       diagnose(campaign_of("bingham", {"linear-stiffness"},
                            {{"fc", 600.0}, {"c0", 1500.0}, {"f0", 20.0}, {"linear-stiffness.k", 4e4}}, 0.01),
                options, [](double, const std::string&) {});
-  ASSERT_EQ(diagnosis->verdict.word, "missing-physics") << diagnosis->verdict.reason;
+  ASSERT_EQ(diagnosis->verdict.answer, Answer::missing_physics) << diagnosis->verdict.reason;
   ASSERT_EQ(diagnosis->verdict.effects.size(), 1U);
   EXPECT_EQ(diagnosis->verdict.effects[0].id, "linear-stiffness");
   EXPECT_NEAR(diagnosis->parameters[0][0].value, 4e4, 2e3);
-  EXPECT_TRUE(std::ranges::any_of(diagnosis->findings.other_laws, &OtherLaw::has_found));
+  EXPECT_TRUE(std::ranges::any_of(diagnosis->evidence.other_laws, &OtherLaw::has_what_was_found));
 }
 
 // The verdict rests on what diagnosis.json holds, and on nothing else.
 TEST(Diagnosis, TheVerdictFollowsFromTheRecord) {
   const auto diagnosis = diagnosis_of(campaign_with({"inertia"}, {{"inertia.m", 8.0}}, 0.01), few);
-  const Verdict again = verdict_of(findings_from(diagnosis_json(*diagnosis).at("evidence")));
-  EXPECT_EQ(again.word, diagnosis->verdict.word);
+  const Verdict again = verdict_of(evidence_from(diagnosis_json(*diagnosis).at("evidence")));
+  EXPECT_EQ(again.answer, diagnosis->verdict.answer);
   ASSERT_EQ(again.effects.size(), 1U);
   EXPECT_EQ(again.effects[0].id, "inertia");
   EXPECT_EQ(again.effects[0].confidence, diagnosis->verdict.effects[0].confidence);
@@ -149,8 +149,8 @@ TEST(Diagnosis, DoesNotNameWhatIsNotAmongTheCandidates) {
   // The cause is a hardening spring; only strangers are offered.
   const auto diagnosis = diagnosis_of(campaign_with({"cubic-stiffness"}, {{"cubic-stiffness.k3", 9e7}}, 0.01),
                                       {"inertia", "shear-thinning", "quadratic-damping", "force-drift"});
-  EXPECT_NE(diagnosis->verdict.word, "complete");
-  EXPECT_NE(diagnosis->verdict.word, "missing-physics");
+  EXPECT_NE(diagnosis->verdict.answer, Answer::complete);
+  EXPECT_NE(diagnosis->verdict.answer, Answer::missing_physics);
 }
 
 TEST(Diagnosis, SaysWhatTheInputsCannotShow) {
@@ -209,7 +209,7 @@ TEST(Diagnosis, DoesNotCallAForceCompleteThatASupplyScales) {
   options.seed = seed;
   options.candidates = {"inertia", "force-drift"};
   const auto diagnosis = diagnose(campaign, options, [](double, const std::string&) {});
-  EXPECT_EQ(diagnosis->verdict.word, "unattributed");
+  EXPECT_EQ(diagnosis->verdict.answer, Answer::unattributed);
   EXPECT_TRUE(diagnosis->verdict.effects.empty());
 }
 
@@ -253,7 +253,7 @@ TEST(Diagnosis, WithoutANameTheModelStillLearnsTheCurveOfTheDrive) {
   const auto curve = [](double current) { return 0.2 + current * current * (3.0 - 2.0 * current); };
   const auto diagnosis = diagnosis_of_curves([&](double current) { return 600.0 * curve(current); },
                                              [&](double current) { return 1500.0 * curve(current); });
-  EXPECT_EQ(diagnosis->verdict.word, "unattributed");
+  EXPECT_EQ(diagnosis->verdict.answer, Answer::unattributed);
   EXPECT_TRUE(diagnosis->verdict.effects.empty());
   const std::vector<std::string>& richer = diagnosis->search.augmented.what.richer;
   EXPECT_EQ(std::ranges::count(richer, "alpha"), 2);
@@ -270,27 +270,27 @@ TEST(Diagnosis, ALawThatNeedsTwoMoreOrdersIsOneFinding) {
   ASSERT_EQ(std::ranges::count(richer, "alpha"), 2);
   ASSERT_EQ(diagnosis->search.found.size(), 1U);
   const Search& search = diagnosis->search;
-  EXPECT_EQ(search.found[0].id, saturation);
+  EXPECT_EQ(search.found[0].part.effect, saturation);
   // Without any of its orders the law is that of the base.
   EXPECT_NEAR(search.found[0].gain, squared(search.quick_base.cost) - squared(search.quick_augmented.cost),
               1e-3 * search.found[0].gain);
-  EXPECT_EQ(diagnosis->verdict.word, "missing-physics");
+  EXPECT_EQ(diagnosis->verdict.answer, Answer::missing_physics);
 }
 
 TEST(Diagnosis, RecordHoldsWhatTheContractNames) {
   const auto diagnosis =
       diagnosis_of(campaign_with({"inertia"}, {{"inertia.m", 8.0}}, 0.01), {"inertia", "force-drift"});
   const nlohmann::json record = diagnosis_json(*diagnosis);
-  EXPECT_EQ(record["schema"], "hysteron.diagnosis/1");
-  for (const char* key :
-       {"baseline", "verdict", "effects", "locations", "rejected", "not_observable", "augmented", "next_experiment"}) {
+  EXPECT_EQ(record["schema"], "hysteron.diagnosis/2");
+  for (const char* key : {"baseline", "verdict", "effects", "suggestions", "unknown_share", "locations", "rejected",
+                          "not_observable", "augmented", "next_experiment"}) {
     EXPECT_TRUE(record.contains(key)) << key;
   }
   for (const auto& row : record["rejected"]) {
     EXPECT_FALSE(row.contains("p")) << "a p value that is not calibrated";
   }
-  for (const char* key : {"id", "confidence", "indistinguishable_from", "sentence", "parameters",
-                          "nrmse_heldout_before", "nrmse_heldout_after", "share_of_misfit"}) {
+  for (const char* key : {"id", "grade", "confidence", "robustness_value", "indistinguishable_from", "sentence",
+                          "parameters", "nrmse_heldout_before", "nrmse_heldout_after", "share_of_misfit"}) {
     EXPECT_TRUE(record["effects"].at(0).contains(key)) << key;
   }
 }
@@ -309,7 +309,7 @@ TEST(Diagnosis, TooFewSamplesSayNothing) {
   for (std::size_t n = 0; n < recording.size(); ++n) {
     recording.force.push_back(2000.0 * recording.velocity[n] + stream.normal(n));
   }
-  EXPECT_NE(diagnosis_of(campaign, {"inertia"})->verdict.word, "complete");
+  EXPECT_NE(diagnosis_of(campaign, {"inertia"})->verdict.answer, Answer::complete);
 }
 
 TEST(Diagnosis, SameBytesForAnyNumberOfThreads) {

@@ -1,15 +1,119 @@
-// Findings as diagnosis.json holds them: its "evidence".
+// All that a verdict rests on, in numbers: diagnosis.json holds it as its "evidence", and a verdict can be given again
+// from there. Squares are of NRMSE.
 #pragma once
 
+#include <cstdint>
 #include <nlohmann/json.hpp>
-
-#include "diagnose/judge/findings.hpp"
+#include <optional>
+#include <string>
+#include <vector>
 
 namespace hysteron {
 
-// Squares are of NRMSE.
-nlohmann::json findings_json(const Findings& findings);
+// What a fit leaves of the fitted recordings.
+struct Left {
+  double squares = 0.0;
+  double floor = 0.0;        // of the noise, as estimated
+  double white = 0.0;        // of the part of the noise that is white
+  double structure = 0.0;    // what repeats beyond the noise
+  double predictable = 0.0;  // share that the motion predicts within each recording
+  double unevenness = 0.0;   // how far its size follows the motion, and how far that of noise would
+  double unevenness_by_chance = 0.0;
+  double recurring = 0.0;            // share that one smooth function of the motion takes off all recordings together
+  double recurring_by_chance = 0.0;  // likewise of noise: mean and most of the surrogates
+  double recurring_at_most = 0.0;
+  double independent = 0.0;  // samples
+
+  [[nodiscard]] double excess() const { return squares > floor ? squares - floor : 0.0; }
+};
+
+// Block score of one fit over another (residual/block_score.hpp), of recordings left out in turn.
+struct Comparison {
+  double mean = 0.0;
+  double std_error = 0.0;
+  double agreement = 0.0;
+  std::size_t clusters = 0;
+
+  [[nodiscard]] double z() const { return std_error > 0.0 ? mean / std_error : 0.0; }
+};
+
+// What was set in the place of a candidate.
+struct Contender {
+  std::string id;
+  bool law = false;                  // a richer law in the drive
+  bool kin = false;                  // a related effect
+  double share = 0.0;                // of the candidate's gain
+  bool refitted = false;             // else the share is to first order
+  double squares = 0.0;              // that it leaves; 0 where it was not refitted
+  Comparison behind;                 // the candidate over it
+  bool holds_the_candidate = false;  // as a limit of its own
+  bool held_by_the_candidate = false;
+  bool apart = true;           // of these: the parameter that tells them apart is surely not at that limit
+  bool ended_as = false;       // the candidate ends as this one, at a bound of its box
+  bool follows_drive = false;  // a richer law of a parameter that follows the drive anyhow
+  bool as_channels = false;    // a lag of the velocity channel, and the one that the channels show
+};
+
+// An effect of the augmented model.
+struct Candidate {
+  std::string id;
+  double squares_without = 0.0;       // of the augmented model less it, refitted
+  double gain = 0.0;                  // squares without less squares with, over the same samples
+  Comparison score;                   // with it over without it
+  Comparison at_first;                // alone behind the base, over the base
+  double gain_alone = 0.0;            // alone behind the base
+  std::vector<Contender> contenders;  // best first
+  std::vector<double> kept;           // share of its gain behind other laws
+  int parameters = 1;
+  int on_bound = 0;                      // of these, at an end of their box
+  bool part_of_the_law = false;          // the damper law has it as a parameter of its own
+  bool one_form = false;                 // a multiple of one channel: its form cannot be missed
+  bool as_channels = false;              // a lag of the velocity channel, and the one that the channels show
+  std::optional<double> locality_share;  // of an effect that acts in a part of the stroke: share of the samples there,
+  std::optional<double> locality_gain;   // what it takes off there over what stays there beyond the noise
+};
+
+// A signature contrast (residual/contrast.hpp) of what the base model leaves.
+struct Signature {
+  std::string id;
+  std::string what;
+  std::string unit;
+  double value = 0.0;
+  double std_error = 0.0;
+  double z = 0.0;
+  double consistency = 0.0;
+  double placebo_quantile = 0.0;
+  std::size_t recordings = 0;
+  std::vector<std::string> speaks_for;  // effects, nearest first
+  std::vector<int> sign;                // that the value has where each acts; 0: either
+};
+
+// Another damper law without effects.
+struct OtherLaw {
+  std::string model;
+  double squares = 0.0;
+  bool has_what_was_found = false;  // as parameters of its own, which the law asked for lacks
+};
+
+struct Evidence {
+  std::string model;
+  std::size_t recordings = 0;
+  Left base;
+  Left augmented;
+  std::vector<Candidate> candidates;  // strongest first
+  double base_compared = 0.0;         // squares of base and augmented model, as other laws were compared with them
+  double augmented_compared = 0.0;
+  double further = 0.0;  // squares that the best further effect would take off, to first order
+  int richer_laws = 0;
+  Comparison augmented_over_base;
+  std::vector<OtherLaw> other_laws;
+  std::vector<Signature> signatures;
+  std::string doubt_of_completeness;  // why more than noise is left where no effect helps; empty when nothing shows it
+  std::string doubt_of_data;          // why no name can be given on these recordings; empty when there is no reason
+};
+
+nlohmann::json evidence_json(const Evidence& evidence);
 // The inverse. Throws nlohmann::json::exception where something is missing.
-Findings findings_from(const nlohmann::json& json);
+Evidence evidence_from(const nlohmann::json& json);
 
 }  // namespace hysteron

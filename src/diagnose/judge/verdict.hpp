@@ -1,40 +1,54 @@
 // What the evidence allows to say, and never more.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "diagnose/judge/findings.hpp"
+#include "diagnose/judge/evidence.hpp"
 
 namespace hysteron {
 
-// One effect the verdict lists.
+enum class Answer { complete, missing_physics, ambiguous, unattributed };
+std::string_view name_of(Answer answer);
+
+// By the probability that the name, or the set it stands for, is in the truth.
+enum class Grade { established, supported, suggested, none };
+inline constexpr double established_from = 0.95;
+inline constexpr double supported_from = 0.80;
+inline constexpr double suggested_from = 0.50;
+Grade grade_of(double probability);
+std::string_view name_of(Grade grade);
+
+// A candidate, or one that does as well in its place.
 struct Named {
   std::string id;
-  double confidence = 0.0;
+  Grade grade = Grade::none;  // of the set where others do as well, else of the name
+  double confidence = 0.0;    // probability that the id or one of indistinguishable_from is in the truth
+  double alone = 0.0;         // that the id itself is
   std::vector<std::string> indistinguishable_from;
-  std::vector<std::string> laws_as_good;  // parameters whose richer law would do as well
-  double share_of_misfit = 0.0;
-  std::size_t found = 0;             // which of the findings it is ...
-  std::optional<std::size_t> rival;  // ... or which of that one's contenders
+  double robustness = 0.0;                 // robustness value
+  double share_of_misfit = 0.0;            // gain over what the base model leaves beyond the noise
+  std::size_t candidate = 0;               // of the evidence
+  std::optional<std::string> in_place_of;  // the candidate's id, of another member of its set
 };
 
 struct Verdict {
-  std::string word;  // complete, missing-physics, ambiguous, unattributed
-  std::vector<Named> effects;
+  Answer answer = Answer::complete;
+  std::vector<Named> effects;      // supported or better, strongest first
+  std::vector<Named> suggestions;  // at least as likely as not
+  std::vector<Named> doubtful;     // in the augmented model, and neither
+  double missing = 0.0;            // probability that physics is missing
+  double unknown_share = 0.0;  // of the base model's misfit beyond the noise: what nothing named or suggested explains
   bool remaining_structure = false;
-  std::string reason;      // why nothing, or not more, was named; may be empty
-  std::string better_law;  // the damper law that does as well without effects, if that is why
+  std::string reason;  // why nothing, or not more, was named; may be empty
 };
 
-// Whether the effect is needed there too.
-bool survived(const Trial& trial);
+Verdict verdict_of(const Evidence& evidence);
 
-Verdict verdict_of(const Findings& findings);
-
-// The hypothesis that holds what was named, and the same less it. References into `search`, of which the findings are.
-const Fit& fit_of(const Search& search, const Named& named);
-const Fit& without_of(const Search& search, const Named& named);
+// Another damper law that does as well without effects as the law asked for with them; empty where none does.
+std::string better_law(const Evidence& evidence);
 
 }  // namespace hysteron

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/recording.hpp"
-#include "diagnose/search/workbench.hpp"
+#include "diagnose/residual/residuals.hpp"
 
 namespace hysteron {
 

@@ -1,6 +1,7 @@
 // What a fit leaves, parted into noise and structure.
 #pragma once
 
+#include "core/squared.hpp"
 #include "diagnose/residual/evenness.hpp"
 #include "diagnose/residual/residuals.hpp"
 

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "core/squared.hpp"
 #include "diagnose/signal/noise.hpp"
 
 namespace hysteron {
@@ -25,7 +26,5 @@ struct Residuals {
   std::vector<double>
       passed_on;  // N^2, mean square of what the noise of the recorded motion makes of the model's force
 };
-
-inline double squared(double value) { return value * value; }
 
 }  // namespace hysteron

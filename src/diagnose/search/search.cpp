@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
 
+#include "diagnose/search/of_fit.hpp"
 #include "diagnose/search/relatives.hpp"
 
 namespace hysteron {
@@ -16,20 +16,20 @@ constexpr std::size_t rival_count = 6;
 constexpr double wider_evidence = 3.0;
 // Times that a rival takes the place of an effect: two could go on taking each other's.
 constexpr int most_swaps = 3;
-// No further effects are looked for once this is all that the last one added to what was explained: the next could not
-// be named ...
+// No further effects are looked for once this is all that the last one added to what was explained ...
 constexpr double negligible = 0.05;
 // ... or once only this part of the noise is left above it, which it is not known to.
 constexpr double unsure_of_noise = 0.05;
-// Where the effects take less than this many times what they leave off the squared error, the verdict asks whether
-// anything else would help.
-constexpr double near_what_stays = 2.0;
-
-// The same parts, whatever their order of discovery.
-bool same_parts(const Hypothesis& a, const Hypothesis& b) {
-  return a.model == b.model && std::ranges::is_permutation(a.effects, b.effects) &&
-         std::ranges::is_permutation(a.richer, b.richer);
-}
+// Where this many times the squares of the noise stay, the model is asked for more, down to small gains.
+constexpr double far_from_noise = 4.0;
+// Stages of a search, richer laws among them.
+constexpr std::size_t most_stages = 8;
+// Part of the misfit beyond the noise that another law takes off, above which this one is in question, and the effects
+// that are looked for then.
+constexpr double most_of_the_misfit = 0.5;
+constexpr int effects_beside_a_better_law = 2;
+// Other laws behind which the effects are tried.
+constexpr std::size_t laws_tried = 2;
 
 const ParameterLaw* law_of(const Layout& layout, const std::string& parameter) {
   const auto at = std::ranges::find_if(
@@ -40,7 +40,7 @@ const ParameterLaw* law_of(const Layout& layout, const std::string& parameter) {
 // A yield force that follows the drive in the base model, and in the richer one rises ever less with it: that is what
 // magnetic saturation is, where the damping does not saturate with it.
 bool saturates(const Fit& base, const Fit& augmented, const std::string& parameter) {
-  if (contains(augmented.what, saturation)) {
+  if (contains(augmented.what, effect_extension(saturation))) {
     return false;
   }
   const ParameterLaw* before = law_of(*base.layout, parameter);
@@ -67,26 +67,39 @@ bool saturates(const Fit& base, const Fit& augmented, const std::string& paramet
   return true;
 }
 
-// The hypotheses that came closest at any stage.
-std::vector<std::string> closest(const std::vector<std::vector<Tried>>& stages, std::size_t count) {
-  std::vector<std::pair<double, std::string>> ranked;
+// The effects that came closest at any stage.
+std::vector<Extension> closest(const std::vector<std::vector<Tried>>& stages, std::size_t count) {
+  std::vector<std::pair<double, Extension>> ranked;
   for (const std::vector<Tried>& stage : stages) {
+    double best = 1e-300;
     for (const Tried& tried : stage) {
-      const double best = std::max(stage.front().gain, 1e-300);
-      const auto known = std::ranges::find(ranked, tried.id, &std::pair<double, std::string>::second);
+      best = std::max(best, tried.gain);
+    }
+    for (const Tried& tried : stage) {
+      const auto known = std::ranges::find(ranked, tried.part, &std::pair<double, Extension>::second);
       if (known == ranked.end()) {
-        ranked.emplace_back(-tried.gain / best, tried.id);
+        ranked.emplace_back(-tried.gain / best, tried.part);
       } else {
         known->first = std::min(known->first, -tried.gain / best);
       }
     }
   }
-  std::ranges::stable_sort(ranked, {}, &std::pair<double, std::string>::first);
-  std::vector<std::string> result;
+  std::ranges::stable_sort(ranked, {}, &std::pair<double, Extension>::first);
+  std::vector<Extension> result;
   for (std::size_t k = 0; k < std::min(count, ranked.size()); ++k) {
     result.push_back(ranked[k].second);
   }
   return result;
+}
+
+bool cannot_be_missed(const Extension& part) { return !part.is_law() && has_one_form(part.effect); }
+
+std::string joined_names(const Hypothesis& what) {
+  std::string text;
+  for (const Extension& part : extensions_of(what)) {
+    text += (text.empty() ? "" : " + ") + name_of(part);
+  }
+  return text;
 }
 
 // A search as it goes.
@@ -95,45 +108,84 @@ struct Course {
   const Hypothesis& base;
   const Fit& quick_base;
   Fit current;
-  double effective = 0.0;                       // samples worth of independent information
+  std::vector<double> noise;                    // of each recording
+  double independent = 0.0;                     // samples worth of independent information
   double strongest = 0.0;                       // the largest gain of a stage whose form may be missed in part
   std::vector<std::vector<Tried>> stages = {};  // in the order tried
-  std::vector<Hypothesis> behind = {};          // what each was tried behind
   std::vector<Fit> seen = {};                   // all fits so far
   int swaps = 0;                                // of an effect for its rival
 };
 
-// Adds the best candidate while one is worth a place and more than noise is left.
-void grow(Course& course, const std::vector<std::string>& candidates, int most_effects,
-          const SearchProgress& progress) {
-  const auto count = static_cast<double>(candidates.size());
-  for (int depth = 0; depth < most_effects; ++depth) {
-    progress(0.1 + 0.6 * depth / most_effects, "trying " + std::to_string(candidates.size()) + " hypotheses behind " +
-                                                   std::to_string(course.current.what.effects.size()) + " effects");
-    std::vector<Tried> tried = stage(course.bench, course.current, candidates, course.effective);
+bool in_series(const std::string& effect) {
+  const Part* part = find_effect(effect);
+  return part != nullptr && part->in_series();
+}
+
+// Everything that may join the current model: effects, one order more for a parameter law, and where much is left, all
+// parameters that follow the drive by a richer curve.
+std::vector<Extension> open_to(const Course& course, const std::vector<Extension>& effects, const Misfit& left) {
+  std::vector<Extension> result;
+  const bool far = left.squares > far_from_noise * left.floor;
+  const bool has_series = std::ranges::any_of(course.current.what.effects, in_series);
+  for (const Extension& effect : effects) {
+    // A second element in series only where much is left: what is small behind the first is its form.
+    if (far || !has_series || !in_series(effect.effect)) {
+      result.push_back(effect);
+    }
+  }
+  std::vector<Extension> laws = law_candidates(course.bench, course.current.what);
+  if (far) {
+    const std::vector<Extension> joint = joint_law_candidates(course.bench, course.current.what);
+    laws.insert(laws.end(), joint.begin(), joint.end());
+  }
+  result.insert(result.end(), laws.begin(), laws.end());
+  return result;
+}
+
+// Adds the best candidate while one is worth a place, predicts recordings left out better, and more than noise is left.
+void grow(Course& course, const std::vector<Extension>& effects, int most_effects, const SearchProgress& progress) {
+  LeftOut before = left_out(course.bench, course.current);
+  Misfit left = misfit_of(course.bench, course.current);
+  int added = 0;
+  while (added < most_effects && course.stages.size() < most_stages) {
+    const std::vector<Extension> candidates = open_to(course, effects, left);
+    const auto count = static_cast<double>(candidates.size());
+    progress(0.1 + 0.5 * added / most_effects, added == 0
+                                                   ? "looking at " + std::to_string(candidates.size()) + " hypotheses"
+                                                   : "looking for more behind " + joined_names(course.current.what));
+    std::vector<Tried> tried = stage(course.bench, course.current, candidates, course.independent);
     // What a good model leaves tells the independent samples better than what a bad one does.
-    if (!tried.empty()) {
-      course.effective = std::max(course.effective, misfit_of(course.bench, tried.front().fit).independent);
+    if (!tried.empty() && tried.front().fit) {
+      course.independent = std::max(course.independent, misfit_of(course.bench, *tried.front().fit).independent);
       for (Tried& one : tried) {
-        one = weighed(one.id, one.fit, course.current, course.effective);
+        if (one.fit) {
+          one = weighed(one.part, *one.fit, course.current, course.independent);
+        }
       }
-      std::ranges::stable_sort(tried, [](const Tried& a, const Tried& b) { return a.evidence > b.evidence; });
+      std::ranges::stable_sort(tried, better);
     }
     course.stages.push_back(tried);
-    course.behind.push_back(course.current.what);
-    const auto chosen =
-        std::ranges::find_if(tried, [&](const Tried& one) { return worth(one, course.current, count); });
+    std::optional<LeftOut> after;
+    const auto chosen = std::ranges::find_if(tried, [&](const Tried& one) {
+      if (!worth(one, course.current, count)) {
+        return false;
+      }
+      after = left_out(course.bench, *one.fit);
+      return block_score(before.predicted, after->predicted, course.noise).mean > 0.0;
+    });
     if (chosen == tried.end()) {
       return;
     }
-    course.current = chosen->fit;
-    if (!has_one_form(chosen->id)) {
+    course.current = *chosen->fit;
+    before = std::move(*after);
+    added += chosen->part.is_law() ? 0 : 1;
+    if (!cannot_be_missed(chosen->part)) {
       course.strongest = std::max(course.strongest, chosen->gain);
     }
-    if (chosen->gain < negligible * course.strongest) {
+    left = misfit_of(course.bench, course.current);
+    if (left.squares < far_from_noise * left.floor && chosen->gain < negligible * course.strongest) {
       return;  // what is left could not be named beside what was found
     }
-    const Misfit left = misfit_of(course.bench, course.current);
     if (!structured(left) && left.squares < (1.0 + unsure_of_noise) * left.floor) {
       return;
     }
@@ -141,10 +193,10 @@ void grow(Course& course, const std::vector<std::string>& candidates, int most_e
 }
 
 // What the current model loses without one of its parts, the rest refitted.
-Found taken_out(const Course& course, const std::string& id) {
-  const Hypothesis less = without(course.current.what, id);
+Found taken_out(const Course& course, const Extension& part) {
+  const Hypothesis less = without(course.current.what, part);
   Found found;
-  found.id = id;
+  found.part = part;
   found.without = less == course.base ? course.quick_base : course.bench.from_fit(less, course.current, fitting_rounds);
   if (found.without.cost > course.quick_base.cost) {
     // The base is among what is left: the descent from the fuller model went astray.
@@ -160,89 +212,77 @@ Found taken_out(const Course& course, const std::string& id) {
   found.evidence =
       evidence(squared(found.without.cost), squared(course.current.cost),
                static_cast<double>(course.current.dimension()) - static_cast<double>(found.without.dimension()),
-               course.effective);
+               course.independent);
   return found;
 }
 
-// Everything that is set in the place of a part: what came closest, and its relatives among the candidates. A rival is
-// judged from the best start it can have: the damper's parameters without the effect, and with it.
-std::vector<Tried> rivals_of(const Course& course, const Found& found, const std::vector<std::string>& candidates) {
-  std::vector<std::string> others;
-  for (const std::string& other : closest(course.stages, rival_count)) {
-    if (other != found.id && !contains(course.current.what, other)) {
+// What is set in the place of a part: what came closest, and its relatives among the candidates. A rival is judged from
+// the best start it can have: the damper's parameters without the effect, and with it.
+std::vector<Tried> rivals_of(const Course& course, const Found& found, const std::vector<Extension>& candidates) {
+  std::vector<Extension> others;
+  for (const Extension& other : closest(course.stages, rival_count)) {
+    if (other != found.part && !contains(course.current.what, other)) {
       others.push_back(other);
     }
   }
-  for (const std::string& other : relatives(found.id)) {
-    if (std::ranges::find(candidates, other) != candidates.end() && std::ranges::find(others, other) == others.end() &&
-        !contains(course.current.what, other)) {
-      others.push_back(other);
+  std::vector<Extension> kin;
+  if (!found.part.is_law()) {
+    for (const std::string& id : relatives(found.part.effect)) {
+      const Extension other = effect_extension(id);
+      if (std::ranges::find(candidates, other) != candidates.end() && !contains(course.current.what, other)) {
+        kin.push_back(other);
+        if (std::ranges::find(others, other) == others.end()) {
+          others.push_back(other);
+        }
+      }
     }
   }
-  std::vector<Tried> rivals = stage(course.bench, found.without, others, course.effective, &course.current);
+  std::vector<Tried> rivals = stage(course.bench, found.without, others, course.independent, &course.current, kin);
   if (same_parts(found.without.what, course.base) && !course.stages.empty()) {
     for (const Tried& tried : course.stages.front()) {
-      const auto again = std::ranges::find(rivals, tried.id, &Tried::id);
+      const auto again = std::ranges::find(rivals, tried.part, &Tried::part);
       if (again == rivals.end()) {
         rivals.push_back(tried);
-      } else if (tried.fit.cost < again->fit.cost) {
+      } else if (tried.fit && (!again->fit || tried.fit->cost < again->fit->cost)) {
         *again = tried;
       }
     }
   }
-  std::erase_if(rivals, [&](const Tried& rival) { return rival.id == found.id; });
+  std::erase_if(rivals, [&](const Tried& rival) { return rival.part == found.part; });
   return rivals;
 }
 
 // Sets the part against its rivals. The fit with one in its place that does clearly better, if any.
-std::optional<Fit> contested(Course& course, Found& found, const std::vector<std::string>& candidates) {
+std::optional<Fit> contested(Course& course, Found& found, const std::vector<Extension>& candidates) {
   std::optional<Fit> better;
   for (const Tried& rival : rivals_of(course, found, candidates)) {
-    Rival row;
-    row.id = rival.id;
-    row.share = rival.gain / found.gain;
-    row.fit = rival.fit;
-    course.seen.push_back(rival.fit);
-    row.evidence = evidence(
-        squared(rival.fit.cost), squared(course.current.cost),
-        static_cast<double>(course.current.dimension()) - static_cast<double>(rival.fit.dimension()), course.effective);
+    Rival row{rival.part, rival.gain / found.gain, 0.0, rival.fit};
+    if (!rival.fit) {
+      found.rivals.push_back(row);
+      continue;
+    }
+    course.seen.push_back(*rival.fit);
+    row.evidence =
+        evidence(squared(rival.fit->cost), squared(course.current.cost),
+                 static_cast<double>(course.current.dimension()) - static_cast<double>(rival.fit->dimension()),
+                 course.independent);
     // A wider form must be worth its further parameters.
-    const double asked = is_limit(rival.id, found.id) ? wider_evidence : -least_evidence_of_a_place;
-    if (row.evidence < asked && (!better || rival.fit.cost < better->cost)) {
+    const bool wider = !rival.part.is_law() && !found.part.is_law() && is_limit(rival.part.effect, found.part.effect);
+    const double asked = wider ? wider_evidence : -least_evidence_of_a_place;
+    if (row.evidence < asked && (!better || rival.fit->cost < better->cost)) {
       better = rival.fit;
     }
-    found.rivals.push_back(row);
+    found.rivals.push_back(std::move(row));
   }
   std::ranges::stable_sort(found.rivals, [](const Rival& a, const Rival& b) { return a.share > b.share; });
   return better;
 }
 
-// The effects of a hypothesis, and its richer laws, each once however many orders it has more.
-std::vector<std::string> parts_of(const Hypothesis& what) {
-  std::vector<std::string> parts = what.effects;
-  for (const std::string& name : what.richer) {
-    if (const std::string id = law_of_parameter(name); std::ranges::find(parts, id) == parts.end()) {
-      parts.push_back(id);
-    }
-  }
-  return parts;
-}
-
 // A richer law taken out with all its orders, of which the highest may add little to the others; any other part as it
 // was.
-Found taken_out_wholly(const Course& course, Found found) {
-  if (!is_law(found.id)) {
-    return found;
-  }
-  const std::string id = found.id;
-  const std::string name = parameter_of_law(id);
-  std::string orders = id;
-  for (auto k = std::ranges::count(course.current.what.richer, name); k > 1; --k) {
-    orders += "," + name;
-  }
-  if (orders != id) {
-    found = taken_out(course, orders);
-    found.id = id;
+Found taken_out_wholly(const Course& course, const Extension& part, Found found) {
+  if (part.is_law() && part.parameters.size() > 1) {
+    found = taken_out(course, part);
   }
   return found;
 }
@@ -253,15 +293,15 @@ std::vector<Found> worth_their_place(Course& course) {
   for (bool dropped = true; dropped;) {
     dropped = false;
     result.clear();
-    for (const std::string& id : parts_of(course.current.what)) {
-      Found found = taken_out(course, id);
+    for (const Extension& part : extensions_of(course.current.what)) {
+      Found found = taken_out(course, part.is_law() ? law_extension({part.parameters.front()}) : part);
       if (found.evidence < least_evidence_of_a_place ||
           found.gain < least_gain_of_a_place * squared(found.without.cost)) {
         course.current = found.without;
         dropped = true;
         break;
       }
-      result.push_back(taken_out_wholly(course, std::move(found)));
+      result.push_back(taken_out_wholly(course, part, std::move(found)));
     }
   }
   return result;
@@ -269,29 +309,33 @@ std::vector<Found> worth_their_place(Course& course) {
 
 // Drops what stopped helping, sets each part against its rivals, and takes a rival that does clearly better; again
 // until nothing changes.
-std::vector<Found> settled(Course& course, const std::vector<std::string>& candidates) {
+std::vector<Found> settled(Course& course, const std::vector<Extension>& candidates, const SearchProgress& progress) {
   for (const std::vector<Tried>& tried : course.stages) {
     for (const Tried& one : tried) {
-      course.seen.push_back(one.fit);
+      if (one.fit) {
+        course.seen.push_back(*one.fit);
+      }
     }
   }
   while (true) {
     std::vector<Found> result = worth_their_place(course);
+    bool swapped = false;
+    double done = 0.0;
     double strongest = 0.0;
     for (const Found& found : result) {
-      if (!has_one_form(found.id)) {
-        strongest = std::max(strongest, found.gain);
-      }
+      strongest = std::max(strongest, found.gain);
     }
-    bool swapped = false;
     for (Found& found : result) {
       if (found.gain < negligible * strongest) {
-        continue;
+        continue;  // too small beside the strongest to be told from what its form misses
       }
-      const std::optional<Fit> better = contested(course, found, candidates);
-      if (better && course.swaps < most_swaps) {
+      progress(0.6 + 0.15 * done / static_cast<double>(result.size()),
+               "setting " + name_of(found.part) + " against its rivals");
+      done += 1.0;
+      const std::optional<Fit> replacement = contested(course, found, candidates);
+      if (replacement && course.swaps < most_swaps) {
         ++course.swaps;
-        course.current = *better;
+        course.current = *replacement;
         swapped = true;
         break;
       }
@@ -302,29 +346,19 @@ std::vector<Found> settled(Course& course, const std::vector<std::string>& candi
   }
 }
 
-// Evidence of the best further hypothesis behind the current model.
-double best_further(const Course& course, const std::vector<std::string>& candidates) {
-  const auto at = std::ranges::find_if(course.behind,
-                                       [&](const Hypothesis& what) { return same_parts(what, course.current.what); });
-  const std::vector<Tried> next = at == course.behind.end()
-                                      ? stage(course.bench, course.current, candidates, course.effective)
-                                      : course.stages[static_cast<std::size_t>(at - course.behind.begin())];
-  return next.empty() ? 0.0 : std::max(0.0, next.front().evidence);
-}
-
 // Richer laws that were found are no effects, but for a yield force that saturates.
 void name_laws(Search& result) {
   std::erase_if(result.found, [&](Found& found) {
-    if (!is_law(found.id)) {
+    if (!found.part.is_law()) {
       return false;
     }
-    result.richer.push_back(parameter_of_law(found.id));
+    result.richer.push_back(found.part.parameters.front());
     if (!saturates(result.base, result.augmented, result.richer.back())) {
       return true;
     }
     found.by_law = result.richer.back();
-    found.id = saturation;
-    std::erase_if(found.rivals, [](const Rival& rival) { return rival.id == saturation; });
+    found.part = effect_extension(saturation);
+    std::erase_if(found.rivals, [&](const Rival& rival) { return rival.part == found.part; });
     return false;
   });
 }
@@ -339,68 +373,65 @@ Search search(const Workbench& bench, const Workbench& fine, const Hypothesis& b
   result.base = fine.polished(result.quick_base, fitting_rounds);
   result.base_misfit = misfit_of(fine, result.base);
 
-  std::vector<std::string> candidates = options.candidates;
-  const std::vector<std::string> laws = law_candidates(bench, base);
-  candidates.insert(candidates.end(), laws.begin(), laws.end());
-
-  Course course{bench, base, result.quick_base, result.quick_base};
-  course.effective = misfit_of(bench, course.current).independent;
-  grow(course, candidates, options.most_effects, progress);
+  std::vector<Extension> effects;
+  for (const std::string& id : options.candidates) {
+    effects.push_back(effect_extension(id));
+  }
+  Course course{bench, base, result.quick_base, result.quick_base, noise_of(bench)};
+  const Misfit left = misfit_of(bench, course.current);
+  course.independent = left.independent;
+  progress(0.05, "fitting other damper laws");
+  double best_law = squared(result.quick_base.cost);
+  for (const std::string& law : options.laws) {
+    if (base.model != law) {
+      result.other_laws.push_back(bench.from_anywhere({law, {}, {}}, options.base_budget / 4));
+      best_law = std::min(best_law, squared(result.other_laws.back().cost));
+    }
+  }
+  // Where another law takes most of the misfit off, effects behind this one are mostly shapes of that: few are enough
+  // to hold the two against each other.
+  const double excess = std::max(left.squares - left.floor, 1e-300);
+  const bool another = squared(result.quick_base.cost) - best_law > most_of_the_misfit * excess;
+  grow(course, effects, another ? std::min(options.most_effects, effects_beside_a_better_law) : options.most_effects,
+       progress);
   if (!course.stages.empty()) {
     result.first_stage = course.stages.front();
-    result.promising = promising(course.stages.back());
   }
 
-  progress(0.7, "setting each effect against its rivals");
-  result.found = settled(course, options.candidates);
+  result.found = settled(course, effects, progress);
   const Fit& current = course.current;
-  if (!result.found.empty() && squared(result.quick_base.cost) < (1.0 + near_what_stays) * squared(current.cost)) {
-    result.further = best_further(course, candidates);
-  }
 
-  if (!result.found.empty() || structured(result.base_misfit)) {
-    progress(0.75, "fitting other damper laws");
-    for (const char* law : {"bouc-wen", "hyperbolic-tangent", "algebraic-hysteresis", "modified-dahl", "lugre"}) {
-      if (base.model == law || find_model(law) == nullptr) {
-        continue;
-      }
-      result.other_laws.push_back(bench.from_anywhere({law, {}, {}}, options.base_budget / 2));
-    }
-  }
-  if (!result.found.empty()) {
-    const auto strong = std::ranges::max_element(result.found, {}, &Found::gain);
-    if (!is_law(strong->id)) {
-      result.tried = strong->id;
-      std::vector<Fit> judges = result.other_laws;
-      std::erase_if(judges, [&](const Fit& law) { return is_part_of(strong->id, law.what.model); });
-      result.trials =
-          trials_of(bench, strong->id, current, strong->without, result.quick_base, judges, course.effective);
-    }
-  }
-
-  progress(0.8, "fitting the augmented model to more samples");
-  result.effective = course.effective;
+  progress(0.85, "fitting the augmented model to more samples");
+  result.independent = course.independent;
   result.quick_augmented = current;
   for (Found& found : result.found) {
-    if (acts_in_a_part(found.id)) {
-      found.locality = locality_of(bench, current, found.without, found.id);
+    if (!found.part.is_law() && acts_in_a_part(found.part.effect)) {
+      found.locality = locality_of(bench, current, found.without, found.part.effect);
     }
   }
   result.augmented = current.what == base ? result.base : fine.polished(current, screening_rounds);
   result.misfit = misfit_of(fine, result.augmented);
-  if (!result.found.empty()) {
-    result.recurrence = recurrence_of(fine, result.augmented);
-  }
   for (Found& found : result.found) {
     if (found.without.what == base) {
       found.without = result.base;
     }
-    found.share_of_misfit = std::clamp(
-        found.gain / std::max(result.base_misfit.squares - result.misfit.squares + result.misfit.structure, 1e-300),
-        0.0, 1.0);
   }
   name_laws(result);
   std::ranges::stable_sort(result.found, [](const Found& a, const Found& b) { return a.gain > b.gain; });
+  if (!result.found.empty()) {
+    progress(0.9, "trying the effects behind other damper laws");
+    std::vector<std::string> found;
+    for (const Found& one : result.found) {
+      found.push_back(one.part.effect);
+    }
+    const std::size_t laws = std::ranges::any_of(found, in_series) ? 1 : laws_tried;
+    // A law that does as well without them is tried with a search of its own.
+    if (best_law > squared(current.cost) || found.size() == 1) {
+      result.swaps = swaps(bench, result.quick_base, result.other_laws, found, laws);
+    }
+    const std::vector<Scored> next = scored(bench, current, effects);
+    result.further = next.empty() ? 0.0 : next.front().gain;
+  }
   return result;
 }
 

@@ -1,5 +1,5 @@
-// Which physics was left out: effects tried one by one behind the base model, refitted jointly, added while the data
-// ask for it, dropped when they stop helping, and set against every rival that explains as much.
+// Which physics was left out: effects tried behind the base model, refitted jointly, added while the data ask for it,
+// dropped when they stop helping, set against every rival that explains as much, and tried behind other laws.
 #pragma once
 
 #include <functional>
@@ -7,49 +7,47 @@
 #include <string>
 #include <vector>
 
-#include "diagnose/search/of_fit.hpp"
+#include "diagnose/residual/locality.hpp"
+#include "diagnose/residual/misfit.hpp"
+#include "diagnose/search/left_out.hpp"
 #include "diagnose/search/stage.hpp"
-#include "diagnose/search/withstand.hpp"
+#include "diagnose/search/swap.hpp"
 
 namespace hysteron {
 
+// A hypothesis with another extension in the place of one that was found.
 struct Rival {
-  std::string id;
-  double share = 0.0;     // of the gain of the effect, explained by the rival in its place
-  double evidence = 0.0;  // for the effect against the rival
-  Fit fit;
+  Extension part;
+  double share = 0.0;      // of the gain of what was found
+  double evidence = 0.0;   // for what was found against the rival
+  std::optional<Fit> fit;  // where it was refitted; else the share is to first order
 };
 
 struct Found {
-  std::string id;
-  Fit without;        // the final hypothesis less this effect, refitted
+  Extension part;
+  Fit without;        // the final hypothesis less this part, refitted
   double gain = 0.0;  // squares without - squares with
   double evidence = 0.0;
-  double share_of_misfit = 0.0;           // of the base's structure
-  std::vector<Rival> rivals;              // all that were refitted in its place, best first
-  std::optional<Locality> locality = {};  // of an effect that acts in a part of the stroke
-  std::string by_law = {};  // the parameter whose richer law in the drive shows the effect, where one does
+  std::vector<Rival> rivals;               // best first
+  std::optional<Locality> locality = {};   // of an effect that acts in a part of the stroke
+  std::optional<std::string> by_law = {};  // the parameter whose richer law in the drive shows the effect
 };
 
 struct Search {
   Fit base;
-  Misfit base_misfit;
   Fit augmented;  // the base itself when nothing was found
+  Misfit base_misfit;
   Misfit misfit;
-  Recurrence recurrence;            // of what the augmented model leaves
   std::vector<Found> found;         // effects of the augmented model, strongest first
   std::vector<std::string> richer;  // parameter laws that were made richer
   // As the comparison saw them, on the quick workbench.
   Fit quick_base;
   Fit quick_augmented;
-  double effective = 0.0;  // samples worth of independent information there
-  // Evidence of the best further hypothesis behind the augmented model; none where that was not looked at.
-  std::optional<double> further;
-  std::vector<Tried> first_stage;      // every single hypothesis against the base, best first
-  std::vector<std::string> promising;  // the best effects of the last stage
-  std::vector<Fit> other_laws;         // other base laws without effects
-  std::string tried;                   // the strongest effect, which was put to these trials
-  std::vector<Trial> trials;
+  double independent = 0.0;        // samples there
+  double further = 0.0;            // squares that the best further extension would take off, to first order
+  std::vector<Tried> first_stage;  // every extension of the base, best first
+  std::vector<Fit> other_laws;     // other base laws without effects
+  std::vector<Swap> swaps;         // behind these; `without` in the order of `found`
 };
 
 // share of all the work done, what is being done
@@ -57,7 +55,8 @@ using SearchProgress = std::function<void(double share, const std::string& stage
 
 struct SearchOptions {
   std::vector<std::string> candidates;  // effects to consider
-  int most_effects = 3;
+  std::vector<std::string> laws;        // damper laws that may take the place of the base's
+  int most_effects = 5;
   std::size_t base_budget = 20000;
 };
 

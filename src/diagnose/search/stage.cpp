@@ -2,36 +2,33 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <set>
 
 #include "diagnose/residual/misfit.hpp"
+#include "diagnose/search/relatives.hpp"
+#include "fit/parallel.hpp"
 
 namespace hysteron {
 namespace {
 
-// Hypotheses of a stage that are taken further.
-constexpr std::size_t survivors = 5;
+// Extensions of a stage that are refitted: so many of the best scores, and all that come within this part of the best.
+constexpr std::size_t refitted_at_least = 4;
+constexpr std::size_t refitted_at_most = 10;
+constexpr double near_the_best = 0.6;
+// Of these, so many are taken further.
+constexpr std::size_t survivors = 2;
+// Behind a series element, whose force balance is solved in every step, a simulation takes several times as long: fewer
+// are refitted.
+constexpr std::size_t refitted_behind_series = 4;
+constexpr std::size_t starts_behind_series = 8;
+// Effects in series that a hypothesis may have.
+constexpr std::ptrdiff_t most_in_series = 2;
 // The highest order of a law in the drive where it varies within recordings.
 constexpr int most_order = 3;
-// Effects that promise to take more off behind others: so many of the best.
-constexpr std::size_t promising_count = 8;
-constexpr std::string_view law_prefix = "law:";
 
 bool is_series(const std::string& id) {
   const Part* part = find_effect(id);
   return part != nullptr && part->in_series();
-}
-
-std::vector<std::string> parameters_of(const std::string& law) {
-  std::vector<std::string> result;
-  std::size_t from = law_prefix.size();
-  while (from <= law.size()) {
-    const std::size_t comma = std::min(law.find(',', from), law.size());
-    result.push_back(law.substr(from, comma - from));
-    from = comma + 1;
-  }
-  return result;
 }
 
 // The highest order of a law in the drive that the recordings can tell.
@@ -49,135 +46,119 @@ int highest_order(const std::vector<Recording>& recordings) {
   return varies ? most_order : static_cast<int>(levels.size()) - 1;
 }
 
+// Which of the scored, best first, are refitted: the best, what comes near it, and kin of the very best, which the
+// first order may rank wrongly among themselves.
+std::vector<bool> chosen(const std::vector<Scored>& scores, const std::vector<Extension>& always, std::size_t most) {
+  std::vector<bool> result(scores.size(), false);
+  std::size_t count = 0;
+  for (std::size_t k = 0; k < scores.size(); ++k) {
+    const bool near = scores[k].gain > near_the_best * scores.front().gain;
+    const bool kin = !scores.front().part.is_law() && !scores[k].part.is_law() &&
+                     is_kin(scores.front().part.effect, scores[k].part.effect);
+    const bool asked = std::ranges::find(always, scores[k].part) != always.end();
+    result[k] = count < most && (k < refitted_at_least || near || kin || asked);
+    count += result[k] ? 1 : 0;
+  }
+  return result;
+}
+
 }  // namespace
 
-bool is_law(const std::string& id) { return id.starts_with(law_prefix); }
-
-std::string law_of_parameter(const std::string& parameter) { return std::string(law_prefix) + parameter; }
-
-std::string parameter_of_law(const std::string& id) { return parameters_of(id).front(); }
-
-Hypothesis with(const Hypothesis& what, const std::string& id) {
-  Hypothesis result = what;
-  if (is_law(id)) {
-    std::ranges::copy(parameters_of(id), std::back_inserter(result.richer));
-  } else {
-    result.effects.push_back(id);
-  }
-  return result;
-}
-
-Hypothesis without(const Hypothesis& what, const std::string& id) {
-  Hypothesis result = what;
-  std::erase(result.effects, id);
-  if (is_law(id)) {
-    for (const std::string& name : parameters_of(id)) {
-      const auto found = std::ranges::find(result.richer, name);
-      if (found != result.richer.end()) {
-        result.richer.erase(found);
-      }
-    }
-  }
-  return result;
-}
-
-bool contains(const Hypothesis& what, const std::string& id) {
-  if (!is_law(id)) {
-    return std::ranges::find(what.effects, id) != what.effects.end();
-  }
-  return std::ranges::all_of(parameters_of(id), [&](const std::string& name) {
-    return std::ranges::find(what.richer, name) != what.richer.end();
-  });
-}
-
-std::vector<std::string> law_candidates(const Workbench& bench, const Hypothesis& what) {
-  std::vector<std::string> result;
+std::vector<Extension> law_candidates(const Workbench& bench, const Hypothesis& what) {
+  std::vector<Extension> result;
   const int highest = highest_order(bench.split().fit);
   const Layout layout = bench.layout(what);
   for (const ParameterLaw& law : layout.laws()) {
     if (static_cast<int>(law.drive_nodes.size()) <= highest) {
-      result.push_back(law_of_parameter(layout.names()[law.parameter]));
+      result.push_back(law_extension({layout.names()[law.parameter]}));
     }
   }
   return result;
 }
 
-std::vector<std::string> joint_law_candidates(const Workbench& bench, const Hypothesis& what) {
-  std::vector<std::string> result;
+std::vector<Extension> joint_law_candidates(const Workbench& bench, const Hypothesis& what) {
+  std::vector<Extension> result;
   const int highest = std::min(most_order, highest_order(bench.split().fit));
   const Layout layout = bench.layout(what);
   for (int orders = 1; orders <= 2; ++orders) {
-    std::string id;
+    Extension all;
     for (const ParameterLaw& law : layout.laws()) {
       const int order = static_cast<int>(law.drive_nodes.size()) - 1;
       for (int more = 0; order > 0 && more < std::min(orders, highest - order); ++more) {
-        id += (id.empty() ? std::string(law_prefix) : ",") + layout.names()[law.parameter];
+        all.parameters.push_back(layout.names()[law.parameter]);
       }
     }
-    if (!id.empty() && (result.empty() || id != result.back())) {
-      result.push_back(id);
+    if (!all.parameters.empty() && (result.empty() || all != result.back())) {
+      result.push_back(all);
     }
   }
   return result;
 }
 
-Tried weighed(const std::string& id, const Fit& fit, const Fit& before, double effective) {
-  Tried tried;
-  tried.id = id;
-  tried.fit = fit;
-  tried.gain = squared(before.cost) - squared(fit.cost);
-  tried.heldout_gain = squared(before.heldout) - squared(fit.heldout);
-  tried.evidence = evidence(squared(before.cost), squared(fit.cost),
-                            static_cast<double>(fit.dimension()) - static_cast<double>(before.dimension()), effective);
-  return tried;
+bool better(const Tried& a, const Tried& b) {
+  return a.fit.has_value() != b.fit.has_value() ? a.fit.has_value() : a.evidence > b.evidence;
 }
 
-std::vector<Tried> stage(const Workbench& bench, const Fit& before, const std::vector<std::string>& candidates,
-                         double effective, const Fit* also) {
-  std::vector<std::string> ids;
-  std::vector<Hypothesis> hypotheses;
-  // Two elements in series share one force and are told apart by their sum only.
-  const bool has_series = std::ranges::any_of(before.what.effects, is_series);
-  for (const std::string& id : candidates) {
-    if ((!contains(before.what, id) || is_law(id)) && !(is_series(id) && has_series)) {
-      ids.push_back(id);
-      hypotheses.push_back(with(before.what, id));
+Tried weighed(const Extension& part, const Fit& fit, const Fit& before, double independent) {
+  return {part, squared(before.cost) - squared(fit.cost),
+          evidence(squared(before.cost), squared(fit.cost),
+                   static_cast<double>(fit.dimension()) - static_cast<double>(before.dimension()), independent),
+          fit};
+}
+
+std::vector<Tried> stage(const Workbench& bench, const Fit& before, const std::vector<Extension>& candidates,
+                         double independent, const Fit* also, const std::vector<Extension>& always) {
+  std::vector<Extension> open;
+  const auto in_series = std::ranges::count_if(before.what.effects, is_series);
+  const bool series_is_full = in_series >= most_in_series;
+  for (const Extension& candidate : candidates) {
+    const bool has = !candidate.is_law() && contains(before.what, candidate);
+    if (!has && !(series_is_full && is_series(candidate.effect))) {
+      open.push_back(candidate);
     }
   }
-  std::vector<Fit> fits = bench.from_fit(hypotheses, before, screening_rounds, also);
-  std::vector<std::size_t> order(fits.size());
-  for (std::size_t k = 0; k < order.size(); ++k) {
-    order[k] = k;
-  }
-  std::ranges::stable_sort(order, {}, [&](std::size_t k) { return fits[k].cost; });
-  const std::size_t count = std::min(survivors, order.size());
+  const std::vector<Scored> scores =
+      scored(bench, before, open, also, in_series > 0 ? starts_behind_series : std::size_t{0});
+  const std::vector<bool> refit = chosen(scores, always, in_series > 0 ? refitted_behind_series : refitted_at_most);
+  std::vector<Tried> result(scores.size());
+  const Workbench single = bench.single_threaded();
+  // Descents of one thread each, so that their order matters to nobody.
+  const auto refitted = [&](std::size_t k) {
+    Starts starts = scores[k].starts;
+    starts.points.resize(std::min(starts.points.size(), Workbench::starts_of_a_pack(starts.layout->dimension())));
+    return single.from_starts(with(before.what, scores[k].part), starts, screening_rounds);
+  };
+  parallel_for(scores.size(), bench.options().threads, [&](std::size_t k) {
+    if (refit[k]) {
+      result[k] = weighed(scores[k].part, refitted(k), before, independent);
+    } else {
+      const double after = std::max(squared(before.cost) - scores[k].gain, 1e-12 * squared(before.cost));
+      const double more =
+          static_cast<double>(scores[k].starts.layout->dimension()) - static_cast<double>(before.dimension());
+      result[k] = {scores[k].part, squared(before.cost) - after,
+                   evidence(squared(before.cost), after, more, independent), std::nullopt};
+    }
+  });
+  std::ranges::stable_sort(result, better);
   std::vector<Fit> best;
-  for (std::size_t k = 0; k < count; ++k) {
-    best.push_back(fits[order[k]]);
+  for (const Tried& tried : result) {
+    if (tried.fit && best.size() < (in_series > 0 ? 1 : survivors)) {
+      best.push_back(*tried.fit);
+    }
   }
   best = bench.polished(best, fitting_rounds);
-  std::vector<Tried> result;
-  for (std::size_t k = 0; k < order.size(); ++k) {
-    result.push_back(weighed(ids[order[k]], k < count ? best[k] : fits[order[k]], before, effective));
-  }
-  std::ranges::stable_sort(result, [](const Tried& a, const Tried& b) { return a.evidence > b.evidence; });
-  return result;
-}
-
-std::vector<std::string> promising(const std::vector<Tried>& tried) {
-  std::vector<std::string> result;
-  for (const Tried& one : tried) {
-    if (!is_law(one.id) && result.size() < promising_count) {
-      result.push_back(one.id);
+  for (std::size_t k = 0; k < best.size(); ++k) {
+    if (best[k].cost < result[k].fit->cost) {
+      result[k] = weighed(result[k].part, best[k], before, independent);
     }
   }
+  std::ranges::stable_sort(result, better);
   return result;
 }
 
 bool worth(const Tried& tried, const Fit& before, double candidates) {
-  const double bearable = std::max(0.005 * squared(before.heldout), 0.02 * tried.gain);
-  return tried.evidence > least_evidence_of_a_place + 2.0 * std::log(candidates) &&
-         tried.gain > least_gain_of_a_place * squared(before.cost) && tried.heldout_gain > -bearable;
+  return tried.fit && tried.evidence > least_evidence_of_a_place + 2.0 * std::log(candidates) &&
+         tried.gain > least_gain_of_a_place * squared(before.cost);
 }
 
 }  // namespace hysteron

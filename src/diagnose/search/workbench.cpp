@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/squared.hpp"
 #include "diagnose/search/relatives.hpp"
 #include "fit/driver.hpp"
 #include "fit/identify.hpp"
@@ -15,12 +16,9 @@ namespace {
 constexpr std::size_t start_count = 8;
 // Rounds after which only the best starts go on.
 constexpr int race_rounds = 2;
-
-// As many as fill a pack with all their derivatives, two at least.
-std::size_t survivors_of(std::size_t dimension) {
-  const std::size_t sweeps = (dimension + sweep_directions - 1) / sweep_directions;
-  return std::max<std::size_t>(2, static_cast<std::size_t>(lane_count) / sweeps);
-}
+// A descent whose squared cost fell by less than this part of itself in two rounds running has arrived, as far as a
+// comparison of hypotheses can tell.
+constexpr double arrived = 1e-4;
 
 std::size_t node_drive(const ParameterLaw& law, std::size_t node) { return node % law.drive_nodes.size(); }
 std::size_t node_frequency(const ParameterLaw& law, std::size_t node) { return node / law.drive_nodes.size(); }
@@ -102,6 +100,17 @@ Workbench::Workbench(const DataScale& scale, Split split, LayoutOptions layout, 
   }
 }
 
+std::size_t Workbench::starts_of_a_pack(std::size_t dimension) {
+  const std::size_t sweeps = (dimension + sweep_directions - 1) / sweep_directions;
+  return std::max<std::size_t>(2, static_cast<std::size_t>(lane_count) / sweeps);
+}
+
+Workbench Workbench::single_threaded() const {
+  Workbench result = *this;
+  result.options_.threads = 1;
+  return result;
+}
+
 Layout Workbench::layout(const Hypothesis& what) const {
   LayoutOptions options = layout_;
   const CompositeModel model = make_model(what.model, what.effects);
@@ -177,6 +186,7 @@ Fit Workbench::descended(const Hypothesis& what, const Layout& layout, const Obj
     std::unique_ptr<Solver> solver;
     std::vector<double> best;
     double cost = diverged_cost;
+    int idle = 0;  // rounds running in which next to nothing was gained
   };
   std::vector<Run> runs;
   for (const std::vector<double>& start : starts) {
@@ -186,10 +196,10 @@ Fit Workbench::descended(const Hypothesis& what, const Layout& layout, const Obj
     problem.stream = Stream(seed_);
     problem.linear = layout.linear();
     problem.start = start;
-    runs.push_back({entry->make(problem), start, diverged_cost});
+    runs.push_back({entry->make(problem), start, diverged_cost, 0});
   }
   for (int round = 0; round < rounds; ++round) {
-    if (const std::size_t survivors = survivors_of(layout.dimension());
+    if (const std::size_t survivors = starts_of_a_pack(layout.dimension());
         round == race_rounds && runs.size() > survivors) {
       std::ranges::stable_sort(runs, {}, &Run::cost);
       runs.resize(survivors);
@@ -199,6 +209,9 @@ Fit Workbench::descended(const Hypothesis& what, const Layout& layout, const Obj
     std::vector<std::size_t> asked;
     std::vector<Request> requests(runs.size());
     for (std::size_t k = 0; k < runs.size(); ++k) {
+      if (runs[k].idle >= 2) {
+        continue;
+      }
       requests[k] = runs[k].solver->ask();
       if (!requests[k].points.empty()) {
         asked.push_back(k);
@@ -216,6 +229,8 @@ Fit Workbench::descended(const Hypothesis& what, const Layout& layout, const Obj
         return std::vector<double>(values.begin() + static_cast<std::ptrdiff_t>(i * width),
                                    values.begin() + static_cast<std::ptrdiff_t>((i + 1) * width));
       };
+      const double gained = squared(run.cost) - squared(answer.cost[i]);
+      run.idle = gained < arrived * squared(run.cost) ? run.idle + 1 : 0;
       if (answer.cost[i] < run.cost) {
         run.cost = answer.cost[i];
         run.best = requests[asked[i]].points;
@@ -244,9 +259,9 @@ Fit Workbench::from_anywhere(const Hypothesis& what, std::size_t budget) const {
   return finished(what, layout, run.best, run.cost);
 }
 
-Fit Workbench::from_fit(const Hypothesis& what, const Fit& warm, int rounds, const Fit* also) const {
-  const Layout layout = this->layout(what);
-  const Objective objective(layout, split_.fit, options_);
+Starts Workbench::starts(const Hypothesis& what, const Fit& warm, const Fit* also) const {
+  auto shared = std::make_shared<const Layout>(layout(what));
+  const Layout& layout = *shared;
   std::vector<double> known = layout.initial();
   const std::vector<bool> fresh = take_over(warm, layout, known);
   std::vector<double> known_also = layout.initial();
@@ -263,8 +278,20 @@ Fit Workbench::from_fit(const Hypothesis& what, const Fit& warm, int rounds, con
     std::ranges::copy(added_effect->starts, pushes.begin());
   }
   constexpr std::array<std::size_t, 4> bases = {2, 3, 5, 7};
-  for (std::size_t k = 0; k < start_count; ++k) {
-    std::vector<double> start = also != nullptr && k >= start_count / 2 ? known_also : known;
+  std::vector<std::size_t> sizes;
+  std::size_t shapes = 0;
+  for (std::size_t c = 0, part = 0; c < known.size(); ++c) {
+    if (fresh[c]) {
+      const bool size = part++ == 0 || layout.coordinates()[c].linear;
+      shapes += size ? 0 : 1;
+      if (size) {
+        sizes.push_back(c);
+      }
+    }
+  }
+  const std::size_t count = shapes > 0 ? 2 * start_count : start_count;
+  for (std::size_t k = 0; k < count; ++k) {
+    std::vector<double> start = also != nullptr && k % 2 == 1 ? known_also : known;
     std::size_t part = 0;
     for (std::size_t c = 0; c < start.size(); ++c) {
       if (!fresh[c]) {
@@ -275,8 +302,8 @@ Fit Workbench::from_fit(const Hypothesis& what, const Fit& warm, int rounds, con
       const double neutral = start[c];
       if (first_of_part || layout.coordinates()[c].linear) {
         // The size of the effect: away from nothing, to either side where there is one.
-        const double push =
-            neutral < 0.02 ? std::fabs(pushes[k]) : (neutral > 0.98 ? -std::fabs(pushes[k]) : pushes[k]);
+        const double by = pushes[k % start_count];
+        const double push = neutral < 0.02 ? std::fabs(by) : (neutral > 0.98 ? -std::fabs(by) : by);
         start[c] = std::clamp(neutral + push, 0.0, 1.0);
       } else if (k > 1) {
         start[c] = 0.05 + 0.9 * halton(k, bases[std::min<std::size_t>(part - 1, bases.size() - 1)]);
@@ -288,12 +315,23 @@ Fit Workbench::from_fit(const Hypothesis& what, const Fit& warm, int rounds, con
   if (added == 0) {
     starts.resize(1);
   } else if (added == 1 && also == nullptr && added_effect != nullptr && added_effect->starts.empty()) {
-    starts.resize(survivors_of(layout.dimension()));  // one size: where it starts from matters little
+    starts.resize(starts_of_a_pack(layout.dimension()));  // one size: where it starts from matters little
   }
   if (also != nullptr && take_over_kindred(*also, layout, known_also)) {
     starts.push_back(known_also);
   }
-  return descended(what, layout, objective, starts, rounds);
+  return {std::move(shared), std::move(starts), std::move(known), std::move(sizes)};
+}
+
+Fit Workbench::from_starts(const Hypothesis& what, const Starts& starts, int rounds) const {
+  const Objective objective(*starts.layout, split_.fit, options_);
+  return descended(what, *starts.layout, objective, starts.points, rounds);
+}
+
+Fit Workbench::from_fit(const Hypothesis& what, const Fit& warm, int rounds, const Fit* also) const {
+  Starts all = starts(what, warm, also);
+  all.points.resize(std::min(all.points.size(), start_count));
+  return from_starts(what, all, rounds);
 }
 
 Fit Workbench::polished(const Fit& fit, int rounds) const {
@@ -316,8 +354,7 @@ Fit Workbench::scored(const Fit& fit) const {
 std::vector<Fit> Workbench::from_fit(const std::vector<Hypothesis>& what, const Fit& warm, int rounds,
                                      const Fit* also) const {
   std::vector<Fit> fits(what.size());
-  Workbench single = *this;
-  single.options_.threads = 1;
+  const Workbench single = single_threaded();
   parallel_for(what.size(), options_.threads,
                [&](std::size_t k) { fits[k] = single.from_fit(what[k], warm, rounds, also); });
   return fits;
@@ -325,8 +362,7 @@ std::vector<Fit> Workbench::from_fit(const std::vector<Hypothesis>& what, const 
 
 std::vector<Fit> Workbench::polished(const std::vector<Fit>& fits, int rounds) const {
   std::vector<Fit> result(fits.size());
-  Workbench single = *this;
-  single.options_.threads = 1;
+  const Workbench single = single_threaded();
   parallel_for(fits.size(), options_.threads, [&](std::size_t k) { result[k] = single.polished(fits[k], rounds); });
   return result;
 }

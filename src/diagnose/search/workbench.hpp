@@ -9,18 +9,11 @@
 
 #include "diagnose/residual/drift.hpp"
 #include "diagnose/residual/residuals.hpp"
+#include "diagnose/search/hypothesis.hpp"
 #include "diagnose/signal/split.hpp"
 #include "fit/objective.hpp"
 
 namespace hysteron {
-
-struct Hypothesis {
-  std::string model;
-  std::vector<std::string> effects;
-  std::vector<std::string> richer;  // parameters of the model whose polynomial in the drive has one more order
-
-  bool operator==(const Hypothesis&) const = default;
-};
 
 // A hypothesis with its best parameters.
 struct Fit {
@@ -32,6 +25,14 @@ struct Fit {
   double heldout = 0.0;  // NRMSE over the judged recordings
 
   [[nodiscard]] std::size_t dimension() const { return point.size(); }
+};
+
+// Points of a hypothesis' box to descend from.
+struct Starts {
+  std::shared_ptr<const Layout> layout;
+  std::vector<std::vector<double>> points;
+  std::vector<double> neutral;     // the known fit, what is new at its initial values
+  std::vector<std::size_t> sizes;  // coordinates that scale what is new
 };
 
 class Workbench {
@@ -49,6 +50,12 @@ class Workbench {
   // Descents from a fit of a smaller or equal hypothesis, half of them from `also` when given: its values, and a spread
   // of starts for what is new. `rounds` derivative evaluations of the best starts, fewer of the others.
   [[nodiscard]] Fit from_fit(const Hypothesis& what, const Fit& warm, int rounds, const Fit* also = nullptr) const;
+  // Points to descend from: those of from_fit, twice as many where what is new has shapes; and descents from given
+  // ones.
+  [[nodiscard]] Starts starts(const Hypothesis& what, const Fit& warm, const Fit* also = nullptr) const;
+  [[nodiscard]] Fit from_starts(const Hypothesis& what, const Starts& starts, int rounds) const;
+  // As many descents as share one pack with all their derivatives.
+  [[nodiscard]] static std::size_t starts_of_a_pack(std::size_t dimension);
   // Continues the best of a fit itself.
   [[nodiscard]] Fit polished(const Fit& fit, int rounds) const;
   // The same hypothesis fitted to all recordings, judged ones too.
@@ -63,6 +70,8 @@ class Workbench {
                                           const Fit* also = nullptr) const;
   [[nodiscard]] std::vector<Fit> polished(const std::vector<Fit>& fits, int rounds) const;
 
+  // The same with one thread, for loops that share theirs.
+  [[nodiscard]] Workbench single_threaded() const;
   // Of a fit on a recording.
   [[nodiscard]] Residual residual(const Fit& fit, const Recording& recording) const;
   // Of a fit on the fitted recordings, with all that is told of them: two simulations of each, in parallel.

@@ -17,7 +17,7 @@ struct Judged {
 struct Split {
   std::vector<Recording> fit;
   std::vector<Judged> judge;
-  std::string how;          // one sentence
+  std::string how = {};     // one sentence
   bool by_program = false;  // whole recordings held out, and not by the campaign's roles
 };
 

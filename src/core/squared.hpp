@@ -1,0 +1,7 @@
+#pragma once
+
+namespace hysteron {
+
+inline double squared(double value) { return value * value; }
+
+}  // namespace hysteron

@@ -1,0 +1,144 @@
+#include "diagnose/judge/features.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hysteron {
+namespace {
+
+// Two standard errors.
+constexpr double surely = 2.0;
+// A contender of less than this share of the gain was never near, whatever its score.
+constexpr double near = 0.5;
+// Where no other law comes near, nothing is known: half.
+constexpr double unknown_kept = 0.5;
+
+double unit(double value) { return std::isfinite(value) ? std::clamp(value, 0.0, 1.0) : 0.0; }
+
+// The largest share of the gain among contenders.
+template <class Which>
+double best_share(const Candidate& candidate, const Which& which) {
+  double best = 0.0;
+  for (const Contender& row : candidate.contenders) {
+    if (which(row)) {
+      best = std::max(best, row.share);
+    }
+  }
+  return best;
+}
+
+// The signature contrasts that speak for the candidate, in its sense; the largest z. Nothing where none could be taken.
+std::optional<double> contrast_of(const Candidate& candidate, const Evidence& evidence) {
+  std::optional<double> best;
+  for (const Signature& row : evidence.signatures) {
+    for (std::size_t k = 0; k < row.speaks_for.size(); ++k) {
+      if (row.speaks_for[k] == candidate.id) {
+        const double z = row.sign[k] == 0 ? std::fabs(row.z) : row.z * row.sign[k];
+        best = std::max(best.value_or(0.0), z);
+      }
+    }
+  }
+  return best;
+}
+
+// The largest |z| of the contrasts that speak for nothing in the augmented model.
+double contrast_elsewhere(const Evidence& evidence) {
+  double largest = 0.0;
+  for (const Signature& row : evidence.signatures) {
+    const bool explained = std::ranges::any_of(evidence.candidates, [&](const Candidate& candidate) {
+      return std::ranges::find(row.speaks_for, candidate.id) != row.speaks_for.end();
+    });
+    largest = std::max(largest, explained ? 0.0 : std::fabs(row.z));
+  }
+  return largest;
+}
+
+double chance(double value, double by_chance) { return std::max(0.0, value - std::max(by_chance, 0.0)); }
+
+}  // namespace
+
+double robustness_value(double f2) { return 0.5 * (std::sqrt(f2 * f2 + 4.0 * f2) - f2); }
+
+double robustness_of(const Candidate& candidate, const Evidence& evidence) {
+  // No estimate of the noise is better than a twentieth of it.
+  const double excess = std::max(evidence.augmented.excess(), 0.05 * evidence.augmented.floor);
+  return robustness_value(std::max(candidate.gain, 0.0) / std::max(excess, 1e-300));
+}
+
+std::vector<const Contender*> as_good(const Candidate& candidate) {
+  std::vector<const Contender*> result;
+  for (const Contender& row : candidate.contenders) {
+    if (row.law) {
+      continue;
+    }
+    const bool told = row.refitted && row.squares > 0.0 && row.behind.z() > surely;
+    const bool limit = row.held_by_the_candidate && !row.apart;
+    // What holds the candidate as a limit always explains as much: it counts only where it is surely not at the limit.
+    const bool idle = row.holds_the_candidate && !row.apart;
+    if (row.ended_as || (!idle && row.share > near && (!told || limit))) {
+      result.push_back(&row);
+    }
+  }
+  return result;
+}
+
+NameFeatures features_of(const Candidate& candidate, const Evidence& evidence) {
+  const Left& left = evidence.augmented;
+  const double floor = std::max(left.floor, 1e-300);
+  const double gain = std::max(candidate.gain, 0.0);
+  double kept = candidate.kept.empty() ? unknown_kept : 1.0;
+  for (const double share : candidate.kept) {
+    kept = std::min(kept, share);
+  }
+  double law = 0.0;
+  const double all = std::max(evidence.base_compared - evidence.augmented_compared, 1e-300);
+  for (const OtherLaw& other : evidence.other_laws) {
+    if (!other.has_what_was_found) {
+      law = std::max(law, (evidence.base_compared - other.squares) / all);
+    }
+  }
+  const double outside = best_share(candidate, [](const Contender& row) {
+    return !row.kin && !row.holds_the_candidate && !row.held_by_the_candidate && !row.follows_drive;
+  });
+  const double inside =
+      best_share(candidate, [](const Contender& row) { return row.kin && !(row.holds_the_candidate && !row.apart); });
+  const std::optional<double> contrast = contrast_of(candidate, evidence);
+  const double elsewhere = std::max(contrast_elsewhere(evidence), surely);
+  double strongest = 1e-300;
+  for (const Candidate& other : evidence.candidates) {
+    strongest = std::max(strongest, other.gain);
+  }
+  return {robustness_of(candidate, evidence),
+          std::log10(1.0 + gain / floor),
+          unit(gain / std::max(evidence.base.squares - floor, 1e-300)),
+          unit(1.0 - outside),
+          unit(1.0 - inside),
+          unit(kept),
+          unit(1.0 - law),
+          std::log1p(std::clamp(candidate.score.z(), 0.0, 30.0)),
+          candidate.score.agreement,
+          unit(left.floor / std::max(left.squares, 1e-300)),
+          unit(1.0 - chance(left.recurring, left.recurring_by_chance)),
+          1.0 - static_cast<double>(candidate.on_bound) / std::max(candidate.parameters, 1),
+          std::log1p(std::clamp(contrast.value_or(1.0), 0.0, 30.0)),
+          contrast ? unit(*contrast / std::max(*contrast, elsewhere)) : unknown_kept,
+          unit(gain / strongest),
+          1.0 / static_cast<double>(std::max<std::size_t>(evidence.candidates.size(), 1))};
+}
+
+MissingFeatures features_of(const Evidence& evidence) {
+  const Left& base = evidence.base;
+  const double noise = std::max(base.squares - base.structure, 1e-300);
+  const double recurring =
+      base.recurring_at_most > base.recurring_by_chance
+          ? chance(base.recurring, base.recurring_by_chance) / (base.recurring_at_most - base.recurring_by_chance)
+          : 0.0;
+  return {std::log10(1.0 + std::max(base.structure, 0.0) / noise),
+          unit(base.predictable),
+          std::log1p(std::min(recurring, 1e3)),
+          std::log1p(std::min(base.unevenness / std::max(base.unevenness_by_chance, 1e-6), 1e3)),
+          std::log1p(std::clamp(evidence.augmented_over_base.z(), 0.0, 30.0)),
+          unit(1.0 - evidence.augmented_compared / std::max(evidence.base_compared, 1e-300))};
+}
+
+}  // namespace hysteron

@@ -1,0 +1,64 @@
+// What a probability is computed from: a few numbers of the evidence, each of which can only speak for a name (or for
+// missing physics) the larger it is.
+#pragma once
+
+#include <array>
+#include <string_view>
+#include <vector>
+
+#include "diagnose/judge/evidence.hpp"
+
+namespace hysteron {
+
+struct Feature {
+  std::string_view name;
+  std::string_view meaning;
+};
+
+// Of a name.
+inline constexpr std::array<Feature, 16> name_features = {{
+    {"robustness",
+     "robustness value: what unmodelled physics would have to explain of the rest, and share of the shape"},
+    {"over_noise", "log10 of 1 + gain over the squares of the noise"},
+    {"portion", "gain over what the base model leaves beyond the noise"},
+    {"lead", "1 less the share of the gain that the best unrelated effect or law has in its place"},
+    {"lead_in_family", "likewise the best related effect"},
+    {"kept", "least share of the gain that it keeps behind another damper law; a half where no other law comes near"},
+    {"no_other_law", "1 less the share of what all effects take off that another damper law takes off without any"},
+    {"steadiness", "log of 1 + block score over its standard error, recordings left out in turn"},
+    {"agreement", "share of recordings that are predicted better with it"},
+    {"settled", "noise over what stays, in squares"},
+    {"quiet", "1 less the share of what stays that follows the motion, beyond chance"},
+    {"inside", "1 less the share of its parameters that sit on an end of their box"},
+    {"contrast",
+     "log of 1 + z of the signature contrast that speaks for it, in its sense; of 1 where none can be taken"},
+    {"contrast_lead",
+     "that z over the largest of all that speak for nothing in the model; a half where none can be taken"},
+    {"beside_strongest", "gain over that of the strongest effect of the model"},
+    {"few", "1 over the number of effects in the model"},
+}};
+using NameFeatures = std::array<double, name_features.size()>;
+NameFeatures features_of(const Candidate& candidate, const Evidence& evidence);
+
+// Of something missing at all.
+inline constexpr std::array<Feature, 6> missing_features = {{
+    {"structure", "log10 of 1 + what repeats beyond the noise over the noise, base model"},
+    {"predictable", "share that the motion predicts within each recording, base model"},
+    {"recurring", "share that follows the motion over all recordings, over the most of the surrogates, base model"},
+    {"uneven", "how far the size of the residual follows the motion over that of noise, base model"},
+    {"improved", "log of 1 + block score of the augmented over the base model over its standard error"},
+    {"gained", "share of the squares that the augmented model takes off"},
+}};
+using MissingFeatures = std::array<double, missing_features.size()>;
+MissingFeatures features_of(const Evidence& evidence);
+
+// Cinelli and Hazlett, J. R. Statist. Soc. B 82 (2020) 39: unmodelled physics would have to explain this share of what
+// stays and share this much of the effect's shape to explain it away; f2 is gain over what stays beyond the noise.
+double robustness_value(double f2);
+double robustness_of(const Candidate& candidate, const Evidence& evidence);
+
+// Related and unrelated effects that do as well in the candidate's place: the candidate predicts recordings left out no
+// better than two standard errors, or it ends as the other, or is the limit of it that the data do not tell apart.
+std::vector<const Contender*> as_good(const Candidate& candidate);
+
+}  // namespace hysteron

@@ -1,0 +1,258 @@
+#include "diagnose/search/gather.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "diagnose/residual/contrast.hpp"
+#include "diagnose/search/of_fit.hpp"
+#include "diagnose/search/relatives.hpp"
+
+namespace hysteron {
+namespace {
+
+// Contenders of a candidate that are compared on the same samples as it; the others keep the share the search saw.
+constexpr std::size_t compared_closely = 4;
+constexpr double least_share_compared = 0.3;
+// A fitted lag of the velocity channel and the one between the channels agree within this share, or within the interval
+// of the one or the other.
+constexpr double channel_agreement = 0.25;
+// What was found with less than this part of the strongest effect's gain is a trace beside it.
+constexpr double trace = 0.05;
+
+// Whether the lag of the velocity channel that a fit found is the one that the channels show.
+bool as_channels_show(const Fit& fit, const Circumstances& known) {
+  const std::vector<ParameterInterval> intervals = known.intervals(fit, channel_lag);
+  if (!known.channel || intervals.empty()) {
+    return false;
+  }
+  const double error = std::fabs(intervals.front().value - known.channel->lag);
+  return error < std::max({channel_agreement * std::fabs(known.channel->lag), 3.0 * known.channel->std_error,
+                           intervals.front().half_width.value_or(0.0)});
+}
+
+// Whether the parameter by which a wider form differs from its limit is surely not at the limit.
+bool stands_apart(const Fit& fit, const std::string& wider, const std::string& parameter, const Circumstances& known) {
+  if (parameter.empty()) {
+    return true;
+  }
+  const std::vector<ParameterInterval> intervals = known.intervals(fit, wider);
+  const auto at = std::ranges::find(intervals, parameter, &ParameterInterval::name);
+  return at != intervals.end() && at->half_width && std::fabs(at->value) > *at->half_width;
+}
+
+// Whether the effect ends as the other one: the parameter that tells them apart sits on the end of its box where they
+// are the same, or, at the lower end, has no interval or one that reaches it.
+bool ends_as(const Fit& fit, const std::string& effect, const std::string& other, const Circumstances& known) {
+  const BoxLimit* limit = box_limit(effect, other);
+  if (limit == nullptr) {
+    return false;
+  }
+  const std::vector<ParameterInterval> intervals = known.intervals(fit, effect);
+  const auto at = std::ranges::find(intervals, limit->parameter, &ParameterInterval::name);
+  if (at == intervals.end()) {
+    return false;
+  }
+  return limit->end == BoxEnd::upper ? at->bound == "upper"
+                                     : !at->half_width || at->value - *at->half_width <= at->lower;
+}
+
+// A parameter that follows the drive in the base model.
+bool follows_drive(const Fit& base, const std::string& parameter) {
+  return base.layout != nullptr && std::ranges::any_of(base.layout->laws(), [&](const ParameterLaw& law) {
+           return base.layout->names()[law.parameter] == parameter && law.drive_nodes.size() > 1;
+         });
+}
+
+Comparison comparison(const LeftOut& with, const LeftOut& without, const std::vector<double>& noise) {
+  const BlockScore score = block_score(without.predicted, with.predicted, noise);
+  return {score.mean, score.std_error, score.agreement, score.clusters};
+}
+
+Left left_of(const Misfit& misfit, const Workbench& bench, const Fit& fit) {
+  const Recurrence again = recurrence_of(bench, fit);
+  return {misfit.squares,
+          misfit.floor,
+          misfit.white,
+          misfit.structure,
+          misfit.predictable,
+          misfit.evenness.deviation,
+          misfit.evenness.by_chance,
+          again.share,
+          again.mean_by_chance,
+          again.most_by_chance,
+          misfit.independent};
+}
+
+// The fits that are compared closely, each looked at once.
+class Looked {
+ public:
+  void want(const Fit& fit) { fits_.push_back(&fit); }
+  void look(const Workbench& bench) {
+    const std::vector<LeftOut> all = left_out(bench, fits_);
+    for (std::size_t k = 0; k < fits_.size(); ++k) {
+      of_[fits_[k]] = all[k];
+    }
+  }
+  [[nodiscard]] const LeftOut* find(const Fit& fit) const {
+    const auto at = of_.find(&fit);
+    return at == of_.end() ? nullptr : &at->second;
+  }
+
+ private:
+  std::vector<const Fit*> fits_;
+  std::map<const Fit*, LeftOut> of_;
+};
+
+// Rivals in the place of `found` that are compared closely.
+std::vector<const Rival*> close_rivals(const Found& found) {
+  std::vector<const Rival*> result;
+  for (const Rival& rival : found.rivals) {
+    const bool kin = !rival.part.is_law() && is_kin(found.part.effect, rival.part.effect);
+    if (rival.fit && rival.share > least_share_compared && (result.size() < compared_closely || kin)) {
+      result.push_back(&rival);
+    }
+  }
+  return result;
+}
+
+Contender contender_of(const Rival& rival, const Found& found, const Search& search, const Circumstances& known) {
+  Contender row;
+  row.id = name_of(rival.part);
+  row.law = rival.part.is_law();
+  row.share = rival.share;
+  row.refitted = rival.fit.has_value();
+  if (row.law) {
+    row.follows_drive = follows_drive(search.base, rival.part.parameters.front());
+    return row;
+  }
+  const std::string& id = found.part.effect;
+  row.kin = is_kin(id, row.id);
+  row.holds_the_candidate = is_limit(id, row.id);
+  row.held_by_the_candidate = is_limit(row.id, id);
+  if (row.holds_the_candidate && rival.fit) {
+    row.apart = stands_apart(*rival.fit, row.id, limit_parameter(id, row.id), known);
+  } else if (row.held_by_the_candidate) {
+    row.apart = stands_apart(search.augmented, id, limit_parameter(row.id, id), known);
+  }
+  row.ended_as = ends_as(search.augmented, id, row.id, known);
+  row.as_channels = rival.fit && row.id == channel_lag && as_channels_show(*rival.fit, known);
+  return row;
+}
+
+std::vector<Signature> signatures_of(const Workbench& bench, const Fit& base) {
+  std::vector<Signature> result;
+  for (const Contrast& contrast : contrasts(bench.split().fit, bench.residuals(base).of)) {
+    Signature row;
+    row.id = card_of(contrast.kind).id;
+    row.what = contrast.what;
+    row.unit = contrast.unit;
+    row.value = contrast.value;
+    row.std_error = contrast.std_error;
+    row.z = contrast.z;
+    row.consistency = contrast.consistency;
+    row.placebo_quantile = contrast.placebo_quantile;
+    row.recordings = contrast.recordings;
+    for (const std::string_view effect : speaks_for(contrast.kind)) {
+      row.speaks_for.emplace_back(effect);
+      row.sign.push_back(sign_for(contrast.kind, effect));
+    }
+    result.push_back(std::move(row));
+  }
+  return result;
+}
+
+}  // namespace
+
+Evidence evidence_of(const Search& search, const Workbench& fine, const Circumstances& known) {
+  Evidence result;
+  result.model = search.base.what.model;
+  result.recordings = fine.split().fit.size();
+  result.base = left_of(search.base_misfit, fine, search.base);
+  const bool same = search.augmented.what == search.base.what;
+  result.augmented = same ? result.base : left_of(search.misfit, fine, search.augmented);
+  result.base_compared = squared(search.quick_base.cost);
+  result.augmented_compared = squared(search.quick_augmented.cost);
+  result.further = search.further;
+  result.richer_laws = static_cast<int>(search.richer.size());
+
+  result.signatures = signatures_of(fine, search.base);
+
+  Looked looked;
+  looked.want(search.base);
+  looked.want(search.augmented);
+  for (const Found& found : search.found) {
+    looked.want(found.without);
+    for (const Rival* rival : close_rivals(found)) {
+      looked.want(*rival->fit);
+    }
+  }
+  for (const Tried& tried : search.first_stage) {
+    if (tried.fit && std::ranges::any_of(search.found, [&](const Found& found) { return found.part == tried.part; })) {
+      looked.want(*tried.fit);
+    }
+  }
+  looked.look(fine);
+  const std::vector<double> noise = noise_of(fine);
+  const LeftOut& base = *looked.find(search.base);
+  const LeftOut& augmented = *looked.find(search.augmented);
+  result.augmented_over_base = comparison(augmented, base, noise);
+
+  for (std::size_t k = 0; k < search.found.size(); ++k) {
+    const Found& found = search.found[k];
+    const LeftOut& without = *looked.find(found.without);
+    Candidate one;
+    one.id = found.part.effect;
+    one.squares_without = without.squares;
+    one.gain = without.squares - augmented.squares;
+    one.score = comparison(augmented, without, noise);
+    for (const Tried& tried : search.first_stage) {
+      if (tried.part == found.part) {
+        one.gain_alone = tried.gain;
+        if (tried.fit) {
+          one.at_first = comparison(*looked.find(*tried.fit), base, noise);
+        }
+      }
+    }
+    const std::vector<const Rival*> close = close_rivals(found);
+    for (const Rival& rival : found.rivals) {
+      Contender row = contender_of(rival, found, search, known);
+      if (std::ranges::find(close, &rival) != close.end()) {
+        const LeftOut& instead = *looked.find(*rival.fit);
+        row.squares = instead.squares;
+        row.share = (without.squares - instead.squares) / std::max(one.gain, 1e-300);
+        row.behind = comparison(augmented, instead, noise);
+      }
+      one.contenders.push_back(std::move(row));
+    }
+    std::ranges::stable_sort(one.contenders, [](const Contender& a, const Contender& b) { return a.share > b.share; });
+    for (const Swap& swap : search.swaps) {
+      one.kept.push_back((swap.without[k] - swap.squares) / std::max(found.gain, 1e-300));
+    }
+    const std::vector<ParameterInterval> intervals = known.intervals(search.augmented, one.id);
+    one.parameters = static_cast<int>(intervals.size());
+    one.on_bound =
+        static_cast<int>(std::ranges::count_if(intervals, [](const ParameterInterval& p) { return !p.bound.empty(); }));
+    one.part_of_the_law = is_part_of(one.id, result.model);
+    one.one_form = has_one_form(one.id);
+    one.as_channels = one.id == channel_lag && as_channels_show(search.augmented, known);
+    if (found.locality) {
+      one.locality_share = found.locality->share;
+      one.locality_gain = (found.locality->before - found.locality->after) /
+                          std::max(found.locality->after - found.locality->noise, 1e-3 * found.locality->before);
+    }
+    result.candidates.push_back(std::move(one));
+  }
+  std::ranges::stable_sort(result.candidates, [](const Candidate& a, const Candidate& b) { return a.gain > b.gain; });
+  for (const Fit& law : search.other_laws) {
+    const bool has_found =
+        !result.candidates.empty() && std::ranges::all_of(result.candidates, [&](const Candidate& candidate) {
+          return candidate.gain < trace * result.candidates.front().gain ||
+                 (is_part_of(candidate.id, law.what.model) && !is_part_of(candidate.id, result.model));
+        });
+    result.other_laws.push_back({law.what.model, squared(law.cost), has_found});
+  }
+  return result;
+}
+
+}  // namespace hysteron

@@ -1,0 +1,36 @@
+// The evidence of a search: every fit it ended with is simulated and differentiated once on the same recordings, and
+// all that a verdict asks is taken from there.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "diagnose/judge/evidence.hpp"
+#include "diagnose/search/observe.hpp"
+#include "diagnose/search/search.hpp"
+
+namespace hysteron {
+
+struct ParameterInterval {
+  std::string name;
+  std::string unit;
+  double value = 0.0;
+  std::optional<double> half_width;  // of the 95 % interval; absent on a bound and where the data do not tell it
+  std::string bound = {};            // "lower" or "upper" where the value sits on its box
+  double lower = -1e300;             // of its box
+};
+
+// What is known beside the errors of the fits.
+struct Circumstances {
+  // Of an effect's parameters in a fit, in the order of its card.
+  std::function<std::vector<ParameterInterval>(const Fit& fit, const std::string& effect)> intervals;
+  // What displacement and velocity tell of a lag between them, without a model.
+  std::optional<ChannelLag> channel;
+};
+
+// On `fine`, of the fitted recordings. The doubts are left empty.
+Evidence evidence_of(const Search& search, const Workbench& fine, const Circumstances& known);
+
+}  // namespace hysteron

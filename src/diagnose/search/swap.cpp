@@ -1,0 +1,50 @@
+#include "diagnose/search/swap.hpp"
+
+#include <algorithm>
+
+#include "diagnose/residual/misfit.hpp"
+#include "fit/parallel.hpp"
+
+namespace hysteron {
+namespace {
+
+constexpr int adding_rounds = 4;
+constexpr int comparing_rounds = 6;
+// A law that leaves so many times the squares of the one asked for says nothing of what is missing behind it.
+constexpr double comparable = 2.0;
+
+Swap swapped(const Workbench& bench, const Fit& law, const std::vector<std::string>& effects) {
+  Fit full = law;
+  for (const std::string& effect : effects) {
+    full = bench.from_fit(with(full.what, effect_extension(effect)), full, adding_rounds);
+  }
+  full = bench.polished(full, comparing_rounds);
+  Swap result{law.what.model, squared(law.cost), squared(full.cost), {}};
+  for (const std::string& effect : effects) {
+    const Hypothesis less = without(full.what, effect_extension(effect));
+    const Fit fit = less.effects.empty() ? law : bench.from_fit(less, full, comparing_rounds);
+    result.without.push_back(squared(fit.cost));
+  }
+  return result;
+}
+
+}  // namespace
+
+std::vector<Swap> swaps(const Workbench& bench, const Fit& base, const std::vector<Fit>& laws,
+                        const std::vector<std::string>& effects, std::size_t most) {
+  std::vector<const Fit*> order;
+  for (const Fit& law : laws) {
+    if (squared(law.cost) < comparable * squared(base.cost)) {
+      order.push_back(&law);
+    }
+  }
+  std::ranges::stable_sort(order, {}, [](const Fit* fit) { return fit->cost; });
+  order.resize(std::min(order.size(), most));
+  std::vector<Swap> result(order.size());
+  const Workbench single = bench.single_threaded();
+  parallel_for(order.size(), bench.options().threads,
+               [&](std::size_t k) { result[k] = swapped(single, *order[k], effects); });
+  return result;
+}
+
+}  // namespace hysteron

@@ -1,0 +1,25 @@
+// What the effects are worth behind other damper laws: a shape that only makes up for what one law lacks is worth less
+// behind another.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "diagnose/search/workbench.hpp"
+
+namespace hysteron {
+
+// Another law with the effects of the augmented model.
+struct Swap {
+  std::string model;
+  double squares_alone = 0.0;   // of NRMSE, without effects
+  double squares = 0.0;         // with all of them
+  std::vector<double> without;  // squares with all of them but the k-th, refitted
+};
+
+// Behind the best `most` of `laws`, fits of other laws without effects, of those that leave at most twice the squares
+// of `base`. `effects`, strongest first, are added in this order.
+std::vector<Swap> swaps(const Workbench& bench, const Fit& base, const std::vector<Fit>& laws,
+                        const std::vector<std::string>& effects, std::size_t most);
+
+}  // namespace hysteron
