@@ -1,0 +1,328 @@
+// Learns the tables that grades are read from (src/diagnose/judge/table_data.cpp) from diagnosed challenges:
+//
+//   hysteron_learn_grades FOLDER... [--out table_data.cpp] [--judge FOLDER...] [--list]
+//
+// FOLDER is an --out of `hysteron challenge`, diagnosed. Three logistic functions with weights that are never negative
+// are fitted: that a name of the augmented model is in the truth, that it or one that does as well in its place is,
+// that physics is missing at all. What calibrates them are the scores of campaigns that a function had not seen: forms
+// of effects and foreign causes are dealt to ten parts, and a campaign is scored by the function that was learned from
+// the campaigns that hold none of the forms and causes of its part. Monotone steps of these (pool adjacent violators)
+// are the probabilities. --judge prints what the tables of the program say of other folders.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "challenge/score.hpp"
+#include "challenge/seal.hpp"
+#include "diagnose/judge/features.hpp"
+#include "diagnose/judge/table.hpp"
+#include "diagnose/judge/verdict.hpp"
+#include "io/file.hpp"
+#include "io/output.hpp"
+
+namespace {
+
+using nlohmann::json;
+using Vector = Eigen::VectorXd;
+using Matrix = Eigen::MatrixXd;
+
+constexpr int parts = 10;
+constexpr double ridge = 1.0;  // of standardised weights
+constexpr int iterations = 4000;
+// Names that a step of the probability rests on, at least.
+constexpr std::size_t least_of_a_step = 20;
+
+struct Row {
+  std::vector<double> features;
+  bool right = false;
+  std::set<int> parts;  // of the forms and foreign causes of its campaign
+  std::string campaign;
+  std::string level;
+  std::string id;
+};
+
+struct Rows {
+  std::vector<Row> names;
+  std::vector<Row> sets;
+  std::vector<Row> missing;
+};
+
+int part_of(const std::string& form) {
+  // FNV-1a: the same on every machine.
+  std::uint32_t hash = 2166136261U;
+  for (const char c : form) {
+    hash = (hash ^ static_cast<unsigned char>(c)) * 16777619U;
+  }
+  return static_cast<int>(hash % parts);
+}
+
+template <std::size_t N>
+std::vector<double> listed(const std::array<double, N>& values) {
+  return {values.begin(), values.end()};
+}
+
+void read(const std::filesystem::path& folder, Rows& rows) {
+  const json answers = hysteron::challenge::open_seal(folder);
+  for (const json& answer : answers.at("campaigns")) {
+    const std::string name = answer.at("campaign");
+    const std::filesystem::path path = folder / "diagnoses" / name / "diagnosis.json";
+    if (!std::filesystem::exists(path)) {
+      continue;
+    }
+    const json diagnosis = json::parse(hysteron::read_file(path));
+    const hysteron::Evidence evidence = hysteron::evidence_from(diagnosis.at("evidence"));
+    if (!evidence.doubt_of_data.empty()) {
+      continue;
+    }
+    std::set<std::string> truth;
+    for (const json& id : answer.at("acceptable")) {
+      truth.insert(id.get<std::string>());
+    }
+    Row row;
+    row.campaign = folder.filename().string() + "/" + name.substr(name.size() - 4);
+    row.level = answer.at("level");
+    bool detectable = false;
+    for (const json& effect : answer.at("effects")) {
+      const std::string id = effect.at("id");
+      detectable = detectable || effect.at("detectability").get<double>() >= hysteron::challenge::detectable_from;
+      if (effect.at("foreign").get<bool>()) {
+        row.parts.insert(part_of(id));
+      } else {
+        truth.insert(id);
+        row.parts.insert(part_of(effect.value("form", id)));
+      }
+    }
+    for (const hysteron::Candidate& candidate : evidence.candidates) {
+      row.id = candidate.id;
+      row.features = listed(hysteron::features_of(candidate, evidence));
+      row.right = truth.contains(candidate.id);
+      rows.names.push_back(row);
+      for (const hysteron::Contender* other : hysteron::as_good(candidate)) {
+        row.right = row.right || truth.contains(other->id);
+      }
+      rows.sets.push_back(row);
+    }
+    if (row.level != "wrong-base" && row.level != "beside") {
+      row.id = "missing";
+      row.features = listed(hysteron::features_of(evidence));
+      row.right = detectable;
+      rows.missing.push_back(row);
+    }
+  }
+}
+
+struct Logistic {
+  double intercept = 0.0;
+  Vector weights;
+
+  [[nodiscard]] double score(const std::vector<double>& features) const {
+    return intercept + weights.dot(Eigen::Map<const Vector>(features.data(), weights.size()));
+  }
+};
+
+// Penalised maximum likelihood with weights >= 0, by projected gradient descent on standardised features.
+Logistic learned(const std::vector<const Row*>& rows) {
+  const auto n = static_cast<Eigen::Index>(rows.size());
+  const auto d = static_cast<Eigen::Index>(rows.front()->features.size());
+  Matrix x(n, d);
+  Vector y(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const Row& row = *rows[static_cast<std::size_t>(i)];
+    x.row(i) = Eigen::Map<const Eigen::RowVectorXd>(row.features.data(), d);
+    y[i] = row.right ? 1.0 : 0.0;
+  }
+  const Eigen::RowVectorXd mean = x.colwise().mean();
+  x.rowwise() -= mean;
+  const Eigen::RowVectorXd spread = (x.colwise().squaredNorm() / static_cast<double>(n)).cwiseSqrt().cwiseMax(1e-9);
+  x.array().rowwise() /= spread.array();
+  double intercept = 0.0;
+  Vector w = Vector::Zero(d);
+  const double step = 4.0 / (static_cast<double>(n) * static_cast<double>(d + 1) + ridge);
+  for (int k = 0; k < iterations; ++k) {
+    const Vector p = ((-(x * w).array() - intercept).exp() + 1.0).inverse();
+    const Vector error = p - y;
+    intercept -= step * error.sum();
+    w -= step * (x.transpose() * error + ridge * w);
+    w = w.cwiseMax(0.0);
+  }
+  Logistic result;
+  result.weights = w.array() / spread.transpose().array();
+  result.intercept = intercept - result.weights.dot(mean.transpose());
+  return result;
+}
+
+bool meets(const std::set<int>& a, int part) { return a.contains(part); }
+
+// Scores of all rows, each by a function that knows none of the forms of one of its parts.
+std::vector<double> unseen_scores(const std::vector<Row>& rows) {
+  std::vector<double> sum(rows.size(), 0.0);
+  std::vector<int> count(rows.size(), 0);
+  for (int part = 0; part < parts; ++part) {
+    std::vector<const Row*> others;
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      // Campaigns in which nothing is hidden are dealt by their number.
+      const bool held = rows[k].parts.empty() ? part_of(rows[k].campaign) == part : meets(rows[k].parts, part);
+      if (!held) {
+        others.push_back(&rows[k]);
+      }
+    }
+    const Logistic logistic = learned(others);
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      const bool held = rows[k].parts.empty() ? part_of(rows[k].campaign) == part : meets(rows[k].parts, part);
+      if (held) {
+        sum[k] += logistic.score(rows[k].features);
+        ++count[k];
+      }
+    }
+  }
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    sum[k] /= std::max(count[k], 1);
+  }
+  return sum;
+}
+
+struct Step {
+  double score = 0.0;  // mean
+  double right = 0.0;
+  double count = 0.0;
+
+  [[nodiscard]] double probability() const { return (right + 0.5) / (count + 1.0); }
+};
+
+// Pool adjacent violators.
+std::vector<Step> steps_of(const std::vector<Row>& rows, const std::vector<double>& scores) {
+  std::vector<std::size_t> order(rows.size());
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    order[k] = k;
+  }
+  std::ranges::stable_sort(order, {}, [&](std::size_t k) { return scores[k]; });
+  std::vector<Step> steps;
+  Step open;
+  const auto merge = [](Step a, const Step& b) {
+    const double count = a.count + b.count;
+    return Step{(a.score * a.count + b.score * b.count) / count, a.right + b.right, count};
+  };
+  for (const std::size_t k : order) {
+    const Step one{scores[k], rows[k].right ? 1.0 : 0.0, 1.0};
+    open = open.count > 0.0 ? merge(open, one) : one;
+    if (open.count >= static_cast<double>(least_of_a_step)) {
+      steps.push_back(open);
+      open = {};
+      while (steps.size() > 1 && steps[steps.size() - 2].probability() >= steps.back().probability()) {
+        const Step last = steps.back();
+        steps.pop_back();
+        steps.back() = merge(steps.back(), last);
+      }
+    }
+  }
+  if (open.count > 0.0 && !steps.empty()) {
+    steps.back() = merge(steps.back(), open);
+  }
+  return steps;
+}
+
+template <class Features>
+std::string table_text(const std::string& name, const std::vector<Row>& rows, const Features& features) {
+  std::vector<const Row*> all;
+  for (const Row& row : rows) {
+    all.push_back(&row);
+  }
+  const Logistic logistic = learned(all);
+  const std::vector<double> scores = unseen_scores(rows);
+  const std::vector<Step> steps = steps_of(rows, scores);
+  fmt::print("\n{}: {} rows, {} right\n", name, rows.size(), std::ranges::count_if(rows, &Row::right));
+  for (std::size_t k = 0; k < features.size(); ++k) {
+    fmt::print("  {:<18} {:8.3f}\n", features[k].name, logistic.weights[static_cast<Eigen::Index>(k)]);
+  }
+  for (const Step& step : steps) {
+    fmt::print("  score {:7.2f}: {:3.0f} of {:3.0f}\n", step.score, step.right, step.count);
+  }
+  std::size_t let_through = 0;
+  std::size_t wrong = 0;
+  std::size_t right = 0;
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    right += rows[k].right ? 1 : 0;
+    for (const Step& step : steps) {
+      if (step.probability() >= hysteron::supported_from && scores[k] >= step.score) {
+        ++let_through;
+        wrong += rows[k].right ? 0 : 1;
+        break;
+      }
+    }
+  }
+  fmt::print("  supported or better on forms left out: {} of {} right ones, {} wrong\n", let_through - wrong, right,
+             wrong);
+  std::string text = fmt::format("constexpr double {}_weights[] = {{", name);
+  for (Eigen::Index k = 0; k < logistic.weights.size(); ++k) {
+    text += fmt::format("{}{:.4g}", k == 0 ? "" : ", ", logistic.weights[k]);
+  }
+  text += fmt::format("}};\nconstexpr Knot {}_knots[] = {{", name);
+  for (std::size_t k = 0; k < steps.size(); ++k) {
+    text += fmt::format("{}{{{:.4g}, {:.4g}}}", k == 0 ? "" : ", ", steps[k].score, steps[k].probability());
+  }
+  return text + fmt::format("}};\nconstexpr double {}_intercept = {:.5g};\n", name, logistic.intercept);
+}
+
+int run(int argc, char** argv) {
+  CLI::App program("learns the tables of grades from diagnosed challenges");
+  std::vector<std::string> folders;
+  std::string out;
+  bool list = false;
+  program.add_option("FOLDER", folders, "--out of a challenge")->required()->check(CLI::ExistingDirectory);
+  program.add_option("--out", out, "table_data.cpp to write");
+  program.add_flag("--list", list, "a line for every name with its features");
+  CLI11_PARSE(program, argc, argv);
+  Rows rows;
+  for (const std::string& folder : folders) {
+    read(folder, rows);
+  }
+  if (list) {
+    for (const Row& row : rows.names) {
+      fmt::print("{} {} {} {}", row.campaign, row.level, row.id, row.right ? 1 : 0);
+      for (const double value : row.features) {
+        fmt::print(" {:.3f}", value);
+      }
+      fmt::print("\n");
+    }
+  }
+  std::string text =
+      "// Written by bench/learn_grades.cpp; what it was learned from: results/grades.md.\n"
+      "#include \"diagnose/judge/table.hpp\"\n\nnamespace hysteron {\nnamespace {\n\n";
+  text += table_text("name", rows.names, hysteron::name_features) + "\n";
+  text += table_text("set", rows.sets, hysteron::name_features) + "\n";
+  text += table_text("missing", rows.missing, hysteron::missing_features);
+  text += "\n}  // namespace\n";
+  for (const std::string name : {"name", "set", "missing"}) {
+    text += fmt::format(
+        "\nconst Table& {0}_table() {{\n  static constexpr Table table{{{0}_intercept, {0}_weights, {0}_knots}};\n"
+        "  return table;\n}}\n",
+        name);
+  }
+  text += "\n}  // namespace hysteron\n";
+  if (!out.empty()) {
+    hysteron::write_file_atomically(out, text);
+  }
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const std::exception& problem) {
+    std::fprintf(stderr, "error: %s\n", problem.what());
+    return 1;
+  }
+}
