@@ -71,6 +71,16 @@ TOO_WIDE = """((width) => {
 CUT_OFF = """[...document.querySelectorAll(".scroll")].filter((n) => n.scrollWidth > n.clientWidth + 1)
   .map((n) => `${n.getAttribute("aria-label")}: ${n.scrollWidth} of ${n.clientWidth} px`)"""
 
+# Writing in drawings that a phone shows too small to read, tables whose right side it hides.
+UNREADABLE = """(() => {
+  const size = (text) => parseFloat(getComputedStyle(text).fontSize) * Math.hypot(text.getScreenCTM().a, text.getScreenCTM().b);
+  const small = [...document.querySelectorAll("main svg text")].filter((t) => size(t) < 9)
+    .map((t) => `${size(t).toFixed(1)} px: ${t.textContent} in ${t.closest("svg").getAttribute("aria-label")}`).slice(0, 5);
+  const hidden = [...document.querySelectorAll(".scroll")].filter((n) => n.querySelector("table") && n.scrollWidth > n.clientWidth + 1)
+    .map((n) => `${n.getAttribute("aria-label")}: ${n.scrollWidth} of ${n.clientWidth} px`);
+  return small.concat(hidden);
+})()"""
+
 # What a reader would do: every recording, every choice, every sorting, paper, and a zoom by dragging on every plot with
 # a button to undo it. Gives a list of complaints.
 WALK = """(async () => {
@@ -117,7 +127,7 @@ def make_reports(program, folder):
     for current in ("0.0", "0.4", "0.7", "1.0"):
         shutil.copy(folder / "twin" / f"2.0Hz_{current}A.csv", few)
     run("fit", "few", "--model", "bouc-wen", "--by-current", "alpha:1,c0:1", "--solver", "pso,ga,multistart-lm",
-        "--budget", "500", "--out", "fit")
+        "--budget", "500", "--stages", "two", "--out", "fit")
     marked = folder / "marked"
     marked.mkdir()
     shutil.copy(folder / "twin" / "2.0Hz_0.5A.csv", marked / MARKUP)
@@ -161,7 +171,9 @@ def check(browser, page, canvases, picture):
             said.append("text of the data became markup")
         said += [f"empty plot: {name}" for name in browser.run(EMPTY_PLOTS)]
         said += [f"too wide: {what}" for what in browser.run(f"{TOO_WIDE}({width})")]
-        if kind != "phone":
+        if kind == "phone":
+            said += [f"not to be read: {what}" for what in browser.run(UNREADABLE)]
+        else:
             said += [f"cut off: {what}" for what in browser.run(CUT_OFF)]
         path = picture(kind)
         if path:

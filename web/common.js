@@ -46,6 +46,8 @@ function decimalsOf(step) {
 }
 
 function linearTicks(lo, hi, wanted) {
+  // A range that is only rounding of one number has no steps: counting them would not end.
+  if (!(hi - lo > 1e-12 * Math.max(Math.abs(lo), Math.abs(hi)))) return [[lo, fmt(lo, 4)]];
   const raw = (hi - lo) / Math.max(1, wanted);
   const power = 10 ** Math.floor(Math.log10(raw));
   const steps = [1, 2, 5, 10].map((s) => s * power);

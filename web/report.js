@@ -34,15 +34,19 @@ function svgNode(markup) {
   return holder.firstElementChild;
 }
 
+// Tables too wide for a phone stand there as one block a row, each cell beside its column's title.
+const stacked = (columns) => (columns.length > 3 ? "stack" : null);
+
 // columns: {title, num, head (cell is the row's header)}; cells are text or nodes.
 function plainTable(caption, columns, rows) {
   return el("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": caption },
-    el("table", {}, el("caption", {}, el("span", {}, caption)),
+    el("table", { class: stacked(columns) }, el("caption", {}, el("span", {}, caption)),
       el("thead", {}, el("tr", {}, columns.map((c) => el("th", { scope: "col", class: c.num ? "num" : null }, c.title)))),
       el("tbody", {}, rows.map((cells) => el("tr", {}, cells.map((cell, i) =>
         el(columns[i].head ? "th" : "td", {
           scope: columns[i].head ? "row" : null,
           class: columns[i].num ? "num" : columns[i].nowrap ? "nowrap" : columns[i].text ? "text" : null,
+          "data-title": columns[i].head ? null : columns[i].title,
         }, cell)))))));
 }
 
@@ -67,7 +71,9 @@ function extent(arrays) {
 }
 
 function padded([lo, hi], share = 0.05) {
-  const gap = hi > lo ? (hi - lo) * share : Math.abs(lo) * 0.1 || 1;
+  // What differs by its rounding only is one value.
+  const size = Math.max(Math.abs(lo), Math.abs(hi));
+  const gap = hi - lo > 1e-9 * size ? (hi - lo) * share : size * 0.1 || 1;
   return [lo - gap, hi + gap];
 }
 
@@ -245,7 +251,7 @@ function recordingTable() {
       const r = recordings[i];
       return el("tr", { class: "pick", "data-index": i, onclick: () => select(i) }, columns.map((c, k) => k === 0
         ? el("th", { scope: "row" }, el("button", { type: "button", class: "link" }, r.file))
-        : el("td", { class: c.num ? "num" : "nowrap" }, c.num ? fmt(c.value(r), c.digits) : c.value(r))));
+        : el("td", { class: c.num ? "num" : "nowrap", "data-title": c.title }, c.num ? fmt(c.value(r), c.digits) : c.value(r))));
     }));
     markSelected();
   }
@@ -263,7 +269,7 @@ function recordingTable() {
   }
   fill();
   return el("div", { class: "scroll tall", tabindex: 0, role: "region", "aria-label": "Recordings" },
-    el("table", {}, el("caption", {}, el("span", {}, "Misfit of each recording", el("span", { class: "interactive" }, "; a heading sorts, a row selects"))),
+    el("table", { class: stacked(columns) }, el("caption", {}, el("span", {}, "Misfit of each recording", el("span", { class: "interactive" }, "; a heading sorts, a row selects"))),
       el("thead", {}, el("tr", {}, heads)), body));
 }
 
@@ -579,6 +585,20 @@ function withinBounds(p) {
     `<rect class="box" x="6" y="6" width="98" height="6" rx="3"/>${interval}<circle class="dot" cx="${at(p.value).toFixed(1)}" cy="9" r="4"/></svg>`);
 }
 
+// As people write them: newtons per ampere are not "N/A", and a law in a voltage is not one in a current.
+function printedUnit(unit) {
+  if (!/\/(A|V|Hz)$/.test(unit || "")) return unit || "–";
+  const begin = unit.indexOf("/", unit.indexOf(")") + 1);
+  const powers = new Map();
+  for (const part of unit.slice(begin + 1).split("/")) {
+    const [symbol, power] = part.split("^");
+    powers.set(symbol, (powers.get(symbol) || 0) + Number(power || 1));
+  }
+  const head = unit.slice(0, begin).replace(/\^(\d+)/g, (_, power) => superscript(power));
+  return [head === "1" ? "" : head, ...[...powers].map(([symbol, power]) => symbol + superscript(-power))].filter(Boolean).join(" ");
+}
+const printedTerm = (p) => (String(p.unit).includes("/V") ? p.name.replace("*i", "*u") : p.name);
+
 function parameterRemarks(p) {
   const flags = [];
   if (p.at_bound) flags.push(badge(`at ${p.at_bound} bound`, "flag"));
@@ -592,9 +612,9 @@ function modelSection() {
     { title: "Std. error", num: true }, { title: "95 % interval", num: true }, { title: "Bounds", num: true }, { title: "Within bounds" }];
   const interval = (pair, text) => (Array.isArray(pair) && pair.some(isNumber) ? `${text(pair[0])} … ${text(pair[1])}` : "–");
   const rows = parameters.map((p) => [
-    p.symbol && p.symbol !== p.name ? el("span", {}, el("code", {}, p.name), ` ${p.symbol}`) : el("code", {}, p.name),
+    p.symbol && p.symbol !== p.name ? el("span", {}, el("code", {}, printedTerm(p)), ` ${p.symbol}`) : el("code", {}, printedTerm(p)),
     el("span", {}, p.meaning || "", " ", parameterRemarks(p)),
-    fmt(p.value, 4), p.unit || "–", fmt(p.std_error, 2), interval(p.ci95, (v) => fmt(v, 3)), interval([p.lower, p.upper], brief), withinBounds(p),
+    fmt(p.value, 4), printedUnit(p.unit), fmt(p.std_error, 2), interval(p.ci95, (v) => fmt(v, 3)), interval([p.lower, p.upper], brief), withinBounds(p),
   ]);
   return section("model", "Model and parameters",
     el("p", {}, model.title || model.id || "", model.id && model.title ? [" (", el("code", {}, model.id), ")"] : ""),
@@ -808,7 +828,8 @@ function aliasMap(map) {
   return [
     el("h3", {}, "Which effects look alike in these recordings"),
     el("p", { class: "muted" }, "What each effect adds to the force, less what the base model's parameters imitate of it, against what the others add: full colour where one is a multiple of the other (cosine 1; point at a field for its value), none where they have nothing in common. Recordings of another kind part what looks alike here."),
-    el("figure", { class: "plot wide" }, svgNode(`<svg viewBox="0 0 ${left + size} ${top + size}" style="max-width:${left + size}px" role="img" aria-label="Likeness of effects">${marks.join("")}</svg>`)),
+    el("figure", { class: "plot wide" }, el("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": "Likeness of effects" },
+      svgNode(`<svg viewBox="0 0 ${left + size} ${top + size}" style="max-width:${left + size}px" role="img" aria-label="Likeness of effects">${marks.join("")}</svg>`))),
   ];
 }
 
@@ -905,7 +926,7 @@ function residualMaps() {
     el("p", { class: "muted" }, "The same mean, taken positive where the force against the motion is too small in the simulation."),
     twoLegend(),
     el("figure", { class: "plot wide" }, svgNode(chart({
-      width: 780, height: 240, margin: [6, 10, 36, 52], title: "Mean residual against distance since reversal",
+      width: Math.max(320, Math.min(780, root.clientWidth - 40)), height: 240, margin: [6, 10, 36, 52], title: "Mean residual against distance since reversal",
       x: { label: "Distance since reversal [mm]", range: [0, reach] }, y: { label: "Mean residual [%]", range: padded(extent(along)) },
       series: [{ x: middles, y: along[0], cls: "baseline" }, { x: middles, y: along[1], cls: "simulated" }] }))),
   ];

@@ -158,6 +158,8 @@ function criticalDifference() {
 
 // Names do not break at their hyphens; sentences wrap.
 const kept = (text) => (text.length < 32 ? "nowrap" : null);
+// Tables too wide for a phone stand there as one block a row, each cell beside its column's title.
+const stacked = (titles) => (titles.length > 3 ? "stack" : null);
 const tableOf = (id) => study.tables.find((t) => t.id === id);
 
 // filter: column whose words the reader can choose from
@@ -166,13 +168,13 @@ function shownTable(id, filter) {
   if (!t || !t.rows.length) return t ? el("div", {}, el("h3", {}, t.title), el("p", { class: "muted" }, t.note)) : null;
   const body = el("tbody", {});
   const fill = (word) => body.replaceChildren(...t.rows.filter((r) => !word || r[filter] === word).map((cells) =>
-    el("tr", {}, cells.map((cell, i) => el("td", { class: t.numeric[i] ? "num" : kept(cell) }, cell)))));
+    el("tr", {}, cells.map((cell, i) => el("td", { class: t.numeric[i] ? "num" : kept(cell), "data-title": t.header[i] }, cell)))));
   fill();
   const words = filter === undefined ? [] : [...new Set(t.rows.map((r) => r[filter]))];
   return el("div", { id: `table-${id}` }, el("h3", {}, t.title), el("p", { class: "muted" }, t.note),
     words.length > 1 ? el("div", { class: "controls" }, picker(t.header[filter], ["all", ...words], (k) => fill(k ? words[k - 1] : ""))) : "",
     el("div", { class: `scroll${t.rows.length > 20 ? " tall" : ""}`, tabindex: 0, role: "region", "aria-label": t.title },
-      el("table", {}, el("thead", {}, el("tr", {}, t.header.map((h, i) => el("th", { scope: "col", class: t.numeric[i] ? "num" : null }, h)))), body)));
+      el("table", { class: stacked(t.header) }, el("thead", {}, el("tr", {}, t.header.map((h, i) => el("th", { scope: "col", class: t.numeric[i] ? "num" : null }, h)))), body)));
 }
 
 // ---------------------------------------------------------------------------------------------------------- the page
@@ -322,19 +324,23 @@ function runsSection() {
   const limit = 500;
   const body = el("tbody", {});
   const count = el("span", { class: "muted" });
+  const titles = ["key", "problem", "solver", "budget", "seed", "NRMSE", "evaluations", "stopped"];
   const fill = () => {
     const rows = study.runs.filter((r) => (chosen.problem < 0 || r[1] === chosen.problem) && (chosen.solver < 0 || r[2] === chosen.solver) &&
       (chosen.budget < 0 || r[3] === study.budgets[chosen.budget]));
     count.textContent = rows.length > limit ? `the first ${limit} of ${rows.length}; all are in runs.csv` : `${rows.length} runs`;
-    body.replaceChildren(...rows.slice(0, limit).map((r) => el("tr", {}, el("td", { class: "mono", title: r[0] }, r[0].slice(0, 12)), el("td", { class: kept(problems[r[1]]) }, problems[r[1]]), el("td", { class: kept(solvers[r[2]]) }, solvers[r[2]]),
-      el("td", { class: "num" }, String(r[3])), el("td", { class: "num" }, String(r[4])), el("td", { class: "num" }, fmt(r[5], 6)), el("td", { class: "num" }, String(r[6])), el("td", {}, r[7]))));
+    body.replaceChildren(...rows.slice(0, limit).map((r) => {
+      const cells = [r[0].slice(0, 12), problems[r[1]], solvers[r[2]], String(r[3]), String(r[4]), fmt(r[5], 6), String(r[6]), r[7]];
+      const kind = (i) => (i === 0 ? "mono" : i > 2 && i < 7 ? "num" : i < 3 ? kept(cells[i]) : null);
+      return el("tr", {}, cells.map((cell, i) => el("td", { class: kind(i), title: i === 0 ? r[0] : null, "data-title": titles[i] }, cell)));
+    }));
   };
   const pick = (name, label, words) => picker(label, ["all", ...words], (k) => { chosen[name] = k - 1; fill(); });
   fill();
   return section("runs", "Runs", el("p", { class: "muted" }, "Every number above comes from these runs. A key is the sha256 of the whole configuration: data, model, box, solver, settings, budget, seed, version."),
     el("div", { class: "controls" }, pick("problem", "Problem", problems), pick("solver", "Solver", solvers), pick("budget", "Budget", study.budgets.map(String)), count),
-    el("div", { class: "scroll tall", tabindex: 0, role: "region", "aria-label": "Runs" }, el("table", {}, el("thead", {}, el("tr", {},
-      ["key", "problem", "solver", "budget", "seed", "NRMSE", "evaluations", "stopped"].map((h, i) => el("th", { scope: "col", class: i > 2 && i < 7 ? "num" : null }, h)))), body)));
+    el("div", { class: "scroll tall", tabindex: 0, role: "region", "aria-label": "Runs" }, el("table", { class: stacked(titles) }, el("thead", {}, el("tr", {},
+      titles.map((h, i) => el("th", { scope: "col", class: i > 2 && i < 7 ? "num" : null }, h)))), body)));
 }
 
 function methodSection() {
