@@ -6,15 +6,16 @@
 //
 // The campaigns of the study: a Bouc-Wen damper at three drives, sines that start and end at rest, one with a pause in
 // it, two with steps of the drive, noise of one per cent, half of its power coloured. A line lists the contrasts that
-// speak (|z| above 3, beyond 97.5 % of the placebos), with their median value; a star marks those that should.
+// speak (|z| above 3, beyond 97.5 % of the placebos), with their median value; a star marks those that should;
+// in brackets stand those that should and do not.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <ctime>
 #include <exception>
 #include <map>
 #include <numbers>
@@ -168,7 +169,8 @@ std::vector<Recording> campaign(const Truth& truth, double noise, std::uint64_t 
     result.push_back(std::move(steps));
   }
   const CompositeModel model =
-      make_model("bouc-wen", truth.effect.empty() ? std::vector<std::string>{} : std::vector{truth.effect});
+      make_model("bouc-wen", truth.effect.empty() || truth.effect == "velocity-lag" ? std::vector<std::string>{}
+                                                                                    : std::vector{truth.effect});
   std::vector<double> held = {150.0, 500.0, 1000.0, 10.0, 6e-4, 0.5, 1.6};
   const std::vector<Parameter> cards = model.parameters();
   for (std::size_t k = held.size(); k < cards.size(); ++k) {
@@ -187,6 +189,10 @@ std::vector<Recording> campaign(const Truth& truth, double noise, std::uint64_t 
     for (const double force : recording.force) {
       peak = std::max(peak, std::fabs(force));
     }
+    // The channel lags, not the damper.
+    for (std::size_t n = 0; truth.effect == "velocity-lag" && n < recording.size(); ++n) {
+      recording.velocity[n] -= truth.parameters.at("lag") * recording.derived_acceleration[n];
+    }
     double coloured = 0.0;
     for (std::size_t n = 0; n < recording.size(); ++n) {
       const auto of = static_cast<std::uint32_t>(k);
@@ -201,11 +207,14 @@ std::vector<Recording> campaign(const Truth& truth, double noise, std::uint64_t 
 constexpr double loud = 3.0;
 constexpr double beyond = 0.975;
 
-void study(std::size_t seeds, double noise, std::size_t budget) {
-  std::map<ContrastKind, std::size_t> false_alarms;
+void study(std::size_t seeds, double noise, std::size_t budget, const std::vector<std::string>& only) {
   for (const Truth& truth : truths()) {
+    if (!only.empty() && std::ranges::find(only, truth.effect) == only.end()) {
+      continue;
+    }
     std::map<ContrastKind, std::size_t> loud_ones;
     std::map<ContrastKind, std::vector<double>> values;
+    std::string quiet;  // those that should speak and do not
     for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
       const std::vector<Recording> recordings = campaign(truth, noise, seed);
       Base base{"bouc-wen", {}, budget};
@@ -222,6 +231,9 @@ void study(std::size_t seeds, double noise, std::size_t budget) {
       for (const Contrast& one : contrasts(recordings, residuals)) {
         if (std::fabs(one.z) > loud && one.placebo_quantile > beyond) {
           ++loud_ones[one.kind];
+        } else if (std::ranges::find(speaks_for(one.kind), truth.effect) != speaks_for(one.kind).end()) {
+          quiet += fmt::format(" [{} {:.2g} z {:.1f} placebos {:.3f}]", card_of(one.kind).id, one.value, one.z,
+                               one.placebo_quantile);
         }
         values[one.kind].push_back(one.value);
       }
@@ -234,7 +246,7 @@ void study(std::size_t seeds, double noise, std::size_t budget) {
       std::ranges::nth_element(of, of.begin() + static_cast<std::ptrdiff_t>(of.size() / 2));
       fmt::print(" {}{} {}/{} ({:.2g})", right ? "*" : "", card_of(kind).id, count, seeds, of[of.size() / 2]);
     }
-    fmt::print("\n");
+    fmt::print("{}\n", quiet);
     std::fflush(stdout);
   }
 }
@@ -261,15 +273,17 @@ int run(int argc, char** argv) {
   std::string by_current;
   std::size_t seeds = 0;
   double noise = 0.01;
+  std::vector<std::string> only;
   program.add_option("DATA", data, "recordings or folders of them");
   program.add_option("--model", base.model, "damper law")->capture_default_str();
   program.add_option("--by-current", by_current, "PARAMETER:ORDER,... of the drive");
   program.add_option("--budget", base.budget, "evaluations of the fit")->capture_default_str();
   program.add_option("--study", seeds, "instead of data: campaigns made here, this many for each effect");
   program.add_option("--noise", noise, "of these, share of the peak force")->capture_default_str();
+  program.add_option("--only", only, "of these, the effects to make");
   CLI11_PARSE(program, argc, argv);
   if (seeds > 0) {
-    study(seeds, noise, base.budget);
+    study(seeds, noise, base.budget, only);
     return 0;
   }
   base.layout.by_current = orders_of(by_current);
@@ -279,10 +293,10 @@ int run(int argc, char** argv) {
   }
   double cost = 0.0;
   const std::vector<Residual> residuals = residuals_of(base, campaign.recordings, &cost);
-  const auto begin = std::chrono::steady_clock::now();
+  const std::clock_t begin = std::clock();
   const std::vector<Contrast> found = contrasts(campaign.recordings, residuals);
-  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
-  fmt::print(stderr, "NRMSE {:.4f}; contrasts took {:.3f} s\n", cost, took.count());
+  fmt::print(stderr, "NRMSE {:.4f}; the contrasts took {:.3f} s of one core\n", cost,
+             static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC);
   print(found);
   return 0;
 }

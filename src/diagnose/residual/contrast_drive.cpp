@@ -11,10 +11,11 @@
 namespace hysteron::contrast {
 namespace {
 
-constexpr double reference_lag = 0.02;  // s: small lags count by what the force lacks in sum
-constexpr double half_play = 0.25;      // of the range of the drive, of the memory that is looked for
-constexpr double least_size = 0.05;     // of the largest mean size of the force, that A(i) is kept above
-constexpr double level = 0.08;          // of the range: drives nearer to one another are one level
+constexpr double channel_delay = 0.005;  // s: what a delay of the force channel does at a step as well is left out
+constexpr double reference_lag = 0.02;   // s: small lags count by what the force lacks in sum
+constexpr double half_play = 0.25;       // of the range of the drive, of the memory that is looked for
+constexpr double least_size = 0.05;      // of the largest mean size of the force, that A(i) is kept above
+constexpr double level = 0.08;           // of the range: drives nearer to one another are one level
 constexpr std::size_t fewest_levels = 3;
 
 // The drive behind a first-order lag that the drive before the first sample has settled through; linear in between.
@@ -28,6 +29,23 @@ Values lagged(const Track& track) {
       state = track.drive[n] - behind + (state - track.drive[n - 1] + behind) * std::exp(-elapsed / reference_lag);
     }
     result[n] = state;
+  }
+  return result;
+}
+
+// The drive `delay` s earlier, linear between samples.
+Values earlier(const Track& track, double delay) {
+  Values result(track.drive.size());
+  std::size_t k = 0;
+  for (std::size_t n = 0; n < result.size(); ++n) {
+    const double at = track.time[n] - delay;
+    while (k + 1 < n && track.time[k + 1] <= at) {
+      ++k;
+    }
+    const std::size_t next = std::min(k + 1, result.size() - 1);
+    const double step = track.time[next] - track.time[k];
+    const double part = step > 0.0 ? std::clamp((at - track.time[k]) / step, 0.0, 1.0) : 0.0;
+    result[n] = track.drive[k] + part * (track.drive[next] - track.drive[k]);
   }
   return result;
 }
@@ -123,7 +141,9 @@ void add_drive_contrasts(std::span<const Track> tracks, std::vector<Contrast>& r
   }
   std::vector<Values> behind;
   std::vector<Values> remaining;
+  std::vector<Values> delayed;
   for (const Track& track : tracks) {
+    delayed.push_back(earlier(track, channel_delay));
     behind.push_back(lagged(track));
     remaining.push_back(memory(track, half_play * range));
   }
@@ -134,8 +154,10 @@ void add_drive_contrasts(std::span<const Track> tracks, std::vector<Contrast>& r
   const Panel::Column stays =
       add([&](const Track& t, std::size_t n) { return slope * shape(t, n) * remaining[number(t)][n]; });
   const Panel::Column later = add([](const Track& t, std::size_t n) { return -t.slope[n]; });
-  contrast(ContrastKind::drive_lag, lag, base, {stays, later});
-  contrast(ContrastKind::drive_memory, stays, base, {lag, later});
+  const Panel::Column shifted =
+      add([&](const Track& t, std::size_t n) { return slope * shape(t, n) * (delayed[number(t)][n] - t.drive[n]); });
+  contrast(ContrastKind::drive_lag, lag, base, {stays, later, shifted});
+  contrast(ContrastKind::drive_memory, stays, base, {lag, later, shifted});
 }
 
 }  // namespace hysteron::contrast

@@ -14,13 +14,14 @@ namespace {
 
 using Columns = std::vector<Panel::Column>;
 
-constexpr double film = 0.02;        // of a recording's largest speed: where the sign of the velocity is rounded
-constexpr double low_speed = 0.1;    // of the largest of all: where friction at low speed has fallen off
-constexpr double large_force = 0.5;  // of the largest of all: beyond it the limit of one side is looked for
+constexpr double film = 0.02;      // of a recording's largest speed: where the sign of the velocity is rounded
+constexpr double low_speed = 0.1;  // of the largest of all: where friction at low speed has fallen off
 // Of the half stroke: where the ends begin, half widths of the weak middle, yield travel of a second hysteresis.
 constexpr std::array<double, 3> ends = {0.6, 0.75, 0.9};
 constexpr std::array<double, 2> middles = {0.15, 0.35};
 constexpr std::array<double, 2> yields = {0.1, 0.3};
+// Of the largest force of all: beyond them the limit of one side is looked for.
+constexpr std::array<double, 3> large_forces = {0.3, 0.5, 0.7};
 
 struct Range {
   double low = std::numeric_limits<double>::infinity();
@@ -88,6 +89,12 @@ void add_motion_contrasts(std::span<const Track> tracks, std::vector<Contrast>& 
   const Panel::Column f = add([](const Track& t, std::size_t n) { return t.simulated[n]; });
   const Panel::Column later = add([](const Track& t, std::size_t n) { return -t.slope[n]; });
   const Panel::Column stretch = add([](const Track& t, std::size_t n) { return t.stiff[n] * t.since[n]; });
+  // The knee of the hysteresis rounder or sharper, and other before the force passes zero than after.
+  const auto relative = [](const Track& t, std::size_t n) { return t.direction[n] * t.simulated[n] / t.peak; };
+  const Panel::Column skewed =
+      add([&](const Track& t, std::size_t n) { return t.stiff[n] * t.since[n] * relative(t, n); });
+  const Panel::Column rounder =
+      add([&](const Track& t, std::size_t n) { return t.stiff[n] * t.since[n] * relative(t, n) * relative(t, n); });
   const Panel::Column play =
       add([](const Track& t, std::size_t n) { return t.direction[n] * t.simulated[n] > 0.0 ? -t.stiff[n] : 0.0; });
   const Panel::Column soft =
@@ -97,15 +104,23 @@ void add_motion_contrasts(std::span<const Track> tracks, std::vector<Contrast>& 
   const Panel::Column stribeck =
       add([&](const Track& t, std::size_t n) { return sign_at(t, n) * std::exp(-(t.v[n] / slow) * (t.v[n] / slow)); });
   const Panel::Column sided = add([&](const Track& t, std::size_t n) { return t.simulated[n] * sign_at(t, n); });
-  const Panel::Column limit = add([&](const Track& t, std::size_t n) {
-    return -std::max(std::fabs(t.simulated[n]) - large_force * strongest, 0.0);
-  });
+  // Beyond a force, what is lost on one side less what is on the other, and on both together.
+  Columns one_sided;
+  Columns two_sided;
+  for (const double part : large_forces) {
+    const auto over = [=](const Track& t, std::size_t n) {
+      return -std::max(std::fabs(t.simulated[n]) - part * strongest, 0.0);
+    };
+    one_sided.push_back(add(over));
+    two_sided.push_back(add([=](const Track& t, std::size_t n) { return std::copysign(over(t, n), t.simulated[n]); }));
+  }
 
   Columns base = {one, x, v, f};
   if (driven) {
     base.push_back(add([&](const Track& t, std::size_t n) { return t.v[n] * (t.drive[n] - mean_drive); }));
     base.push_back(add([&](const Track& t, std::size_t n) { return t.simulated[n] * (t.drive[n] - mean_drive); }));
   }
+  const Columns knee = {stretch, skewed, rounder};
   const auto less = [](Columns columns, Panel::Column without) {
     std::erase(columns, without);
     return columns;
@@ -118,17 +133,17 @@ void add_motion_contrasts(std::span<const Track> tracks, std::vector<Contrast>& 
   };
   using Kind = ContrastKind;
 
-  contrast(Kind::force_travel, {soft}, base + Columns{stretch, play, later, a});
-  contrast(Kind::force_delay, {later}, base + Columns{stretch, a});
-  contrast(Kind::acceleration, {a}, base + Columns{stretch, later});
+  contrast(Kind::force_travel, {soft}, base + knee + Columns{play, later, a});
+  contrast(Kind::force_delay, {later}, base + knee + Columns{a});
+  contrast(Kind::acceleration, {a}, base + knee + Columns{later});
   contrast(Kind::mean_force, {one}, less(base, one) + Columns{sided}, Panel::Null::flip);
   contrast(Kind::stiffness, {x}, less(base, x) + Columns{a, later, stretch});
-  contrast(Kind::stiffness_bend, {x2}, base + Columns{a, sided, limit});
+  contrast(Kind::stiffness_bend, {x2}, base + Columns{a, sided});
   contrast(Kind::stiffness_cubic, {x3}, base + Columns{x2, a, sign, later});
   contrast(Kind::direction, {sided}, base + Columns{x2, a});
-  contrast(Kind::one_sided_limit, {limit}, base + Columns{x2, a, sided});
-  contrast(Kind::dry_friction, {sign}, base + Columns{stretch, a, later, vv});
-  contrast(Kind::low_speed, {stribeck}, base + Columns{stretch, sign, a, later, vv});
+  contrast(Kind::one_sided_limit, one_sided, base + two_sided + Columns{x2, a, sided});
+  contrast(Kind::dry_friction, {sign}, base + knee + Columns{a, later, vv});
+  contrast(Kind::low_speed, {stribeck}, base + knee + Columns{sign, a, later, vv});
   contrast(Kind::viscous, {v}, less(base, v) + Columns{a, sign, vv, stretch});
   contrast(Kind::speed_bend, {vv}, base + Columns{a, sign, stretch});
 
@@ -145,8 +160,8 @@ void add_motion_contrasts(std::span<const Track> tracks, std::vector<Contrast>& 
   Columns in_middle;
   for (const double middle : middles) {
     in_middle.push_back(add([=](const Track& t, std::size_t n) {
-      const double relative = (t.x[n] - centre) / (middle * half);
-      return -t.simulated[n] * std::exp(-relative * relative);
+      const double from = (t.x[n] - centre) / (middle * half);
+      return -t.simulated[n] * std::exp(-from * from);
     }));
   }
   contrast(Kind::middle_loss, in_middle, base + Columns{vv, a, sign, stretch});
@@ -157,7 +172,7 @@ void add_motion_contrasts(std::span<const Track> tracks, std::vector<Contrast>& 
     second.push_back(
         add([&](const Track& t, std::size_t n) { return z[static_cast<std::size_t>(&t - tracks.data())][n]; }));
   }
-  contrast(Kind::pre_yield, second, base + Columns{stretch, sign, a, vv});
+  contrast(Kind::pre_yield, second, base + knee + Columns{sign, a, vv});
 }
 
 }  // namespace hysteron::contrast
