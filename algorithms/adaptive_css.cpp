@@ -39,6 +39,7 @@ constexpr Setting settings[] = {
     {"smallest", 1e-6, 1e-14, 0.5, "width at which the whole box is searched again"},
     {"radius", 0.1, 1e-9, 1e6, "radius a of the charged sphere, on the dimensionless separation"},
     {"attract", 1.0, 0.0, 1.0, "share of attracting forces, the others repel"},
+    {"worse_attract", 0.0, 0.0, 1.0, "1 some of the worse attract the better, 0 none do"},
 };
 
 class AdaptiveChargedSystem final : public support::SamplingSolver {
@@ -55,6 +56,7 @@ class AdaptiveChargedSystem final : public support::SamplingSolver {
         upper_(problem.dimension, 1.0) {
     options_.radius = setting(problem, solver_adaptive_css, "radius");
     options_.attract = setting(problem, solver_adaptive_css, "attract");
+    options_.worse_attract = support::whole_setting(problem, solver_adaptive_css, "worse_attract") == 1;
     options_.memory_size = std::max<std::size_t>(1, count_ / 4);
     system_.configure(options_);
   }

@@ -2,14 +2,15 @@
 //
 //   x_k = m + sigma B D z_k;   lambda = 4 + floor(3 ln n), mu = lambda / 2, w_i ~ ln(mu + 0.5) - ln i
 //   ps <- (1-cs) ps + sqrt(cs (2-cs) mueff) C^-1/2 y_w;   pc <- (1-cc) pc + h sqrt(cc (2-cc) mueff) y_w
-//   C  <- (1 - c1 - cmu + (1-h) c1 cc (2-cc)) C + c1 pc pc' + cmu sum w_i y_i y_i'
+//   C  <- (1 - c1 - cmu sum w_i + (1-h) c1 cc (2-cc)) C + c1 pc pc' + cmu sum w_i y_i y_i'
+//   The worse half has negative weights (active update), y_i there scaled to the length sqrt(n) in the metric of C.
 //   sigma <- sigma exp((cs / damps) (|ps| / chiN - 1))
 //
 // Sources: N. Hansen, The CMA evolution strategy: a tutorial, arXiv 1604.00772 (all constants); A. Auger, N. Hansen,
 //   Proc. CEC 2005, pp. 1769-1776, doi 10.1109/CEC.2005.1554902 (IPOP); N. Hansen, GECCO 2009 workshop, pp. 2389-2396,
 //   doi 10.1145/1570256.1570333 (BIPOP).
 // Deviations and choices:
-// - Only the positive weights are used (the tutorial's active update is left out).
+// - `active` 0 leaves the negative weights out, as before the tutorial's version of 2016.
 // - Bounds by mirroring: the strategy works on the even, periodic extension of the cost beyond the box and learns from
 //   the unfolded points; only the folded point is evaluated. A minimum on a bound keeps its neighbourhood.
 // - Restart rules (TolX, TolFun, EqualFunValues, Stagnation, ConditionCov, TolXUp, NoEffect) as in the tutorial; TolX =
@@ -41,7 +42,8 @@ using support::Point;
 constexpr Setting settings[] = {
     {"population", 0.0, 0.0, 100000.0, "offspring of the first run; 0: 4 + floor(3 ln n)"},
     {"sigma", 0.3, 1e-6, 2.0, "initial step size as a fraction of the range"},
-    {"bipop", 0.0, 0.0, 1.0, "0 IPOP: double the population at each restart, 1 BIPOP: alternate large and small"},
+    {"active", 1.0, 0.0, 1.0, "1 the worse half has negative weights, 0 it has none"},
+    {"bipop", 1.0, 0.0, 1.0, "0 IPOP: double the population at each restart, 1 BIPOP: alternate large and small"},
 };
 
 class CovarianceStrategy final : public support::SamplingSolver {
@@ -51,6 +53,7 @@ class CovarianceStrategy final : public support::SamplingSolver {
         n_(static_cast<Eigen::Index>(problem.dimension)),
         real_n_(static_cast<double>(problem.dimension)),
         first_sigma_(setting(problem, solver_cma_es, "sigma")),
+        active_(support::whole_setting(problem, solver_cma_es, "active") == 1),
         bipop_(support::whole_setting(problem, solver_cma_es, "bipop") == 1),
         samples_(problem.stream.child("samples")),
         restarts_(problem.stream.child("restarts")) {
@@ -107,9 +110,11 @@ class CovarianceStrategy final : public support::SamplingSolver {
     cc_ = (4.0 + mueff_ / real_n_) / (real_n_ + 4.0 + 2.0 * mueff_ / real_n_);
     cs_ = (mueff_ + 2.0) / (real_n_ + mueff_ + 5.0);
     c1_ = 2.0 / ((real_n_ + 1.3) * (real_n_ + 1.3) + mueff_);
-    cmu_ = std::min(1.0 - c1_, 2.0 * (mueff_ - 2.0 + 1.0 / mueff_) / ((real_n_ + 2.0) * (real_n_ + 2.0) + mueff_));
+    cmu_ = std::min(1.0 - c1_, 2.0 * (mueff_ - 1.75 + 1.0 / mueff_) / ((real_n_ + 2.0) * (real_n_ + 2.0) + mueff_));
     damps_ = 1.0 + 2.0 * std::max(0.0, std::sqrt((mueff_ - 1.0) / (real_n_ + 1.0)) - 1.0) + cs_;
     expected_norm_ = std::sqrt(real_n_) * (1.0 - 1.0 / (4.0 * real_n_) + 1.0 / (21.0 * real_n_ * real_n_));
+
+    weigh_the_worse();
 
     Draws draws(restarts_, run_, 0);
     Point start = support::random_point(draws, problem_.dimension);
@@ -131,6 +136,25 @@ class CovarianceStrategy final : public support::SamplingSolver {
     decomposition_failed_ = false;
   }
 
+  // Negative weights of the ranks beyond mu, equations 46 to 53 of the tutorial.
+  void weigh_the_worse() {
+    weights_of_worse_.clear();
+    if (!active_) return;
+    double sum = 0.0;
+    double square = 0.0;
+    for (std::size_t i = mu_; i < lambda_; ++i) {
+      const double weight = std::log(static_cast<double>(lambda_) / 2.0 + 0.5) - std::log(static_cast<double>(i + 1));
+      weights_of_worse_.push_back(std::min(0.0, weight));
+      sum -= weights_of_worse_.back();
+      square += weights_of_worse_.back() * weights_of_worse_.back();
+    }
+    if (!(sum > 0.0)) return;
+    const double mueff_of_worse = sum * sum / square;
+    const double limit = std::min(
+        {1.0 + c1_ / cmu_, 1.0 + 2.0 * mueff_of_worse / (mueff_ + 2.0), (1.0 - c1_ - cmu_) / (real_n_ * cmu_)});
+    for (double& weight : weights_of_worse_) weight *= limit / sum;
+  }
+
   void update_distribution(const std::vector<std::size_t>& order) {
     const Eigen::VectorXd old_mean = mean_;
     mean_.setZero();
@@ -143,11 +167,20 @@ class CovarianceStrategy final : public support::SamplingSolver {
     const bool h_sigma = norm / std::sqrt(settled) < (1.4 + 2.0 / (real_n_ + 1.0)) * expected_norm_;
     path_c_ = (1.0 - cc_) * path_c_;
     if (h_sigma) path_c_ += std::sqrt(cc_ * (2.0 - cc_) * mueff_) * step;
-    const double keep = 1.0 - c1_ - cmu_ + (h_sigma ? 0.0 : c1_ * cc_ * (2.0 - cc_));
+    double weight_sum = 1.0;
+    for (const double weight : weights_of_worse_) weight_sum += weight;
+    const double keep = 1.0 - c1_ - cmu_ * weight_sum + (h_sigma ? 0.0 : c1_ * cc_ * (2.0 - cc_));
     covariance_ = keep * covariance_ + c1_ * path_c_ * path_c_.transpose();
     for (std::size_t i = 0; i < mu_; ++i) {
       const Eigen::VectorXd y = (unfolded_[order[i]] - old_mean) / sigma_;
       covariance_ += cmu_ * weights_[i] * y * y.transpose();
+    }
+    for (std::size_t i = 0; i < weights_of_worse_.size(); ++i) {
+      const Eigen::VectorXd y = (unfolded_[order[mu_ + i]] - old_mean) / sigma_;
+      const double length_square = (axes_.transpose() * y).cwiseQuotient(axis_length_).squaredNorm();
+      if (length_square > 0.0) {
+        covariance_ += cmu_ * weights_of_worse_[i] * (real_n_ / length_square) * y * y.transpose();
+      }
     }
     sigma_ *= std::exp(std::min(1.0, (cs_ / damps_) * (norm / expected_norm_ - 1.0)));
 
@@ -247,6 +280,7 @@ class CovarianceStrategy final : public support::SamplingSolver {
   Eigen::Index n_;
   double real_n_;
   double first_sigma_;
+  bool active_;
   bool bipop_;
   Stream samples_;
   Stream restarts_;
@@ -257,6 +291,7 @@ class CovarianceStrategy final : public support::SamplingSolver {
   std::size_t lambda_ = 0;
   std::size_t mu_ = 0;
   std::vector<double> weights_;
+  std::vector<double> weights_of_worse_;  // empty without the active update
   double mueff_ = 0.0, cc_ = 0.0, cs_ = 0.0, c1_ = 0.0, cmu_ = 0.0, damps_ = 0.0, expected_norm_ = 0.0;
 
   // state of the run
@@ -298,7 +333,8 @@ const SolverEntry solver_cma_es = {
     "CMA-ES with IPOP or BIPOP restarts",
     "Hansen, The CMA evolution strategy: a tutorial, arXiv 1604.00772; Auger & Hansen, CEC 2005, doi\n"
     "10.1109/CEC.2005.1554902; Hansen, GECCO 2009, doi 10.1145/1570256.1570333",
-    "Constants of the tutorial without negative weights. Bounds by mirroring: the strategy works on the even periodic\n"
+    "Constants of the tutorial, with negative weights (active update). Bounds by mirroring: the strategy works on the "
+    "even periodic\n"
     "extension of the cost. Converged or stagnated runs are restarted from random points with doubled population.",
     false,
     settings,

@@ -10,11 +10,15 @@ extern const SolverEntry solver_lm;
 
 namespace {
 
+constexpr Setting settings[] = {
+    {"tolerance", 1e-7, 1e-16, 0.1,
+     "a descent ends when the squared cost falls by less than this share of itself twice"},
+};
+
 class LevenbergMarquardt final : public Solver {
  public:
-  explicit LevenbergMarquardt(const Problem& problem) : descent_(start_of(problem), problem.linear) {
-    support::check_problem(problem, solver_lm);
-  }
+  explicit LevenbergMarquardt(const Problem& problem)
+      : descent_(start_of(problem), problem.linear, setting(problem, solver_lm, "tolerance")) {}
 
   Request ask() override {
     Request request;
@@ -54,7 +58,10 @@ const SolverEntry solver_lm = {
     "Marquardt 1963, doi 10.1137/0111030; More 1978, doi 10.1007/BFb0067700",
     "One bounded descent with exact derivatives; affine parameters projected out. Ends at the nearest local optimum.",
     true,
-    {},
-    [](const Problem& problem) -> std::unique_ptr<Solver> { return std::make_unique<LevenbergMarquardt>(problem); }};
+    settings,
+    [](const Problem& problem) -> std::unique_ptr<Solver> {
+      support::check_problem(problem, solver_lm);
+      return std::make_unique<LevenbergMarquardt>(problem);
+    }};
 
 }  // namespace hysteron

@@ -25,6 +25,8 @@ namespace {
 constexpr Setting settings[] = {
     {"width", 4.0, 1.0, 1024.0, "descents under way at once"},
     {"starts", 16.0, 1.0, 1e6, "descents ended before agreement may stop the run"},
+    {"tolerance", 1e-7, 1e-16, 0.1,
+     "a descent ends when the squared cost falls by less than this share of itself twice"},
     {"agreement", 3.0, 0.0, 1e6, "descents that must end at the best cost; 0 uses the whole budget"},
 };
 
@@ -35,6 +37,7 @@ class MultistartLm final : public Solver {
     starts_ = static_cast<std::size_t>(setting(problem, solver_multistart_lm, "starts"));
     agreement_ = static_cast<std::size_t>(setting(problem, solver_multistart_lm, "agreement"));
     const auto width = static_cast<std::size_t>(setting(problem, solver_multistart_lm, "width"));
+    tolerance_ = setting(problem, solver_multistart_lm, "tolerance");
     screening_ = problem.screening && affords(2 * screening_rounds * width);
     for (std::size_t k = 0; k < width; ++k) {
       descents_.push_back(begin());
@@ -117,7 +120,7 @@ class MultistartLm final : public Solver {
         taken_, [&](double other) { return std::fabs(cost - other) <= screened_tolerance * other; });
     if (promising && !known) {
       taken_.push_back(cost);
-      finishing_.emplace_back(descent.best(), problem_.linear);
+      finishing_.emplace_back(descent.best(), problem_.linear, tolerance_);
     }
   }
 
@@ -144,7 +147,7 @@ class MultistartLm final : public Solver {
                                                 : problem_.stream.uniform(index, static_cast<std::uint32_t>(k));
     }
     return screening_ ? Descent(std::move(point), problem_.linear, 1e-2, true)
-                      : Descent(std::move(point), problem_.linear);
+                      : Descent(std::move(point), problem_.linear, tolerance_);
   }
 
   Problem problem_;
@@ -159,6 +162,7 @@ class MultistartLm final : public Solver {
   std::size_t diverged_ = 0;  // descents whose start diverged
   std::size_t starts_ = 0;
   std::size_t agreement_ = 0;
+  double tolerance_ = 0.0;
   bool screening_ = false;
 };
 

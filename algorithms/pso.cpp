@@ -11,10 +11,11 @@
 // - Bounds, which the source leaves open: `bounds` 0 absorbs (coordinate on the bound, its velocity 0), 1 reflects
 //   (coordinate mirrored, its velocity reversed).
 // - Initial velocities U(-vmax, vmax). No stopping rule but the budget; a collapsed swarm is not restarted.
-// - The source speaks of one informant set, the whole swarm, which lost 2 of 11 runs of bench/peers to local optima;
-//   the default is the von Neumann torus (Kennedy & Mendes, Proc. CEC 2002, pp. 1671-1676) with |v| limited to half the
-//   range, which lost none. Ring and adaptive random (K = 3, redrawn after a generation that did not improve the best)
-//   are the other usual choices.
+// - The source speaks of one informant set, the whole swarm, and of no population. Defaults led on training problems
+//   (results/defaults.md): the von Neumann torus (Kennedy & Mendes, Proc. CEC 2002, pp. 1671-1676), a hundredth of the
+//   budget as particles, |v| limited to a fifth of the range. Ring and adaptive random (K = 3, redrawn after a
+//   generation that did not improve the best) are the other usual choices; topology 0 and vmax 1 are the sources'.
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -36,10 +37,10 @@ using support::Draws;
 using support::Point;
 
 constexpr Setting settings[] = {
-    {"population", 40.0, 2.0, 100000.0, "particles in the swarm"},
+    {"population", 0.0, 0.0, 100000.0, "particles in the swarm; 0: budget / 100, at least 10, at most 40"},
     {"phi", 4.1, 4.0, 100.0, "sum of the two acceleration coefficients"},
     {"k", 1.0, 0.01, 1.0, "scale of the constriction coefficient"},
-    {"vmax", 0.5, 1e-6, 100.0, "velocity limit as a fraction of the range"},
+    {"vmax", 0.2, 1e-6, 100.0, "velocity limit as a fraction of the range"},
     {"topology", 2.0, 0.0, 3.0, "0 whole swarm, 1 ring, 2 von Neumann, 3 adaptive random (K = 3)"},
     {"bounds", 0.0, 0.0, 1.0, "0 absorb: on the bound with velocity 0, 1 reflect"},
 };
@@ -48,7 +49,7 @@ class ParticleSwarm final : public support::SamplingSolver {
  public:
   explicit ParticleSwarm(const Problem& problem)
       : problem_(problem),
-        count_(support::whole_setting(problem, solver_pso, "population")),
+        count_(swarm_size(problem)),
         topology_(support::whole_setting(problem, solver_pso, "topology")),
         reflect_(support::whole_setting(problem, solver_pso, "bounds") == 1),
         phi_(setting(problem, solver_pso, "phi")),
@@ -96,6 +97,11 @@ class ParticleSwarm final : public support::SamplingSolver {
   }
 
  private:
+  static std::size_t swarm_size(const Problem& problem) {
+    const std::size_t count = support::whole_setting(problem, solver_pso, "population");
+    return count > 0 ? count : std::clamp<std::size_t>(problem.budget / 100, 10, 40);
+  }
+
   void move() {
     const std::size_t swarm_best = support::argmin(best_cost_);
     for (std::size_t i = 0; i < count_; ++i) {
@@ -145,9 +151,9 @@ const SolverEntry solver_pso = {
     "pso",
     "Particle swarm with constriction",
     "Clerc & Kennedy, IEEE Trans. Evol. Comput. 6(1):58-73, 2002, doi 10.1109/4235.985692",
-    "Constriction coefficient from phi and k (0.72984 for 4.1 and 1), velocity limited to half the range, informants "
-    "on a\n"
-    "von Neumann torus by default. Synchronous update of the bests; a coordinate that leaves the\n"
+    "Constriction coefficient from phi and k (0.72984 for 4.1 and 1), velocity limited to a fifth of the range, "
+    "informants\n"
+    "on a von Neumann torus by default. Synchronous update of the bests; a coordinate that leaves the\n"
     "box is put on the bound with velocity 0.",
     false,
     settings,

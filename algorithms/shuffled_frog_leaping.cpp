@@ -10,9 +10,10 @@
 //   10.1061/(ASCE)0733-9496(2003)129:3(210); M. Eusuff, K. Lansey, F. Pasha, Eng. Optim. 38(2):129-154, 2006, doi
 //   10.1080/03052150500384759.
 // Deviations and choices:
-// - One rand per leap, as in the source: the frogs then move on the lines between them only, and the method converges
-//   early. Later programs draw one rand per coordinate and stretch the leap (`componentwise` 1, `stretch` 2). Smax is a
-//   fraction of the range (setting `leap`, default 1: no limit in effect).
+// - One rand per coordinate and leaps up to twice as long (`componentwise` 1, `stretch` 2), as later programs have.
+//   With one rand per leap, as in the source (`componentwise` 0, `stretch` 1), frogs move on the lines between them
+//   only; the memeplexes collapse into few such lines, and the method ends above random search (results/defaults.md).
+//   Smax is a fraction of the range (setting `leap`, default 1: no limit in effect).
 // - A leap out of the box counts as not better (as in the source) and costs no evaluation.
 // - The memeplexes leap in step with each other, so that one request holds one frog of each. They share nothing between
 //   shuffles except the best of all, which is that of the last shuffle.
@@ -41,8 +42,8 @@ constexpr Setting settings[] = {
     {"frogs", 8.0, 2.0, 1000.0, "frogs in a memeplex (n)"},
     {"subset", 5.0, 2.0, 1000.0, "frogs drawn for one leap (q), at most n"},
     {"steps", 8.0, 1.0, 10000.0, "leaps in a memeplex between two shuffles"},
-    {"stretch", 1.0, 0.1, 4.0, "factor of the leap; 1 as in the source"},
-    {"componentwise", 0.0, 0.0, 1.0, "0 one random number per leap as in the source, 1 one per coordinate"},
+    {"stretch", 2.0, 0.1, 4.0, "factor of the leap; 1 as in the source"},
+    {"componentwise", 1.0, 0.0, 1.0, "0 one random number per leap as in the source, 1 one per coordinate"},
     {"leap", 1.0, 1e-9, 1.0, "largest leap of a coordinate as a fraction of the range"},
 };
 

@@ -16,6 +16,7 @@ struct ChargedSettings {
   double radius = 0.1;  // a, in terms of the dimensionless separation
   double separation_eps = 1e-8;
   double attract = 1.0;       // share of attracting forces
+  bool worse_attract = true;  // some of the worse attract the better
   double memory_rate = 0.95;  // CMCR
   double pitch_rate = 0.1;    // PAR
   double bandwidth = 0.001;   // of the range
@@ -98,10 +99,17 @@ class ChargedSystem {
     return span > 0.0 ? std::clamp((worst_cost_ - cost) / span, 0.0, 1.0) : 1.0;
   }
 
+  // Whether a particle of cost `source` acts on one of cost `target`.
+  bool acts(double source, double target, Draws& draws) const {
+    if (source < target) return true;
+    if (!options_.worse_attract || !(source > target) || source >= diverged_cost) return false;
+    return target - best_cost() > draws.uniform() * (source - target);
+  }
+
   Point force_per_charge(std::size_t j, Draws& draws) const {
     Point force(position_[j].size(), 0.0);
     for (std::size_t i = 0; i < position_.size(); ++i) {
-      if (!(cost_[i] < cost_[j])) continue;
+      if (!acts(cost_[i], cost_[j], draws)) continue;
       double middle_square = 0.0;
       for (std::size_t d = 0; d < force.size(); ++d) {
         const double offset = 0.5 * (position_[i][d] + position_[j][d]) - memory_.front()[d];

@@ -20,7 +20,9 @@ namespace hysteron {
 
 class Descent {
  public:
-  // Ends when the squared cost has fallen by less than `tolerance` of itself in two steps running. One that anticipates
+  // Ends when the squared cost has fallen by less than `tolerance` of itself in two steps running. With a tolerance
+  // below `polishing` steps are taken on even where they no longer show in the cost, which double precision leaves half
+  // of the digits of the parameters, until they are shorter than a hundredth of the tolerance. One that anticipates
   // ends as soon as a step that the quadratic model foretold leaves it so little to gain, and counts that as gained.
   Descent(Eigen::VectorXd start, const std::vector<bool>& linear, double tolerance = 1e-7, bool anticipates = false)
       : next_(std::move(start)), tolerance_(tolerance), anticipates_(anticipates) {
@@ -67,10 +69,11 @@ class Descent {
       cost_ = cost;
       return;
     }
-    if (first || settle_ || squares < best_squares_) {
+    if (first || settle_ || squares < best_squares_ || too_small_to_show(squares)) {
       const double gained = first || settle_ ? 0.0 : best_squares_ - squares;
       const bool was_step = !(first || settle_);
-      const double rho = predicted_ > 0.0 ? gained / predicted_ : 1.0;
+      const bool hidden = was_step && too_small_to_show(squares);
+      const double rho = predicted_ > 0.0 && !hidden ? gained / predicted_ : 1.0;
       at_ = point;
       gradient_ = gradient;
       matrix_ = matrix;
@@ -82,8 +85,10 @@ class Descent {
         radius_ = std::min(1e12, radius_ / std::max(1.0 / 3.0, 1.0 - std::pow(2.0 * std::min(rho, 2.0) - 1.0, 3.0)));
         shrink_ = 2.0;
         quiet_ = gained < tolerance_ * before ? quiet_ + 1 : 0;
-        if (quiet_ >= 2) {
-          reason_ = "relative decrease of the squared cost < " + support::number_text(tolerance_) + " twice";
+        const int enough = tolerance_ < polishing ? polishing_steps : 2;
+        if (quiet_ >= enough) {
+          reason_ = "relative decrease of the squared cost < " + support::number_text(tolerance_) +
+                    (enough == 2 ? " twice" : " in " + std::to_string(enough) + " steps");
           return;
         }
       }
@@ -105,6 +110,15 @@ class Descent {
   // model to be trusted.
   static constexpr double foretold = 0.5;
   static constexpr double undamped = 10.0;
+  static constexpr double polishing = 1e-10;
+  static constexpr double rounding = 1e-13;  // of a squared cost
+  static constexpr int polishing_steps = 20;
+
+  // Both what the step should bring and what it brought are below the rounding of the cost.
+  [[nodiscard]] bool too_small_to_show(double squares) const {
+    return tolerance_ < polishing && predicted_ < rounding * best_squares_ &&
+           squares <= best_squares_ * (1.0 + rounding);
+  }
 
   void reject() {
     if (settle_) {
@@ -207,8 +221,9 @@ class Descent {
       }
       const Eigen::VectorXd s = bounded_step(damped, gradient_, at_);
       predicted_ = -(2.0 * gradient_.dot(s) + s.dot(matrix_ * s));
-      if (s.lpNorm<Eigen::Infinity>() < 1e-9) {
-        reason_ = "step < 1e-9 of the box";
+      const double shortest = std::min(1e-9, 0.01 * tolerance_);
+      if (s.lpNorm<Eigen::Infinity>() < shortest) {
+        reason_ = "step < " + support::number_text(shortest) + " of the box";
         return;
       }
       if (predicted_ > 0.0) {

@@ -1,11 +1,13 @@
-// CMA-ES and differential evolution on the ellipsoid: published orders of evaluations.
+// Convergence of every family of solvers, at known rates where there are some, at a budget elsewhere.
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <map>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -37,19 +39,107 @@ std::size_t median_evaluations(std::string_view id, const testing::Objective& ob
   return evaluations[seeds / 2];
 }
 
-// The windows are centred on the medians measured when the solvers were written (4308; 4639; 21540; 18991) and are of
+// The windows are centred on the medians measured when the solvers were written (4308 without and 2903 with negative
+// weights; 21540; 18991) and are of
 // the order published for these functions: a few hundred evaluations per variable for CMA-ES, well inside the 10000
 // per variable of the CEC competitions for differential evolution. They are narrow enough to notice a missing rank-one
 // or rank-mu update, an archive that is not used, or an arithmetic in place of the Lehmer mean.
 TEST(Convergence, CmaEsOnTheEllipsoid) {
-  const std::size_t evaluations = median_evaluations("cma-es", testing::ellipsoid, 8, 10000);
-  EXPECT_GT(evaluations, 3300U);
-  EXPECT_LT(evaluations, 5000U);
+  const std::size_t positive = median_evaluations("cma-es", testing::ellipsoid, 8, 10000, {{"active", 0.0}});
+  EXPECT_GT(positive, 3300U);
+  EXPECT_LT(positive, 5000U);
+  // The active update learns the long axes from the worse half too: published gains are a third on such functions.
+  const std::size_t active = median_evaluations("cma-es", testing::ellipsoid, 8, 10000);
+  EXPECT_GT(active, 2300U);
+  EXPECT_LT(active, 3600U);
+  EXPECT_LT(static_cast<double>(active), 0.8 * static_cast<double>(positive));
 }
 
 TEST(Convergence, CmaEsOnRosenbrock) {
   EXPECT_LT(median_evaluations("cma-es", testing::rosenbrock, 8, 30000), 5200U);
-  EXPECT_LT(median_evaluations("cma-es", testing::rosenbrock, 8, 60000, {{"bipop", 1.0}}), 5200U);
+  EXPECT_LT(median_evaluations("cma-es", testing::rosenbrock, 8, 60000, {{"bipop", 0.0}}), 5200U);
+}
+
+// Median over the seeds of the sum of squares after a budget.
+double median_squares(std::string_view id, const testing::Objective& objective, std::size_t dimension,
+                      std::size_t budget, const std::map<std::string, double>& settings = {}) {
+  std::vector<double> squares;
+  for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+    Problem problem;
+    problem.dimension = dimension;
+    problem.budget = budget;
+    problem.stream = Stream(seed).child("convergence");
+    problem.linear.assign(dimension, false);
+    problem.settings = settings;
+    const double cost = testing::drive(*find_solver(id), problem, objective).best;
+    squares.push_back(cost * cost);
+  }
+  std::sort(squares.begin(), squares.end());
+  return squares[seeds / 2];
+}
+
+// Of N uniform points in a square of side 10 the nearest to an inner point is farther than r with probability
+// (1 - pi r^2 / 100)^N: the median of r^2 is 100 (1 - 2^(-1/N)) / pi. The median of 21 such values scatters by 30 %.
+TEST(Convergence, RandomSearchIsAsFarAsChanceSays) {
+  for (const std::size_t budget : {100U, 1000U, 10000U}) {
+    const double expected = 100.0 / std::numbers::pi * (1.0 - std::exp2(-1.0 / static_cast<double>(budget)));
+    const double ratio = median_squares("random-search", testing::sphere, 2, budget) / expected;
+    EXPECT_GT(ratio, 0.4) << budget;
+    EXPECT_LT(ratio, 2.5) << budget;
+  }
+}
+
+// A population method that contracts at all gains on the sphere a factor in a fixed number of evaluations: the
+// logarithm of the cost falls linearly with the budget. Two budgets far apart; the gain is the least factor between
+// them.
+struct Contraction {
+  const char* id;
+  double gain;  // in the sum of squares from 1000 to 4000 evaluations
+};
+
+TEST(Convergence, PopulationMethodsContractOnTheSphere) {
+  // css, grasshopper and crow-search follow schedules over the whole budget or hardly contract: a power of the budget
+  // at best. The swarm of pso grows with the budget, 10 particles here and 40 there, which takes up most of the gain.
+  // Pattern search and Nelder-Mead have arrived long before the smaller budget and are held to that.
+  for (const Contraction& expected : {Contraction{"pso", 2.0},
+                                      {"spso-2011", 1e4},
+                                      {"ga", 1e2},
+                                      {"de", 1e6},
+                                      {"cma-es", 1e6},
+                                      {"aco-r", 1e6},
+                                      {"shuffled-frog-leaping", 1e6},
+                                      {"adaptive-css", 1e2},
+                                      {"css", 2.0},
+                                      {"crow-search", 1e2},
+                                      {"grasshopper", 2.0},
+                                      {"pattern-search", 0.0},
+                                      {"ga-pattern-search", 1e3},
+                                      {"nelder-mead", 0.0}}) {
+    const double early = median_squares(expected.id, testing::sphere, 4, 1000);
+    const double late = median_squares(expected.id, testing::sphere, 4, 4000);
+    EXPECT_GE(early / std::max(late, 1e-30), expected.gain) << expected.id << ": " << early << ", " << late;
+    if (expected.gain == 0.0) {
+      EXPECT_LT(early, 1e-12) << expected.id;
+    }
+    EXPECT_LT(early, median_squares("random-search", testing::sphere, 4, 1000)) << expected.id;
+  }
+}
+
+// On a sum of squares linear in the coordinates one Gauss-Newton step from the start is the end: a few points.
+TEST(Convergence, LevenbergMarquardtNeedsAFewPointsOnTheEllipsoid) {
+  for (const char* id : {"lm", "multistart-lm", "pso-lm", "shrinking-box-lm"}) {
+    EXPECT_LT(median_squares(id, testing::ellipsoid, 6, 2000), 1e-10) << id;
+  }
+  EXPECT_LT(median_evaluations("lm", testing::ellipsoid, 6, 2000), 12U * 7U);
+}
+
+// Frogs that leap along one line each collapse before they have converged (the source's form), with one random number a
+// coordinate they do not.
+TEST(Convergence, FrogsNeedARandomNumberACoordinate) {
+  const double shipped = median_squares("shuffled-frog-leaping", testing::sphere, 4, 4000);
+  const double source =
+      median_squares("shuffled-frog-leaping", testing::sphere, 4, 4000, {{"componentwise", 0.0}, {"stretch", 1.0}});
+  EXPECT_LT(shipped, 1e-6 * source);
 }
 
 TEST(Convergence, LShadeOnTheEllipsoid) {

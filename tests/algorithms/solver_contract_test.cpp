@@ -239,16 +239,20 @@ struct Target {
   double value;
 };
 
-// The weaker targets are those of methods that are slow by their nature: one random number per leap (frogs), a schedule
-// instead of adaptation (grasshoppers), coordinate directions in a curved valley (pattern search, genetic algorithm).
+// The weaker targets are those of methods that are slow by their nature: chance alone (random search), a schedule
+// instead of adaptation (grasshoppers, charged systems), coordinate directions in a curved valley (pattern search,
+// genetic algorithm).
 Target sphere_target(std::string_view id) {
-  if (id == "shuffled-frog-leaping") return {5000, 1e-1};
+  if (id == "random-search") return {5000, 1.0};
+  if (id == "css") return {5000, 1e-3};
+  if (id == "adaptive-css") return {5000, 1e-5};
   if (id == "grasshopper" || id == "crow-search") return {5000, 1e-5};
   return {5000, 1e-8};
 }
 
 Target rosenbrock_target(std::string_view id) {
-  if (id == "ga" || id == "ga-pattern-search" || id == "shuffled-frog-leaping") return {10000, 5e-2};
+  if (id == "ga" || id == "ga-pattern-search" || id == "random-search") return {10000, 5e-2};
+  if (id == "css") return {10000, 1e-4};
   if (id == "pattern-search" || id == "grasshopper") return {10000, 5e-3};
   return {10000, 1e-6};
 }
