@@ -174,16 +174,16 @@ Plan make_plan(const Study& study, const std::string& version) {
           json settings = json::object();
           for (const Setting& row : entry->settings) settings[std::string(row.name)] = row.value;
           for (const auto& [name, value] : study.solvers[s].settings) settings[name] = value;
+          json config = {{"problem", plan.problems[p].hash},
+                         {"solver", study.solvers[s].id},
+                         {"settings", settings},
+                         {"budget", budget},
+                         {"seed", seed},
+                         {"start", study.start == StartPoint::card ? "card" : "random"},
+                         {"version", version}};
+          if (study.solvers[s].project) config["project"] = true;
           PlannedRun run;
-          run.config = json{
-              {"problem", plan.problems[p].hash},
-              {"solver", study.solvers[s].id},
-              {"settings", settings},
-              {"budget", budget},
-              {"seed", seed},
-              {"start", study.start == StartPoint::card ? "card" : "random"},
-              {"version",
-               version}}.dump();
+          run.config = config.dump();
           run.key = sha256_hex(run.config);
           run.problem = p;
           run.solver = s;
@@ -227,6 +227,7 @@ json plan_json(const Plan& plan) {
   json solvers = json::array();
   for (const SolverSpec& solver : plan.study.solvers) {
     solvers.push_back({{"label", solver.label}, {"id", solver.id}, {"settings", solver.settings}});
+    if (solver.project) solvers.back()["project"] = true;
   }
   json runs = json::array();
   for (const PlannedRun& run : plan.runs) {

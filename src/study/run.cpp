@@ -13,6 +13,7 @@
 #include "core/error.hpp"
 #include "fit/driver.hpp"
 #include "fit/parallel.hpp"
+#include "fit/projection.hpp"
 
 namespace hysteron {
 namespace {
@@ -94,7 +95,8 @@ std::optional<RunRecord> do_run(const Plan& plan, const PlannedRun& run, const O
   if (entry == nullptr) throw InputError("unknown solver '" + plan.study.solvers[run.solver].id + "'");
   Problem solved = solver_problem(problem, run, plan.study);
   objectives.search.describe_data(solved);
-  const RunResult result = run_solver(
+  const auto run_it = plan.study.solvers[run.solver].project ? run_projected : run_solver;
+  const RunResult result = run_it(
       *entry, solved, [&](const Request& request) { return objectives.search.evaluate(request); },
       [&](const RunResult&) { return !stop || !stop(); });
   if (result.stopped == "interrupted") return {};

@@ -40,6 +40,7 @@ struct SolverSpec {
   std::string id;
   std::map<std::string, double> settings;
   int line = 0;
+  bool project = false;  // without the affine coordinates (fit/projection.hpp)
 };
 
 enum class StartPoint {

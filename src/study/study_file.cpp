@@ -8,6 +8,7 @@
 #include "core/error.hpp"
 #include "core/suggest.hpp"
 #include "datasets/dataset.hpp"
+#include "fit/projection.hpp"
 #include "fit/solver.hpp"
 #include "io/campaign_file.hpp"
 #include "io/file.hpp"
@@ -337,11 +338,16 @@ class Parser : private TomlReader {
       } else {
         const auto* table = node.as_table();
         if (table == nullptr) fail(node, "a solver is a name or a table, expected for example \"pso\"");
-        check_keys(*table, {"id", "label", "settings"}, " of a solver");
+        check_keys(*table, {"id", "label", "settings", "project"}, " of a solver");
         const auto* id = table->get("id");
         if (id == nullptr) fail(node, "a solver without 'id', expected for example id = \"pso\"");
         spec.id = word_of(*id, "id");
         spec.label = spec.id;
+        if (const auto* value = table->get("project")) {
+          if (!value->is_boolean()) fail(*value, "'project' is not true or false");
+          spec.project = value->as_boolean()->get();
+          if (spec.project) spec.label += " (projected)";
+        }
         if (const auto* label = table->get("label")) spec.label = word_of(*label, "label");
         if (const auto* value = table->get("settings")) {
           settings = value->as_table();
@@ -352,6 +358,9 @@ class Parser : private TomlReader {
       if (entry == nullptr) {
         fail(node, "unknown solver " + in_quotes(spec.id) + suggestion(spec.id, ids_of(solver_catalogue())) +
                        ", see `hysteron list solvers`");
+      }
+      if (spec.project) {
+        if (const std::string why = projection_refusal(*entry); !why.empty()) fail(node, "'project': " + why);
       }
       if (settings != nullptr) {
         for (const auto& [key, value] : *settings) {
