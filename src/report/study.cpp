@@ -60,14 +60,19 @@ StudyTable ranking_table(const json& analysis, const Names& names) {
     table.note = "No seed has been finished by every solver yet.";
     return table;
   }
+  const bool one_problem = ranking.at("block") == "seed";
   table.note = fmt::format(
-      "Mean rank over {} pairs of (problem, seed) on {} problems, at {} evaluations; costs within {} of each other "
-      "tie. Friedman's test: chi-squared {} with {} degrees of freedom, p {}. Solvers whose mean ranks differ by less "
-      "than the critical difference {} (Nemenyi, 5 %) tie: the place is one more than the number of solvers that are "
-      "better. The test speaks of these problems, not of others.",
-      whole(ranking.at("blocks")), whole(ranking.at("problems")), analysis.at("budgets").back().get<std::size_t>(),
-      percent(analysis.at("tie").get<double>()), shown(ranking.at("chi_squared"), 3), whole(ranking.at("degrees")),
-      p_value(ranking.at("p")), shown(ranking.at("critical_difference"), 3));
+      "Mean rank over {}, at {} evaluations; costs within {} of each other tie. Friedman's test: chi-squared {} with "
+      "{} "
+      "degrees of freedom, p {}. Solvers whose mean ranks differ by less than the critical difference {} (Nemenyi, 5 "
+      "%) "
+      "tie: the place is one more than the number of solvers that are better.{}",
+      one_problem ? fmt::format("{} seeds of one problem", whole(ranking.at("blocks")))
+                  : fmt::format("{} problems, each with the medians over its seeds", whole(ranking.at("blocks"))),
+      analysis.at("budgets").back().get<std::size_t>(), percent(analysis.at("tie").get<double>()),
+      shown(ranking.at("chi_squared"), 3), whole(ranking.at("degrees")), p_value(ranking.at("p")),
+      shown(ranking.at("critical_difference"), 3),
+      one_problem ? " It speaks of this problem, not of others." : " Share best: of the pairs of (problem, seed).");
   for (const json& row : ranking.at("rows")) {
     table.rows.push_back({whole(row.at("place")), names.solver(row.at("solver")),
                           fmt::format("{:.2f}", row.at("mean_rank").get<double>()),
@@ -140,13 +145,27 @@ StudyTable fixed_target_table(const json& analysis, const Names& names) {
 
 StudyTable pair_table(const json& analysis, const Names& names, const std::string& member) {
   const bool by_problem = member == "problem_pairs";
+  const bool one_problem = analysis.at("ranking").at("block") == "seed";
   StudyTable table{
       by_problem ? "pairs-by-problem" : "pairs",
-      by_problem ? "Paired tests by problem" : "Paired tests over all problems",
-      "Wilcoxon's signed-rank test of log(NRMSE a / NRMSE b) over pairs with the same seed, two-sided; ties are "
-      "dropped and counted; p after Holm's correction over this table. A median ratio below 1: a is better.",
-      {"a", "b", "pairs", "ties", "a better", "median ratio a/b", "p", "p Holm", "verdict"},
+      by_problem ? "Paired tests by problem" : "Differences over all problems",
+      by_problem || one_problem
+          ? "Wilcoxon's signed-rank test of log(NRMSE a / NRMSE b) over pairs with the same seed, two-sided; ties are "
+            "dropped and counted; p after Holm's correction over this table. A median ratio below 1: a is better."
+          : "Wilcoxon's signed-rank test of log(NRMSE a / NRMSE b), a problem's medians over its seeds a pair, "
+            "two-sided; "
+            "ties are dropped and counted; p after Holm's correction over this table. A ratio below 1: a is better.",
+      {"a", "b", by_problem || one_problem ? "pairs" : "problems", "ties", "a better", "median ratio a/b", "p",
+       "p Holm", "verdict"},
       {}};
+  if (!by_problem) {
+    const std::string region = percent(analysis.at("equivalence").get<double>());
+    table.note +=
+        " Mean ratio: geometric, with the 95 % interval of a bootstrap over problems and seeds within them. In "
+        "practice: better by more than " +
+        region + " where the whole interval says so, equal where it lies within " + region + ", else undecided.";
+    table.header.insert(table.header.end(), {"mean ratio a/b", "95 % interval", "in practice"});
+  }
   if (by_problem) {
     table.header.insert(table.header.begin(), "problem");
     table.note += " With more than four solvers each is tested against the one with the lowest median only.";
@@ -156,6 +175,14 @@ StudyTable pair_table(const json& analysis, const Names& names, const std::strin
                                    whole(row.at("ties")),     whole(row.at("a_better")), shown(row.at("median_ratio")),
                                    p_value(row.at("p")),      p_value(row.at("p_holm")), verdict_of(row, names)};
     if (by_problem) cells.insert(cells.begin(), names.problem(row.at("problem")));
+    if (!by_problem && !row.contains("practical")) {
+      cells.insert(cells.end(), {"-", "-", "-"});
+    } else if (!by_problem) {
+      const std::string practical = row.at("practical");
+      cells.insert(cells.end(),
+                   {shown(row.at("mean_ratio")), shown(row.at("ratio_low")) + " to " + shown(row.at("ratio_high")),
+                    practical == "a" || practical == "b" ? names.solver(row.at(practical)) + " better" : practical});
+    }
     table.rows.push_back(std::move(cells));
   }
   return table;
@@ -310,8 +337,9 @@ std::string study_verdict(const json& analysis) {
     ++count;
   }
   return first + (count > 1 ? " share the first place" : " leads alone") +
-         fmt::format(" at {} evaluations, over {} problems.", analysis.at("budgets").back().get<std::size_t>(),
-                     whole(ranking.at("problems")));
+         fmt::format(" at {} evaluations, over {}.", analysis.at("budgets").back().get<std::size_t>(),
+                     ranking.at("block") == "seed" ? whole(ranking.at("blocks")) + " seeds of one problem"
+                                                   : whole(ranking.at("problems")) + " problems");
 }
 
 std::string study_terminal(const json& analysis, const json& times) {

@@ -10,6 +10,7 @@
 #include "study/quantile.hpp"
 #include "study/ranks.hpp"
 #include "study/runtime.hpp"
+#include "study/study.hpp"
 
 namespace hysteron {
 namespace {
@@ -24,6 +25,7 @@ constexpr double ecdf_farthest = 10.0;
 constexpr std::size_t curve_points = 80;
 constexpr double failure_ratio = 1e3;  // stands for the cost ratio to a run that found no finite candidate
 constexpr std::size_t all_pairs_up_to = 4;
+constexpr std::size_t difference_resamples = 1000;
 
 json number(double value) { return std::isfinite(value) ? json(value) : json(nullptr); }
 
@@ -86,6 +88,7 @@ class Analysis {
     budgets_ = plan.at("budgets").get<std::vector<std::size_t>>();
     seeds_ = plan.at("seeds").get<std::vector<std::uint64_t>>();
     tie_ = plan.at("tie").get<double>();
+    equivalence_ = plan.value("equivalence", Study{}.equivalence);
     std::map<std::uint64_t, std::size_t> seed_index;
     for (std::size_t k = 0; k < seeds_.size(); ++k) seed_index[seeds_[k]] = k;
     cells_.resize(problems_ * budgets_.size() * solvers_);
@@ -113,6 +116,7 @@ class Analysis {
   json run() {
     json result;
     result["schema"] = "hysteron.study-analysis/1";
+    result["equivalence"] = equivalence_;
     for (const char* name : {"title", "normalisation", "weighting", "tolerance", "start", "targets", "target_nrmse",
                              "tie", "budgets", "seeds", "solvers"}) {
       result[name] = plan_.at(name);
@@ -261,19 +265,49 @@ class Analysis {
     return result;
   }
 
+  // Blocks of a test over the whole study: the problems, each with the median cost of every solver; with one problem
+  // its seeds. Seeds of a problem repeat that problem, and a test that counts them as blocks would take a difference on
+  // few problems for one on problems in general.
+  struct Blocks {
+    std::vector<std::vector<std::vector<double>>> by_problem;  // problem, seed, solver
+    std::vector<std::vector<double>> rows;
+  };
+  [[nodiscard]] Blocks study_blocks() const {
+    Blocks result;
+    for (std::size_t p = 0; p < problems_; ++p) {
+      if (auto rows = blocks(p, last()); !rows.empty()) result.by_problem.push_back(std::move(rows));
+    }
+    if (result.by_problem.size() == 1) {
+      result.rows = result.by_problem.front();
+      return result;
+    }
+    for (const auto& seeds : result.by_problem) {
+      std::vector<double> row;
+      for (std::size_t s = 0; s < solvers_; ++s) {
+        std::vector<double> own;
+        for (const auto& costs : seeds) own.push_back(costs[s]);
+        row.push_back(quantile(own, 0.5));
+      }
+      result.rows.push_back(std::move(row));
+    }
+    return result;
+  }
+
   [[nodiscard]] json ranking() const {
+    const Blocks of = study_blocks();
     std::vector<std::vector<double>> all;
     std::vector<std::vector<double>> by_problem;
-    for (std::size_t p = 0; p < problems_; ++p) {
-      const auto rows = blocks(p, last());
-      if (rows.empty()) continue;
-      all.insert(all.end(), rows.begin(), rows.end());
-      by_problem.push_back(friedman_test(rows, tie_).mean_ranks);
+    for (const auto& seeds : of.by_problem) {
+      all.insert(all.end(), seeds.begin(), seeds.end());
+      by_problem.push_back(friedman_test(seeds, tie_).mean_ranks);
     }
-    json result = {
-        {"blocks", all.size()}, {"problems", by_problem.size()}, {"rows", json::array()}, {"cliques", json::array()}};
+    json result = {{"blocks", of.rows.size()},
+                   {"block", by_problem.size() == 1 ? "seed" : "problem"},
+                   {"problems", by_problem.size()},
+                   {"rows", json::array()},
+                   {"cliques", json::array()}};
     if (all.empty()) return result;
-    const Friedman test = friedman_test(all, tie_);
+    const Friedman test = friedman_test(of.rows, tie_);
     const bool different = solvers_ > 1 && test.p < significance;
     result["chi_squared"] = test.chi_squared;
     result["degrees"] = solvers_ - 1;
@@ -360,15 +394,59 @@ class Analysis {
     return result;
   }
 
-  [[nodiscard]] json pairs() const {
-    std::vector<std::vector<double>> all;
-    for (std::size_t p = 0; p < problems_; ++p) {
-      const auto rows = blocks(p, last());
-      all.insert(all.end(), rows.begin(), rows.end());
+  // Mean over the problems of the mean log cost ratio over their seeds, with the 95 % percentile interval of a
+  // bootstrap that draws problems, then seeds within them, and the shares of resamples below, within and above the
+  // region of practical equivalence. With one problem only its seeds are drawn.
+  [[nodiscard]] json difference(const Blocks& of, std::size_t a, std::size_t b) const {
+    std::vector<std::vector<double>> values;
+    double mean = 0.0;
+    for (const auto& seeds : of.by_problem) {
+      values.push_back(ratios(seeds, a, b));
+      mean +=
+          std::accumulate(values.back().begin(), values.back().end(), 0.0) / static_cast<double>(values.back().size());
     }
+    const std::size_t problems = values.size();
+    const Stream stream = Stream(0).child("cost ratio").child(solver_name(a)).child(solver_name(b));
+    std::vector<double> means;
+    std::size_t below = 0;
+    std::size_t above = 0;
+    const double region = std::log1p(equivalence_);
+    for (std::size_t draw = 0; draw < difference_resamples; ++draw) {
+      std::uint32_t next = 0;
+      double sum = 0.0;
+      for (std::size_t k = 0; k < problems; ++k) {
+        const auto& seeds = values[problems > 1 ? stream.below(problems, draw, next++) : 0];
+        double own = 0.0;
+        for (std::size_t n = 0; n < seeds.size(); ++n) own += seeds[stream.below(seeds.size(), draw, next++)];
+        sum += own / static_cast<double>(seeds.size());
+      }
+      means.push_back(sum / static_cast<double>(problems));
+      below += means.back() < -region ? 1 : 0;
+      above += means.back() > region ? 1 : 0;
+    }
+    const double low = quantile(means, 0.025);
+    const double high = quantile(means, 0.975);
+    constexpr auto all = static_cast<double>(difference_resamples);
+    return {{"mean_ratio", std::exp(mean / static_cast<double>(problems))},
+            {"ratio_low", std::exp(low)},
+            {"ratio_high", std::exp(high)},
+            {"share_a_better", static_cast<double>(below) / all},
+            {"share_equal", (all - static_cast<double>(below + above)) / all},
+            {"share_b_better", static_cast<double>(above) / all},
+            {"practical", high < -region                     ? "a"
+                          : low > region                     ? "b"
+                          : low >= -region && high <= region ? "equal"
+                                                             : "undecided"}};
+  }
+
+  [[nodiscard]] json pairs() const {
+    const Blocks of = study_blocks();
     json result = json::array();
     for (std::size_t a = 0; a < solvers_; ++a) {
-      for (std::size_t b = a + 1; b < solvers_; ++b) result.push_back(pair_row(a, b, ratios(all, a, b)));
+      for (std::size_t b = a + 1; b < solvers_; ++b) {
+        result.push_back(pair_row(a, b, ratios(of.rows, a, b)));
+        if (!of.rows.empty()) result.back().update(difference(of, a, b));
+      }
     }
     correct(result);
     return result;
@@ -606,8 +684,10 @@ class Analysis {
     const std::size_t tests = result.at("pairs").size();
     if (tests > 0 && blocks > 0 && blocks < 60 &&
         static_cast<double>(tests) * std::exp2(1.0 - static_cast<double>(blocks)) > significance) {
-      list.push_back("with " + std::to_string(blocks) + " pairs of runs no difference between two solvers can reach " +
-                     "significance after Holm's correction: run more seeds");
+      const std::string block = result.at("ranking").at("block");
+      list.push_back("with " + std::to_string(blocks) + " " + block + (blocks == 1 ? "" : "s") +
+                     " no difference between two solvers can reach significance after Holm's correction: add " + block +
+                     "s");
     }
     for (std::size_t p = 0; p < problems_; ++p) {
       std::vector<double> medians;
@@ -648,6 +728,7 @@ class Analysis {
   std::vector<std::size_t> budgets_;
   std::vector<std::uint64_t> seeds_;
   double tie_ = 0.0;
+  double equivalence_ = 0.0;
   std::vector<Cell> cells_;
   std::vector<const RunRecord*> best_;
   std::vector<std::size_t> best_solver_;

@@ -246,6 +246,7 @@ json plan_json(const Plan& plan) {
           {"targets", plan.study.targets},
           {"target_nrmse", plan.study.target_nrmse},
           {"tie", plan.study.tie},
+          {"equivalence", plan.study.equivalence},
           {"budgets", plan.study.budgets},
           {"seeds", plan.study.seeds},
           {"solvers", solvers},

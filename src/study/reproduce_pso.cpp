@@ -209,7 +209,7 @@ Reproduction pso_table_v_result(const Plan& plan, const std::vector<RunRecord>& 
     const json& pair = analysis.at("pairs").front();
     const std::string verdict = pair.at("verdict");
     result.findings.push_back(
-        fmt::format("Over all {} pairs of (condition, seed) the median ratio PSO / GA is {} (Wilcoxon p = {}): {}",
+        fmt::format("Over {} conditions, each with its medians, the median ratio PSO / GA is {} (Wilcoxon p = {}): {}",
                     pair.at("pairs").get<std::size_t>(), format_number(pair.at("median_ratio").get<double>(), 3),
                     p_text(pair.at("p").get<double>()),
                     verdict == "a"   ? "PSO is ahead, as the paper claims."

@@ -59,6 +59,7 @@ struct Study {
   std::vector<double> targets{1.01, 1.1, 1.5};  // times the best cost known for the problem
   std::vector<double> target_nrmse;             // absolute
   double tie = 1e-3;                            // costs within this share count as equal
+  double equivalence = 0.05;                    // mean costs within this share are equal for practical purposes
   StartPoint start = StartPoint::random;
   ObjectiveOptions objective;
 };

@@ -40,7 +40,7 @@ class Parser : private TomlReader {
     const toml::table root = parse(text, schema);
     check_keys(root,
                {"schema", "title", "models", "model", "data", "solvers", "solver", "budgets", "seeds", "targets",
-                "target_nrmse", "tie", "start", "normalisation", "weighting", "tolerance"},
+                "target_nrmse", "tie", "equivalence", "start", "normalisation", "weighting", "tolerance"},
                "");
     Study study;
     study.file = file();
@@ -54,6 +54,7 @@ class Parser : private TomlReader {
     if (const auto* node = root.get("targets")) study.targets = numbers_of(*node, "targets", 1.0, 1e6);
     if (const auto* node = root.get("target_nrmse")) study.target_nrmse = numbers_of(*node, "target_nrmse", 1e-12, 1e6);
     if (const auto* node = root.get("tie")) study.tie = number_of(*node, "tie", 0.0, 0.5);
+    if (const auto* node = root.get("equivalence")) study.equivalence = number_of(*node, "equivalence", 0.0, 0.5);
     if (const auto* node = root.get("tolerance"))
       study.objective.tolerance = number_of(*node, "tolerance", 1e-10, 1e-2);
     if (const auto* node = root.get("start")) {

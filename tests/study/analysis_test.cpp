@@ -116,6 +116,76 @@ TEST(Analysis, PairsAreTestedAndCorrected) {
   EXPECT_NEAR(pairs[1].at("median_ratio").get<double>(), 0.5, 1e-12);
 }
 
+// The study of make() again on further problems, with costs of solver 1 multiplied by a factor a problem.
+Made on_problems(const std::vector<double>& factors) {
+  Made made = make();
+  const std::size_t first = made.records.size();
+  for (std::size_t p = 0; p < factors.size(); ++p) {
+    if (p > 0) {
+      json other = made.plan["problems"][0];
+      other["label"] = "m @ d" + std::to_string(p);
+      made.plan["problems"].push_back(other);
+    }
+    for (std::size_t k = 0; k < first; ++k) {
+      const double factor = made.plan["runs"][k].at("solver") == 1 ? factors[p] : 1.0;
+      if (p == 0) {
+        made.records[k].nrmse = *made.records[k].nrmse * factor;
+        continue;
+      }
+      RunRecord record = made.records[k];
+      record.key += "-" + std::to_string(p);
+      record.nrmse = *record.nrmse * (made.plan["runs"][k].at("solver") == 1 ? factors[p] / factors[0] : 1.0);
+      json run = made.plan["runs"][k];
+      run["key"] = record.key;
+      run["problem"] = p;
+      made.plan["runs"].push_back(run);
+      made.records.push_back(record);
+    }
+  }
+  return made;
+}
+
+// Ten seeds on each of two problems are two blocks, not twenty: nothing can be shown with them.
+TEST(Analysis, ProblemsAreTheBlocks) {
+  const Made made = on_problems({1.5, 1.5});
+  const json analysis = analyse(made.plan, made.records);
+  EXPECT_EQ(analysis.at("ranking").at("blocks"), 2);
+  EXPECT_EQ(analysis.at("ranking").at("block"), "problem");
+  EXPECT_EQ(analysis.at("ranking").at("different"), false);
+  for (const json& row : analysis.at("ranking").at("rows")) EXPECT_EQ(row.at("place"), 1);
+  EXPECT_EQ(study_verdict(analysis).find("No difference"), 0U);
+  for (const json& pair : analysis.at("pairs")) EXPECT_EQ(pair.at("verdict"), "tie");
+  EXPECT_NE(analysis.at("warnings").dump().find("add problems"), std::string::npos);
+}
+
+TEST(Analysis, ManyProblemsTellSolversApart) {
+  const Made made = on_problems(std::vector<double>(12, 1.5));
+  const json analysis = analyse(made.plan, made.records);
+  EXPECT_EQ(analysis.at("ranking").at("blocks"), 12);
+  EXPECT_EQ(analysis.at("ranking").at("different"), true);
+  // Ranks 1, 2, 3 in every one of 12 blocks: the largest chi-squared there is, N (k - 1).
+  EXPECT_DOUBLE_EQ(analysis.at("ranking").at("chi_squared"), 24.0);
+}
+
+// The interval is that of problems, and small differences are called equal.
+TEST(Analysis, DifferencesHaveIntervalsAndARegionOfEquivalence) {
+  const auto pair = [](const std::vector<double>& factors) {
+    const Made made = on_problems(factors);
+    return analyse(made.plan, made.records).at("pairs")[0];
+  };
+  const json clear = pair({2.0, 2.0, 2.0, 2.0});
+  // make() sets solver 1 apart from solver 0 by a ten-thousandth.
+  EXPECT_NEAR(clear.at("mean_ratio").get<double>(), 0.5, 1e-3);
+  EXPECT_EQ(clear.at("practical"), "a");
+  EXPECT_DOUBLE_EQ(clear.at("share_a_better"), 1.0);
+  EXPECT_EQ(pair({1.01, 1.02, 1.01, 1.02}).at("practical"), "equal");
+  const json mixed = pair({4.0, 0.25, 4.0, 0.25, 4.0, 0.25});
+  EXPECT_EQ(mixed.at("practical"), "undecided");
+  EXPECT_NEAR(mixed.at("mean_ratio").get<double>(), 1.0, 1e-3);
+  // Six draws of +-log 4: the mean has a standard deviation of log 4 / sqrt 6, and 95 % are within two thirds of log 4.
+  EXPECT_NEAR(std::log(mixed.at("ratio_high").get<double>()), std::log(4.0) * 2.0 / 3.0, 0.05);
+}
+
 TEST(Analysis, TargetsCountEvaluations) {
   const Made made = make();
   const json rows = analyse(made.plan, made.records).at("fixed_target");
