@@ -40,8 +40,8 @@ std::string function(const ExportedLink& link, const std::string& kind, const st
   }
   std::string body;
   std::vector<int> parameters;
-  for (const QuantityNumber& used : statements.used) {
-    if (used.quantity == Quantity::parameter) {
+  for (const ArgumentNumber& used : statements.used) {
+    if (used.argument == Argument::parameter) {
       parameters.push_back(used.index);
     }
   }
@@ -59,14 +59,14 @@ std::string function(const ExportedLink& link, const std::string& kind, const st
   for (const Statements::Result& result : statements.results) {
     std::string target;
     if (kind == "drive") {
-      const char* member = motion_members[static_cast<int>(result.target.quantity) - static_cast<int>(Quantity::x)];
+      const char* member = motion_members[static_cast<int>(result.target.argument) - static_cast<int>(Argument::x)];
       body += fmt::format("  const double new_{} = {};\n", member, result.expression);
       stores += fmt::format("  in->{0} = new_{0};\n", member);
     } else if (kind == "rate") {
       stores += fmt::format("  rates[{}] = {};\n", result.target.index, result.expression);
     } else if (kind == "yield") {
       stores += fmt::format("  law->{} = {};\n", yield_members[result.target.index], result.expression);
-    } else if (result.target.quantity == Quantity::memory) {
+    } else if (result.target.argument == Argument::memory) {
       body += fmt::format("  const double new_{} = {};\n", result.target.index, result.expression);
       stores += fmt::format("  memory[{0}] = new_{0};\n", result.target.index);
     } else if (kind.starts_with("excite")) {
@@ -86,12 +86,12 @@ std::string function(const ExportedLink& link, const std::string& kind, const st
     const std::string& name = argument.second;
     const bool pointer_used = uses(all, name + "[") || uses(all, name + "->");
     const bool value_used = std::ranges::any_of(statements.used,
-                                                [&](const QuantityNumber& used) {
-                                                  return (name == "below" && used.quantity == Quantity::below) ||
-                                                         (name == "speed" && used.quantity == Quantity::speed) ||
-                                                         (name == "change" && used.quantity == Quantity::change) ||
-                                                         (name == "elapsed" && used.quantity == Quantity::elapsed) ||
-                                                         (name == "drive" && used.quantity == Quantity::acting);
+                                                [&](const ArgumentNumber& used) {
+                                                  return (name == "below" && used.argument == Argument::below) ||
+                                                         (name == "speed" && used.argument == Argument::speed) ||
+                                                         (name == "change" && used.argument == Argument::change) ||
+                                                         (name == "elapsed" && used.argument == Argument::elapsed) ||
+                                                         (name == "drive" && used.argument == Argument::acting);
                                                 }) ||
                             (name == "past" && all.find("past,") != std::string::npos);
     if (!pointer_used && !value_used) {

@@ -11,9 +11,9 @@
 namespace hysteron {
 namespace {
 
-constexpr int numbers_of_a_quantity = 1000;
+constexpr int numbers_of_an_argument = 1000;
 
-int number_of(Quantity quantity, int index = 0) { return static_cast<int>(quantity) * numbers_of_a_quantity + index; }
+int number_of(Argument argument, int index = 0) { return static_cast<int>(argument) * numbers_of_an_argument + index; }
 
 // Two numbers apiece for what equations take as a plain number: what is done with it must not depend on which.
 struct StandIns {
@@ -36,19 +36,19 @@ struct Recorder {
 
   Recorder(const Part& of, const StandIns& with) : part(of), numbers(with) {
     for (std::size_t k = 0; k < part.parameters.size(); ++k) {
-      p.push_back(input(Quantity::parameter, static_cast<int>(k)));
+      p.push_back(input(Argument::parameter, static_cast<int>(k)));
     }
     for (int k = 0; k < part.states; ++k) {
-      s.push_back(input(Quantity::state, k));
+      s.push_back(input(Argument::state, k));
     }
-    in = {input(Quantity::x),   input(Quantity::v), input(Quantity::drive), input(Quantity::time),
-          input(Quantity::age), input(Quantity::a), input(Quantity::jerk)};
-    tape.stand_in(numbers.speed, input(Quantity::speed));
-    tape.stand_in(numbers.change, input(Quantity::change));
-    tape.stand_in(numbers.elapsed, input(Quantity::elapsed));
+    in = {input(Argument::x),   input(Argument::v), input(Argument::drive), input(Argument::time),
+          input(Argument::age), input(Argument::a), input(Argument::jerk)};
+    tape.stand_in(numbers.speed, input(Argument::speed));
+    tape.stand_in(numbers.change, input(Argument::change));
+    tape.stand_in(numbers.elapsed, input(Argument::elapsed));
   }
-  Trace input(Quantity quantity, int index = 0) { return tape.input(number_of(quantity, index)); }
-  void result(Quantity target, int index, const Trace& value) {
+  Trace input(Argument argument, int index = 0) { return tape.input(number_of(argument, index)); }
+  void result(Argument target, int index, const Trace& value) {
     results.push_back({{target, index}, tape.node_of(value)});
   }
 };
@@ -67,7 +67,7 @@ bool same(const Function& a, const Function& b) {
     }
   }
   for (std::size_t k = 0; k < a.results.size(); ++k) {
-    if (a.results[k].node != b.results[k].node || a.results[k].target.quantity != b.results[k].target.quantity ||
+    if (a.results[k].node != b.results[k].node || a.results[k].target.argument != b.results[k].target.argument ||
         a.results[k].target.index != b.results[k].target.index) {
       return false;
     }
@@ -93,27 +93,27 @@ Function recorded(const Part& part, const Record& record) {
 // A motion's members in the order of Input.
 template <class Visit>
 void for_members(const Input<Trace>& before, const Input<Trace>& after, Visit&& visit) {
-  visit(Quantity::x, before.x, after.x);
-  visit(Quantity::v, before.v, after.v);
-  visit(Quantity::drive, before.drive, after.drive);
-  visit(Quantity::time, before.time, after.time);
-  visit(Quantity::age, before.age, after.age);
-  visit(Quantity::a, before.a, after.a);
-  visit(Quantity::jerk, before.jerk, after.jerk);
+  visit(Argument::x, before.x, after.x);
+  visit(Argument::v, before.v, after.v);
+  visit(Argument::drive, before.drive, after.drive);
+  visit(Argument::time, before.time, after.time);
+  visit(Argument::age, before.age, after.age);
+  visit(Argument::a, before.a, after.a);
+  visit(Argument::jerk, before.jerk, after.jerk);
 }
 
 Function excitation(const Part& part, const TracedPart& traced, bool first) {
   return recorded(part, [&](Recorder& r) {
     std::array<Trace, excitation_memory> memory;
     for (std::size_t k = 0; k < memory.size(); ++k) {
-      memory[k] = r.input(Quantity::memory, static_cast<int>(k));
+      memory[k] = r.input(Argument::memory, static_cast<int>(k));
     }
-    Trace drive = r.input(Quantity::acting);
+    Trace drive = r.input(Argument::acting);
     traced.excite(r.p.data(), memory.data(), first ? -1.0 : r.numbers.elapsed, drive);
-    r.result(Quantity::acting, 0, drive);
+    r.result(Argument::acting, 0, drive);
     for (std::size_t k = 0; k < memory.size(); ++k) {
-      if (r.tape.node_of(memory[k]) != r.tape.node_of(r.input(Quantity::memory, static_cast<int>(k)))) {
-        r.result(Quantity::memory, static_cast<int>(k), memory[k]);
+      if (r.tape.node_of(memory[k]) != r.tape.node_of(r.input(Argument::memory, static_cast<int>(k)))) {
+        r.result(Argument::memory, static_cast<int>(k), memory[k]);
       }
     }
   });
@@ -121,8 +121,8 @@ Function excitation(const Part& part, const TracedPart& traced, bool first) {
 
 }  // namespace
 
-QuantityNumber quantity_of_input(int number) {
-  return {static_cast<Quantity>(number / numbers_of_a_quantity), number % numbers_of_a_quantity};
+ArgumentNumber argument_of_input(int number) {
+  return {static_cast<Argument>(number / numbers_of_an_argument), number % numbers_of_an_argument};
 }
 
 PartEquations equations_of(const Part& part) {
@@ -134,7 +134,7 @@ PartEquations equations_of(const Part& part) {
       traced.yield(r.p.data(), r.s[0], yield);
       int place = 0;
       for (const Trace& value : {yield.deflection, yield.slope, yield.bend, yield.gain, yield.hold, yield.width}) {
-        r.result(Quantity::state, place++, value);
+        r.result(Argument::state, place++, value);
       }
     });
     return result;
@@ -143,9 +143,9 @@ PartEquations equations_of(const Part& part) {
     result.drive = recorded(part, [&](Recorder& r) {
       Input<Trace> seen = r.in;
       traced.drive(r.p.data(), r.s.data(), seen);
-      for_members(r.in, seen, [&](Quantity quantity, const Trace& before, const Trace& after) {
+      for_members(r.in, seen, [&](Argument argument, const Trace& before, const Trace& after) {
         if (r.tape.node_of(before) != r.tape.node_of(after)) {
-          r.result(quantity, 0, after);
+          r.result(argument, 0, after);
         }
       });
     });
@@ -155,39 +155,39 @@ PartEquations equations_of(const Part& part) {
     result.rate = recorded(part, [&](Recorder& r) {
       std::vector<Trace> rates(static_cast<std::size_t>(part.states));
       if (traced.loaded_rate != nullptr) {
-        traced.loaded_rate(r.p.data(), r.s.data(), r.in, r.input(Quantity::below), rates.data());
+        traced.loaded_rate(r.p.data(), r.s.data(), r.in, r.input(Argument::below), rates.data());
       } else {
         traced.rate(r.p.data(), r.s.data(), r.in, rates.data());
       }
       for (int k = 0; k < part.states; ++k) {
-        r.result(Quantity::state, k, rates[static_cast<std::size_t>(k)]);
+        r.result(Argument::state, k, rates[static_cast<std::size_t>(k)]);
       }
     });
     result.stiffness = recorded(
-        part, [&](Recorder& r) { r.result(Quantity::state, 0, traced.stiffness(r.p.data(), r.numbers.speed)); });
+        part, [&](Recorder& r) { r.result(Argument::state, 0, traced.stiffness(r.p.data(), r.numbers.speed)); });
   }
   result.settles = traced.settles;
   if (traced.settles >= 0) {
     result.towards = recorded(
-        part, [&](Recorder& r) { r.result(Quantity::state, 0, traced.towards(r.p.data(), r.s.data(), r.in)); });
-    result.slack = recorded(part, [&](Recorder& r) { r.result(Quantity::state, 0, traced.slack(r.p.data())); });
+        part, [&](Recorder& r) { r.result(Argument::state, 0, traced.towards(r.p.data(), r.s.data(), r.in)); });
+    result.slack = recorded(part, [&](Recorder& r) { r.result(Argument::state, 0, traced.slack(r.p.data())); });
     if (traced.stiffness_near != nullptr) {
       result.stiffness_near = recorded(part, [&](Recorder& r) {
-        r.result(Quantity::state, 0,
+        r.result(Argument::state, 0,
                  traced.stiffness_near(r.p.data(), r.s.data(), r.in.v, r.numbers.speed, r.numbers.change));
       });
     }
   }
   result.force = recorded(part, [&](Recorder& r) {
-    Trace force = r.input(Quantity::below);
+    Trace force = r.input(Argument::below);
     traced.force(r.p.data(), r.s.data(), r.in, force);
-    r.result(Quantity::below, 0, force);
+    r.result(Argument::below, 0, force);
   });
   if (traced.recall != nullptr) {
     result.recall = recorded(part, [&](Recorder& r) {
-      Trace drive = r.input(Quantity::acting);
+      Trace drive = r.input(Argument::acting);
       traced.recall(r.p.data(), Command{}, drive);
-      r.result(Quantity::acting, 0, drive);
+      r.result(Argument::acting, 0, drive);
     });
   }
   if (traced.excite != nullptr) {

@@ -10,7 +10,7 @@
 namespace hysteron {
 
 // What an expression may depend on.
-enum class Quantity {
+enum class Argument {
   parameter,  // numbered, as states and memory are
   state,
   memory,
@@ -28,16 +28,16 @@ enum class Quantity {
   acting,   // drive as the effects so far leave it
 };
 
-struct QuantityNumber {
-  Quantity quantity;
+struct ArgumentNumber {
+  Argument argument;
   int index;
 };
-QuantityNumber quantity_of_input(int number);
+ArgumentNumber argument_of_input(int number);
 
 // Straight-line code: nodes in order, of which some are results.
 struct Function {
   struct Result {
-    QuantityNumber target;  // for rates the state, for a series element's law its place in Yield
+    ArgumentNumber target;  // for rates the state, for a series element's law its place in Yield
     int node;
   };
   std::vector<Tape::Node> nodes;

@@ -18,8 +18,8 @@ std::string function(const ExportedLink& link, const std::string& kind, const st
   const Statements statements = write_statements(code, link.part->parameters, Language::python);
   std::string text = fmt::format("\n\ndef {}_{}({}):\n", link.name, kind, arguments);
   std::vector<int> parameters;
-  for (const QuantityNumber& used : statements.used) {
-    if (used.quantity == Quantity::parameter) {
+  for (const ArgumentNumber& used : statements.used) {
+    if (used.argument == Argument::parameter) {
       parameters.push_back(used.index);
     }
   }
@@ -39,8 +39,8 @@ std::string function(const ExportedLink& link, const std::string& kind, const st
     std::string target;
     if (kind == "drive") {
       target = std::string("seen.") +
-               motion_members[static_cast<int>(result.target.quantity) - static_cast<int>(Quantity::x)];
-    } else if (result.target.quantity == Quantity::memory) {
+               motion_members[static_cast<int>(result.target.argument) - static_cast<int>(Argument::x)];
+    } else if (result.target.argument == Argument::memory) {
       target = fmt::format("memory[{}]", result.target.index);
     } else if (kind.starts_with("excite")) {
       target = "acting";

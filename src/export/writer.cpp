@@ -90,7 +90,7 @@ class Printer {
       case TraceOperation::constant:
         return {literal(node.value), node.value < 0.0 ? sign : whole};
       case TraceOperation::input:
-        return {input(quantity_of_input(node.a)), whole};
+        return {input(argument_of_input(node.a)), whole};
       case TraceOperation::negate:
         return {"-" + inside(node.a, whole), sign};
       case TraceOperation::add:
@@ -138,43 +138,43 @@ class Printer {
     return {};
   }
 
-  std::string input(const QuantityNumber& number) {
-    if (std::ranges::none_of(statements_.used, [&](const QuantityNumber& other) {
-          return other.quantity == number.quantity && other.index == number.index;
+  std::string input(const ArgumentNumber& number) {
+    if (std::ranges::none_of(statements_.used, [&](const ArgumentNumber& other) {
+          return other.argument == number.argument && other.index == number.index;
         })) {
       statements_.used.push_back(number);
     }
     const char* member = language_ == Language::c ? "in->" : "seen.";
-    switch (number.quantity) {
-      case Quantity::parameter:
+    switch (number.argument) {
+      case Argument::parameter:
         return parameter_identifier(parameters_[static_cast<std::size_t>(number.index)]);
-      case Quantity::state:
+      case Argument::state:
         return fmt::format("s[{}]", number.index);
-      case Quantity::memory:
+      case Argument::memory:
         return fmt::format("memory[{}]", number.index);
-      case Quantity::x:
+      case Argument::x:
         return member + std::string("x");
-      case Quantity::v:
+      case Argument::v:
         return member + std::string("v");
-      case Quantity::drive:
+      case Argument::drive:
         return member + std::string("drive");
-      case Quantity::time:
+      case Argument::time:
         return member + std::string("time");
-      case Quantity::age:
+      case Argument::age:
         return member + std::string("age");
-      case Quantity::a:
+      case Argument::a:
         return member + std::string("a");
-      case Quantity::jerk:
+      case Argument::jerk:
         return member + std::string("jerk");
-      case Quantity::below:
+      case Argument::below:
         return "below";
-      case Quantity::speed:
+      case Argument::speed:
         return "speed";
-      case Quantity::change:
+      case Argument::change:
         return "change";
-      case Quantity::elapsed:
+      case Argument::elapsed:
         return "elapsed";
-      case Quantity::acting:
+      case Argument::acting:
         return "drive";
     }
     return {};

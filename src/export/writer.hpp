@@ -20,11 +20,11 @@ std::string parameter_identifier(const Parameter& parameter);
 struct Statements {
   std::vector<std::string> lines;  // definitions of temporaries, without indentation
   struct Result {
-    QuantityNumber target;
+    ArgumentNumber target;
     std::string expression;
   };
   std::vector<Result> results;
-  std::vector<QuantityNumber> used;  // inputs that occur
+  std::vector<ArgumentNumber> used;  // inputs that occur
 };
 Statements write_statements(const Function& function, std::span<const Parameter> parameters, Language language);
 
