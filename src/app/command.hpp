@@ -79,6 +79,7 @@ void add_fit(CLI::App& program);
 void add_simulate(CLI::App& program);
 void add_score(CLI::App& program);
 void add_export(CLI::App& program);
+void add_compare(CLI::App& program);
 void add_catalogue(CLI::App& program);
 void add_generate(CLI::App& program);
 void add_diagnose(CLI::App& program);

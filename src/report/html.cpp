@@ -145,4 +145,6 @@ std::string fit_report_html(const nlohmann::json& report) {
 
 std::string study_page_html(const nlohmann::json& page) { return page_of(page, web::study_js()); }
 
+std::string compare_page_html(const nlohmann::json& page) { return page_of(page, web::compare_js()); }
+
 }  // namespace hysteron

@@ -14,6 +14,9 @@ std::string fit_report_html(const nlohmann::json& report);
 // The page of a study: `page` is what web/study.js draws.
 std::string study_page_html(const nlohmann::json& page);
 
+// The page of a comparison: `page` is what web/compare.js draws.
+std::string compare_page_html(const nlohmann::json& page);
+
 // JSON text that may stand inside a <script> element: no `<` is left, so no tag can end or open there.
 std::string script_safe_json(const nlohmann::json& value);
 

@@ -10,6 +10,7 @@ std::string_view report_css();
 std::string_view common_js();
 std::string_view report_js();
 std::string_view study_js();
+std::string_view compare_js();
 std::string_view uplot_js();
 std::string_view uplot_css();
 std::string_view uplot_license();

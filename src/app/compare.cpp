@@ -1,0 +1,323 @@
+// hysteron compare: several models on the same recordings.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <set>
+
+#include "app/command.hpp"
+#include "app/model_file.hpp"
+#include "compare/criteria.hpp"
+#include "core/error.hpp"
+#include "io/file.hpp"
+#include "io/output.hpp"
+#include "report/html.hpp"
+#include "report/terminal.hpp"
+
+namespace hysteron::app {
+namespace {
+
+using nlohmann::json;
+
+// At most this many points of a recording go into the page.
+constexpr std::size_t page_points = 700;
+
+struct Options {
+  std::vector<std::string> words;
+  DataOptions data;
+  std::string out;
+  CommonOptions common;
+};
+
+struct Compared {
+  std::string label;
+  StoredModel stored;
+  std::size_t parameters = 0;       // found by fitting
+  std::set<std::string> fitted_on;  // sha256 of the recordings
+  std::vector<std::vector<double>> force;
+  std::vector<Score> scores;  // one a recording
+  double overall = 0.0;
+  std::optional<double> fitted, unseen;
+  ResidualFacts facts;  // on all recordings
+  std::optional<Criteria> criteria;
+};
+
+// The law with its effects, and the file where that does not tell models apart.
+void label(std::vector<Compared>& models, const std::vector<std::string>& files) {
+  std::vector<std::string> laws;
+  for (const Compared& model : models) {
+    std::string text(model.stored.model.law->id);
+    for (const Part* effect : model.stored.model.effects) {
+      text += " + " + std::string(effect->id);
+    }
+    laws.push_back(text);
+  }
+  for (std::size_t k = 0; k < models.size(); ++k) {
+    const std::filesystem::path path(files[k]);
+    const std::string file =
+        path.is_absolute() ? (path.parent_path().filename() / path.filename()).string() : path.string();
+    models[k].label = std::ranges::count(laws, laws[k]) > 1 ? laws[k] + " (" + file + ")" : laws[k];
+  }
+}
+
+Compared read_compared(const std::string& path) {
+  Compared result;
+  result.stored = read_model(path);
+  const json root = json::parse(read_file(path));
+  for (const json& entry : root.at("parameters")) {
+    result.parameters += entry.value("fixed", false) ? 0 : 1;
+  }
+  if (root.contains("fitted_on") && root["fitted_on"].is_array()) {
+    for (const json& entry : root["fitted_on"]) {
+      if (entry.is_object() && entry.contains("sha256") && entry["sha256"].is_string()) {
+        result.fitted_on.insert(entry["sha256"].get<std::string>());
+      }
+    }
+  }
+  return result;
+}
+
+std::vector<std::vector<double>> residuals_of(const Compared& model, const Campaign& campaign,
+                                              const std::vector<std::size_t>& which, Normalisation normalisation) {
+  std::vector<std::vector<double>> result;
+  for (const std::size_t r : which) {
+    const Recording& recording = campaign.recordings[r];
+    const double scale = normaliser(recording, normalisation);
+    std::vector<double> series;
+    for (std::size_t n = 0; n < recording.size(); ++n) {
+      series.push_back((recording.force[n] - model.force[r][n]) / scale);
+    }
+    result.push_back(std::move(series));
+  }
+  return result;
+}
+
+// Over recordings, as everywhere: the root mean square of theirs.
+std::optional<double> overall_of(const Compared& model, const Campaign& campaign, const ObjectiveOptions& objective,
+                                 const std::vector<std::size_t>& which) {
+  if (which.empty()) {
+    return std::nullopt;
+  }
+  std::vector<Score> scores;
+  std::vector<Recording> recordings;
+  for (const std::size_t r : which) {
+    scores.push_back(model.scores[r]);
+    recordings.push_back(campaign.recordings[r]);
+  }
+  return overall(scores, recordings, objective.normalisation, objective.weighting);
+}
+
+json number_or_null(const std::optional<double>& value) { return value ? json(*value) : json(nullptr); }
+
+json loops_json(const Recording& recording, std::size_t r, const std::vector<Compared>& models) {
+  json row = {{"file", recording.file}};
+  const std::size_t stride = (recording.size() + page_points - 1) / page_points;
+  for (const char* key : {"time", "displacement_mm", "velocity_mm_s", "force_n"}) {
+    row[key] = json::array();
+  }
+  row["models"] = json::array();
+  for (std::size_t k = 0; k < models.size(); ++k) {
+    row["models"].push_back(json::array());
+  }
+  const auto digits = [](double value) { return std::stod(fmt::format("{:.6g}", value)); };
+  for (std::size_t n = 0; n < recording.size(); n += stride) {
+    row["time"].push_back(digits(recording.time[n]));
+    row["displacement_mm"].push_back(digits(1e3 * recording.displacement[n]));
+    row["velocity_mm_s"].push_back(digits(1e3 * recording.velocity[n]));
+    row["force_n"].push_back(digits(recording.force[n]));
+    for (std::size_t k = 0; k < models.size(); ++k) {
+      row["models"][k].push_back(std::isfinite(models[k].force[r][n]) ? json(digits(models[k].force[r][n]))
+                                                                      : json(nullptr));
+    }
+  }
+  return row;
+}
+
+void run(const Options& options) {
+  std::vector<std::string> files;
+  DataOptions data = options.data;
+  data.data.clear();
+  for (const std::string& word : options.words) {
+    (std::filesystem::path(word).extension() == ".json" ? files : data.data).push_back(word);
+  }
+  if (files.empty() || data.data.empty()) {
+    throw InputError("compare: expected at least one MODEL.json and one recording or folder");
+  }
+  const ObjectiveOptions objective = objective_options(options.common);
+  std::vector<Compared> models;
+  for (const std::string& file : files) {
+    models.push_back(read_compared(file));
+  }
+  label(models, files);
+  const Campaign campaign = load(data);
+  check_output_folder(options.out);
+
+  std::vector<std::size_t> all;
+  std::vector<std::size_t> common;  // fitted by every model
+  for (std::size_t r = 0; r < campaign.recordings.size(); ++r) {
+    all.push_back(r);
+    if (std::ranges::all_of(
+            models, [&](const Compared& model) { return model.fitted_on.contains(campaign.recordings[r].sha256); })) {
+      common.push_back(r);
+    }
+  }
+  for (Compared& model : models) {
+    std::vector<std::size_t> seen;
+    std::vector<std::size_t> unseen;
+    for (const std::size_t r : all) {
+      const Recording& recording = campaign.recordings[r];
+      check_drive(model.stored, model.label, recording);
+      model.force.push_back(
+          predict(model.stored.model, model.stored.held, model.stored.terms, make_target(recording, objective)));
+      if (!std::ranges::all_of(model.force.back(), [](double f) { return std::isfinite(f); })) {
+        throw WorkError(model.label + " has no finite force on " + recording.file);
+      }
+      model.scores.push_back(score(model.force.back(), recording, objective.normalisation));
+      (model.fitted_on.contains(recording.sha256) ? seen : unseen).push_back(r);
+    }
+    model.overall = *overall_of(model, campaign, objective, all);
+    model.fitted = overall_of(model, campaign, objective, seen);
+    model.unseen = overall_of(model, campaign, objective, unseen);
+    model.facts = residual_facts(residuals_of(model, campaign, all, objective.normalisation));
+  }
+  std::optional<double> effective;
+  if (!common.empty()) {
+    std::vector<ResidualFacts> facts;
+    for (const Compared& model : models) {
+      facts.push_back(residual_facts(residuals_of(model, campaign, common, objective.normalisation)));
+    }
+    // One number of samples for all, that of the residual which holds the least besides noise.
+    effective = std::ranges::min_element(facts, {}, &ResidualFacts::mean_square)->effective_samples();
+    for (std::size_t k = 0; k < models.size(); ++k) {
+      models[k].criteria = criteria(facts[k].mean_square, *effective, models[k].parameters);
+    }
+  }
+  double best_aic = 0.0;
+  double best_bic = 0.0;
+  if (effective) {
+    best_aic = std::ranges::min(models, {}, [](const Compared& m) { return m.criteria->aic; }).criteria->aic;
+    best_bic = std::ranges::min(models, {}, [](const Compared& m) { return m.criteria->bic; }).criteria->bic;
+  }
+
+  const std::string normalisation(word_of(objective.normalisation));
+  const std::string criteria_note =
+      effective ? fmt::format(
+                      "AIC and BIC: n ln(mean square) + penalty with n = {:.0f}, the effective sample size of the "
+                      "residual of the best model on the {} recordings that every model was fitted on; "
+                      "differences from the best are shown",
+                      *effective, common.size())
+                : "AIC and BIC: none, since no recording was fitted by every model";
+  json file = {{"schema", "hysteron.compare/1"},
+               {"normalisation", normalisation},
+               {"weighting", options.common.weighting},
+               {"effective_samples", number_or_null(effective)},
+               {"criteria_recordings", json::array()},
+               {"note", criteria_note},
+               {"models", json::array()},
+               {"recordings", json::array()}};
+  for (const std::size_t r : common) {
+    file["criteria_recordings"].push_back(campaign.recordings[r].file);
+  }
+  for (const Compared& model : models) {
+    json effects = json::array();
+    for (const Part* effect : model.stored.model.effects) {
+      effects.push_back(effect->id);
+    }
+    file["models"].push_back(
+        {{"label", model.label},
+         {"model", model.stored.model.law->id},
+         {"effects", effects},
+         {"free_parameters", model.parameters},
+         {"nrmse",
+          {{"overall", model.overall},
+           {"fitted", number_or_null(model.fitted)},
+           {"unseen", number_or_null(model.unseen)}}},
+         {"aic", model.criteria ? json(model.criteria->aic) : json(nullptr)},
+         {"bic", model.criteria ? json(model.criteria->bic) : json(nullptr)},
+         {"delta_aic", model.criteria ? json(model.criteria->aic - best_aic) : json(nullptr)},
+         {"delta_bic", model.criteria ? json(model.criteria->bic - best_bic) : json(nullptr)},
+         {"residual",
+          {{"samples", model.facts.samples},
+           {"autocorrelation", model.facts.autocorrelation},
+           {"lags_outside", model.facts.outside},
+           {"histogram",
+            {{"reach", histogram_reach}, {"density", model.facts.histogram}, {"beyond", model.facts.beyond}}}}}});
+  }
+  for (const std::size_t r : all) {
+    json row = {{"file", campaign.recordings[r].file}, {"sha256", campaign.recordings[r].sha256}};
+    for (const char* key : {"nrmse", "rmse_n", "fit_percent", "fitted"}) {
+      row[key] = json::array();
+    }
+    for (const Compared& model : models) {
+      row["nrmse"].push_back(model.scores[r].nrmse);
+      row["rmse_n"].push_back(model.scores[r].rmse);
+      row["fit_percent"].push_back(model.scores[r].fit_percent);
+      row["fitted"].push_back(model.fitted_on.contains(campaign.recordings[r].sha256));
+    }
+    file["recordings"].push_back(std::move(row));
+  }
+  json page = file;
+  page["title"] = "Comparison of models";
+  page["version"] = HYSTERON_VERSION;
+  page["command"] = command_line();
+  page["loops"] = json::array();
+  for (const std::size_t r : all) {
+    page["loops"].push_back(loops_json(campaign.recordings[r], r, models));
+  }
+  make_output_folder(options.out);
+  const std::filesystem::path out(options.out);
+  write_file_atomically(out / "compare.json", json_text(file));
+  write_file_atomically(out / "report.html", compare_page_html(page));
+
+  const auto cell = [](const std::optional<double>& value) {
+    return value ? format_number(*value, 4) : std::string("-");
+  };
+  std::vector<std::vector<std::string>> rows;
+  for (const Compared& model : models) {
+    rows.push_back({model.label, std::to_string(model.parameters), cell(model.fitted), cell(model.unseen),
+                    model.criteria ? fmt::format("{:.1f}", model.criteria->aic - best_aic) : "-",
+                    model.criteria ? fmt::format("{:.1f}", model.criteria->bic - best_bic) : "-",
+                    fmt::format("{:.3f}", model.facts.autocorrelation.front()),
+                    fmt::format("{:.0f}", 100.0 * model.facts.outside)});
+  }
+  fmt::print("{}\n", table({"model", "parameters", "NRMSE fitted", "NRMSE unseen", "dAIC", "dBIC", "lag-1 correlation",
+                            "lags not white [%]"},
+                           rows));
+  rows.clear();
+  for (const std::size_t r : all) {
+    std::vector<std::string> row = {campaign.recordings[r].file};
+    for (const Compared& model : models) {
+      row.push_back(format_number(model.scores[r].nrmse, 4) +
+                    (model.fitted_on.contains(campaign.recordings[r].sha256) ? "" : " *"));
+    }
+    rows.push_back(std::move(row));
+  }
+  std::vector<std::string> head = {"recording"};
+  for (const Compared& model : models) {
+    head.push_back("NRMSE " + model.label);
+  }
+  fmt::print("{}* not fitted on by that model; NRMSE normalised by {}\n{}\nreport: {}\n", table(head, rows),
+             normalisation, criteria_note, (out / "report.html").string());
+}
+
+}  // namespace
+
+void add_compare(CLI::App& program) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command =
+      program.add_subcommand("compare", "several models on the same recordings: errors, criteria, residuals, loops");
+  command
+      ->add_option("MODEL.json DATA", options->words,
+                   "models written by fit or diagnose, and CSV or MAT files or folders of them, in any order")
+      ->required()
+      ->expected(2, 10000);
+  command->add_option("--column", options->data.columns, "channel=NAME [UNIT] of a column; repeatable")
+      ->allow_extra_args(false);
+  command->add_option("--out", options->out, "folder for compare.json and report.html")->required();
+  add_common_options(*command, options->common);
+  command->footer("Example:\n  hysteron compare a/model.json b/model.json recordings/ --out comparison");
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace hysteron::app
