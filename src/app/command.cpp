@@ -33,9 +33,8 @@ void add_data_options(CLI::App& command, DataOptions& options) {
       ->allow_extra_args(false);
 }
 
-Campaign load(const DataOptions& options, bool force_required, std::vector<std::string>* warnings) {
+ReadOptions read_options(const DataOptions& options) {
   ReadOptions read;
-  read.force_required = force_required;
   for (const std::string& mapping : options.columns) {
     const auto equals = mapping.find('=');
     if (equals == std::string::npos || equals == 0 || equals + 1 == mapping.size()) {
@@ -45,6 +44,12 @@ Campaign load(const DataOptions& options, bool force_required, std::vector<std::
       throw InputError("--column: '" + mapping.substr(0, equals) + "' is mapped twice, expected each channel once");
     }
   }
+  return read;
+}
+
+Campaign load(const DataOptions& options, bool force_required, std::vector<std::string>* warnings) {
+  ReadOptions read = read_options(options);
+  read.force_required = force_required;
   std::vector<Remark> remarks;
   read.remark = [&](const Remark& remark) { remarks.push_back(remark); };
   Campaign campaign = load_campaign(options.data, read);

@@ -10,6 +10,7 @@
 
 #include "core/recording.hpp"
 #include "fit/identify.hpp"
+#include "io/channels.hpp"
 
 namespace hysteron::app {
 
@@ -19,6 +20,7 @@ struct DataOptions {
   std::vector<std::string> columns;  // force="CH1 [kgf]"
 };
 void add_data_options(CLI::App& command, DataOptions& options);
+ReadOptions read_options(const DataOptions& options);
 // What the readers remark is said on standard error, once for all recordings alike, and put into `warnings`.
 Campaign load(const DataOptions& options, bool force_required = true, std::vector<std::string>* warnings = nullptr);
 
@@ -79,6 +81,7 @@ void add_fit(CLI::App& program);
 void add_simulate(CLI::App& program);
 void add_score(CLI::App& program);
 void add_export(CLI::App& program);
+void add_respond(CLI::App& program);
 void add_compare(CLI::App& program);
 void add_catalogue(CLI::App& program);
 void add_generate(CLI::App& program);

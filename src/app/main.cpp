@@ -59,6 +59,7 @@ int run(int count, char** arguments) {
   app::add_simulate(program);
   app::add_score(program);
   app::add_compare(program);
+  app::add_respond(program);
   app::add_export(program);
   app::add_catalogue(program);
   app::add_generate(program);

@@ -85,7 +85,7 @@ class Assigner {
     for (const auto& [channel, value] : options_.columns) map(channel, value);
     for (std::size_t i = 0; i < columns_.size(); ++i) match(i);
     require(Quantity::time);
-    require(Quantity::displacement);
+    if (options_.displacement_required) require(Quantity::displacement);
     if (options_.force_required) require(Quantity::force);
     return sources_;
   }
@@ -208,15 +208,16 @@ Recording make_recording(Channels&& channels) {
   recording.force = take(Quantity::force);
   recording.temperature = take(Quantity::temperature);
   recording.velocity_measured = !recording.velocity.empty();
-  if (!recording.velocity_measured) recording.velocity = derive_velocity(recording.time, recording.displacement);
-  recording.derived_acceleration =
-      derive_acceleration(recording.time, recording.displacement, recording.velocity, recording.velocity_measured);
   recording.drive = take(Quantity::current);
   recording.drive_kind = DriveKind::current;
   if (recording.drive.empty()) {
     recording.drive = take(Quantity::voltage);
     recording.drive_kind = recording.drive.empty() ? DriveKind::none : DriveKind::voltage;
   }
+  if (recording.displacement.empty()) return recording;  // an excitation without motion
+  if (!recording.velocity_measured) recording.velocity = derive_velocity(recording.time, recording.displacement);
+  recording.derived_acceleration =
+      derive_acceleration(recording.time, recording.displacement, recording.velocity, recording.velocity_measured);
   return recording;
 }
 

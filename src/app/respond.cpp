@@ -1,0 +1,187 @@
+// hysteron respond: motion of a mass on a model under a force or a base motion.
+#include "respond/respond.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "app/command.hpp"
+#include "app/model_file.hpp"
+#include "core/drive.hpp"
+#include "core/error.hpp"
+#include "io/campaign.hpp"
+#include "io/output.hpp"
+
+namespace hysteron::app {
+namespace {
+
+struct Options {
+  std::string model;
+  DataOptions data;
+  Oscillator oscillator;
+  RespondOptions respond;
+  std::string excitation = "auto";
+  std::string interpolation = "cubic";
+  int periods = 0;
+  double frequency = std::nan("");
+  double drive = std::nan("");
+  std::string out;
+};
+
+Recording read_excitation(const Options& options) {
+  ReadOptions read = read_options(options.data);
+  read.displacement_required = false;
+  read.force_required = false;
+  const Campaign campaign = load_campaign(options.data.data, read);
+  if (campaign.recordings.size() != 1) {
+    throw InputError(options.data.data[0] + ": holds " + std::to_string(campaign.recordings.size()) +
+                     " recordings, expected one");
+  }
+  return campaign.recordings[0];
+}
+
+// `count` periods of a signal that repeats itself, at its own samples.
+std::vector<double> repeated_times(const std::vector<double>& time, int count) {
+  const double period =
+      (time.back() - time.front()) * static_cast<double>(time.size()) / static_cast<double>(time.size() - 1);
+  std::vector<double> result;
+  for (int k = 0; k < count; ++k) {
+    for (const double t : time) {
+      result.push_back(t + k * period);
+    }
+  }
+  return result;
+}
+
+void run(Options& options) {
+  const StoredModel stored = read_model(options.model);
+  const Recording recording = read_excitation(options);
+  if (std::isnan(options.drive)) {
+    check_drive(stored, options.model, recording);
+  }
+  const bool has_force = !recording.force.empty();
+  const bool has_base = !recording.displacement.empty();
+  if (options.excitation == "auto" && has_force == has_base) {
+    throw InputError(recording.file + (has_force
+                                           ? ": holds a force and a displacement, expected --excitation force or base"
+                                           : ": holds neither a force nor a displacement, expected one of them"));
+  }
+  const bool base = options.excitation == "auto" ? has_base : options.excitation == "base";
+  if (base ? !has_base : !has_force) {
+    throw InputError(recording.file + ": no " + (base ? "displacement" : "force") +
+                     " column, expected one for --excitation " + options.excitation);
+  }
+  const Interpolation interpolation = interpolation_of(options.interpolation);
+  if (base && interpolation == Interpolation::linear) {
+    throw InputError(
+        "--interpolation linear: straight lines of a base have no acceleration, expected cubic or band-limited");
+  }
+  const bool periodic = options.periods > 0;
+  double frequency = options.frequency;
+  if (std::isnan(frequency)) {
+    Recording as_motion = recording;
+    as_motion.displacement = base ? recording.displacement : recording.force;
+    frequency = dominant_frequency(as_motion);
+  }
+  Oscillator& oscillator = options.oscillator;
+  oscillator.model = stored.model;
+  oscillator.parameters = [&](double drive) { return parameters_at(stored.held, stored.terms, drive, frequency); };
+  for (const Part* effect : stored.model.effects) {
+    const bool follows = std::ranges::any_of(stored.terms, [](const Term& term) { return term.drive_power > 0; });
+    if (follows && (effect->on_double.excite != nullptr || effect->on_double.recall != nullptr) &&
+        drive_varies(recording)) {
+      throw InputError("respond: " + std::string(effect->id) +
+                       " acts on a drive that varies, which is not offered yet; expected a constant drive");
+    }
+  }
+  Excitation excitation;
+  excitation.time = periodic ? repeated_times(recording.time, options.periods) : recording.time;
+  (base ? excitation.base : excitation.force) =
+      Signal(recording.time, base ? recording.displacement : recording.force, interpolation, periodic);
+  if (!std::isnan(options.drive)) {
+    excitation.drive =
+        Signal(recording.time, std::vector<double>(recording.size(), options.drive), Interpolation::linear, periodic);
+  } else if (!recording.drive.empty()) {
+    excitation.drive = Signal(recording.time, quiet_drive(recording.drive), Interpolation::linear, periodic);
+  }
+  const MassMotion response = respond(oscillator, excitation, options.respond);
+
+  std::string text = "time [s],displacement [m],velocity [m/s],acceleration [m/s^2],force [N]";
+  text += excitation.drive ? (recording.drive_kind == DriveKind::voltage ? ",voltage [V]" : ",current [A]") : "";
+  text += base ? ",base [m],absolute displacement [m]\n" : "\n";
+  const std::size_t count = excitation.time.size();
+  const std::size_t first = periodic ? count - recording.size() : 0;
+  double peak = 0.0;
+  double force_peak = 0.0;
+  for (std::size_t n = first; n < count; ++n) {
+    const double time = excitation.time[n];
+    text += fmt::format("{},{},{},{},{}", recording.time[n - first], response.displacement[n], response.velocity[n],
+                        response.acceleration[n], response.force[n]);
+    if (excitation.drive) {
+      text += fmt::format(",{}", excitation.drive->value(time));
+    }
+    if (base) {
+      const double b = excitation.base->value(time);
+      text += fmt::format(",{},{}", b, b + response.displacement[n]);
+    }
+    text += '\n';
+    peak = std::max(peak, std::fabs(response.displacement[n]));
+    force_peak = std::max(force_peak, std::fabs(response.force[n]));
+  }
+  write_file_atomically(options.out, text);
+  fmt::print("{} samples, largest displacement {:.6g} mm{}, largest force of the model {:.6g} N\n", count - first,
+             1e3 * peak, base ? " relative to the base" : "", force_peak);
+}
+
+}  // namespace
+
+void add_respond(CLI::App& program) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command =
+      program.add_subcommand("respond", "motion of a mass on a fitted model under a force or a base motion");
+  command->add_option("MODEL", options->model, "model.json written by fit or diagnose")->required();
+  command
+      ->add_option("EXCITATION", options->data.data,
+                   "CSV or MAT file with time and a force on the mass, or a displacement of the base")
+      ->required()
+      ->expected(1);
+  command->add_option("--column", options->data.columns, "channel=NAME [UNIT] of a column; repeatable")
+      ->allow_extra_args(false);
+  command->add_option("--mass", options->oscillator.mass, "kg")->required()->check(CLI::PositiveNumber);
+  command->add_option("--stiffness", options->oscillator.stiffness, "N/m, of a spring beside the model");
+  command->add_option("--damping", options->oscillator.damping, "N s/m, of a dashpot beside the model");
+  command
+      ->add_option("--excitation", options->excitation,
+                   "force: on the mass; base: displacement of the ground; auto: what the file holds")
+      ->check(CLI::IsMember({"auto", "force", "base"}))
+      ->capture_default_str();
+  command
+      ->add_option("--interpolation", options->interpolation,
+                   "of the excitation between its samples: linear, cubic, band-limited")
+      ->check(CLI::IsMember({"linear", "cubic", "band-limited"}))
+      ->capture_default_str();
+  command
+      ->add_option("--periods", options->periods,
+                   "the excitation is one period: it is repeated so many times and the last response is written")
+      ->check(CLI::Range(0, 10000));
+  command->add_option("--x0", options->respond.displacement, "displacement at the start, m, relative to the base");
+  command->add_option("--v0", options->respond.velocity, "velocity at the start, m/s, relative to the base");
+  command->add_option("--drive", options->drive, "constant current or voltage, instead of the file's");
+  command->add_option("--frequency", options->frequency,
+                      "Hz, for parameters that follow it; default the excitation's dominant one");
+  command->add_option("--tolerance", options->respond.tolerance, "relative error of a step")
+      ->check(CLI::Range(1e-13, 1e-2))
+      ->capture_default_str();
+  command->add_option("--out", options->out, "CSV to write: motion relative to the base, force of the model")
+      ->required();
+  command->footer(
+      "Examples:\n"
+      "  hysteron respond out/model.json load.csv --mass 250 --stiffness 2e4 --out motion.csv\n"
+      "  hysteron respond out/model.json quake.csv --mass 250 --excitation base --interpolation band-limited --out "
+      "motion.csv");
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace hysteron::app
