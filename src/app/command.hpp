@@ -81,6 +81,7 @@ void add_fit(CLI::App& program);
 void add_simulate(CLI::App& program);
 void add_score(CLI::App& program);
 void add_export(CLI::App& program);
+void add_profile(CLI::App& program);
 void add_respond(CLI::App& program);
 void add_compare(CLI::App& program);
 void add_catalogue(CLI::App& program);

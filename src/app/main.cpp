@@ -69,6 +69,7 @@ int run(int count, char** arguments) {
   app::add_report(program);
   app::add_merge(program);
   app::add_reproduce(program);
+  app::add_profile(program);
   try {
     load_plugins(count, arguments);
     program.parse(count, arguments);

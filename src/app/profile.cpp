@@ -1,0 +1,169 @@
+// hysteron profile: where the time of a fit goes.
+#include <fmt/format.h>
+
+#include <chrono>
+#include <memory>
+
+#include "app/command.hpp"
+#include "core/error.hpp"
+#include "datasets/dataset.hpp"
+#include "fit/parallel.hpp"
+#include "report/terminal.hpp"
+
+namespace hysteron::app {
+namespace {
+
+using nlohmann::json;
+using Clock = std::chrono::steady_clock;
+
+struct Options {
+  DataOptions data;
+  std::vector<std::string> models;
+  std::vector<std::string> effects;
+  std::vector<std::string> solvers{"multistart-lm"};
+  std::size_t budget = 2000;
+  std::string by_current;
+  CommonOptions common;
+  bool json = false;
+};
+
+double seconds_since(Clock::time_point begun) { return std::chrono::duration<double>(Clock::now() - begun).count(); }
+
+// Of one solver's run, in s of wall time.
+struct Times {
+  double wall = 0.0;
+  double simulation = 0.0;   // costs and windows without derivatives
+  double derivatives = 0.0;  // simulation with derivatives
+  double screening = 0.0;    // coarse simulation
+  std::size_t evaluations = 0;
+
+  [[nodiscard]] double evaluating() const { return simulation + derivatives + screening; }
+  [[nodiscard]] double solver() const { return wall - evaluating(); }
+};
+
+Times timed(const Layout& layout, const std::vector<Recording>& recordings, const ObjectiveOptions& objective_with,
+            const SolverEntry& entry, const Options& options) {
+  ObjectiveOptions with = objective_with;
+  with.stopped = [] { return interrupted(); };
+  const Objective objective(layout, recordings, with);
+  Problem problem;
+  problem.dimension = layout.dimension();
+  problem.budget = options.budget;
+  problem.stream = Stream(options.common.seed).child(entry.id);
+  problem.linear = layout.linear();
+  problem.screening = true;
+  objective.describe_data(problem);
+  Times times;
+  const Clock::time_point begun = Clock::now();
+  const RunResult run = run_solver(entry, problem, [&](const Request& request) {
+    const Clock::time_point asked = Clock::now();
+    Response response = objective.evaluate(request);
+    (request.screening     ? times.screening
+     : request.derivatives ? times.derivatives
+                           : times.simulation) += seconds_since(asked);
+    return response;
+  });
+  times.wall = seconds_since(begun);
+  times.evaluations = run.evaluations;
+  return times;
+}
+
+void run(const Options& options) {
+  const Campaign campaign = options.data.data.empty()
+                                ? find_dataset("rd8040-twin")->generate(Stream(1).child("rd8040-twin"))
+                                : load(options.data);
+  std::vector<std::string> models = options.models;
+  if (models.empty()) {
+    models.push_back(campaign.model.empty() ? "bouc-wen" : campaign.model);
+  }
+  ObjectiveOptions objective = objective_options(options.common);
+  const int threads = team_size(options.common.threads);
+  LayoutOptions layout_with;
+  layout_with.by_current = parse_orders("--by-current", options.by_current);
+  json rows = json::array();
+  std::vector<std::vector<std::string>> table_rows;
+  for (const std::string& id : options.solvers) {
+    if (find_solver(id) == nullptr) {
+      throw InputError("unknown solver '" + id + "', see `hysteron list solvers`");
+    }
+  }
+  for (const std::string& name : models) {
+    const Layout layout(make_model(name, options.effects), scale_of(campaign.recordings), layout_with);
+    for (const std::string& id : options.solvers) {
+      const SolverEntry& entry = *find_solver(id);
+      objective.threads = 1;
+      const Times alone = timed(layout, campaign.recordings, objective, entry, options);
+      objective.threads = threads;
+      const Times together = threads == 1 ? alone : timed(layout, campaign.recordings, objective, entry, options);
+      if (interrupted()) {
+        return;
+      }
+      // The same work, so what one thread needs for it is what the team was busy.
+      const double offered = static_cast<double>(threads) * together.wall;
+      const double idle = std::max(0.0, 1.0 - (alone.evaluating() + together.solver()) / offered);
+      const auto share = [&](double part) { return fmt::format("{:.1f}", 100.0 * part / alone.wall); };
+      table_rows.push_back({name, id, std::to_string(alone.evaluations), format_number(alone.wall, 3),
+                            share(alone.solver()), share(alone.simulation), share(alone.derivatives),
+                            share(alone.screening), format_number(together.wall, 3),
+                            fmt::format("{:.1f}", 100.0 * idle),
+                            format_number(1e6 * alone.evaluating() / static_cast<double>(alone.evaluations), 3)});
+      rows.push_back({{"model", name},
+                      {"solver", id},
+                      {"evaluations", alone.evaluations},
+                      {"one_thread",
+                       {{"wall_s", alone.wall},
+                        {"solver_s", alone.solver()},
+                        {"simulation_s", alone.simulation},
+                        {"derivatives_s", alone.derivatives},
+                        {"screening_s", alone.screening}}},
+                      {"team", {{"threads", threads}, {"wall_s", together.wall}, {"idle_share", idle}}}});
+    }
+  }
+  if (options.json) {
+    fmt::print("{}", json_text({{"schema", "hysteron.profile/1"}, {"budget", options.budget}, {"rows", rows}}));
+    return;
+  }
+  fmt::print(
+      "{}\nShares are of the wall time on one thread; idle is what {} threads offered and did not use; an evaluation "
+      "with derivatives counts as 1 + number of parameters.\n",
+      table({"model", "solver", "evaluations", "1 thread [s]", "solver [%]", "simulation [%]", "derivatives [%]",
+             "screening [%]", fmt::format("{} threads [s]", threads), "idle [%]", "per evaluation [us]"},
+            table_rows),
+      threads);
+}
+
+}  // namespace
+
+void add_profile(CLI::App& program) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command =
+      program.add_subcommand("profile", "where the time of a fit goes: solver, simulation, idle threads");
+  command->add_option("DATA", options->data.data,
+                      "CSV or MAT files, or folders of them; default the dataset rd8040-twin");
+  command->add_option("--column", options->data.columns, "channel=NAME [UNIT] of a column; repeatable")
+      ->allow_extra_args(false);
+  command->add_option("--model", options->models, "damper laws, one after the other; default that of the data")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  command->add_option("--effects", options->effects, "effects put behind the laws")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  command->add_option("--solver", options->solvers, "solvers, one after the other")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->capture_default_str();
+  command->add_option("--by-current", options->by_current,
+                      "parameters that are polynomials in the drive, e.g. alpha:1");
+  command->add_option("--budget", options->budget, "evaluations each solver may use")
+      ->check(CLI::Range(std::size_t{1}, std::size_t{1000000000}))
+      ->capture_default_str();
+  command->add_flag("--json", options->json, "JSON on standard output");
+  add_common_options(*command, options->common);
+  command->footer(
+      "Examples:\n"
+      "  hysteron profile\n"
+      "  hysteron profile recordings/ --model bouc-wen,lugre --solver pso,multistart-lm --budget 5000");
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace hysteron::app
