@@ -45,11 +45,12 @@ int run(int count, char** arguments) {
                   "library with models, effects or solvers of your own, see docs/plugins.md; repeatable")
       ->allow_extra_args(false);
   program.footer(
-      "Examples:\n"
-      "  hysteron generate rd8040-twin --out twin\n"
-      "  hysteron fit twin --model modified-bouc-wen --effects offset-force --by-current alpha:2,c0:2 --out out\n"
-      "  hysteron score out/model.json twin\n"
-      "Every command has its own --help.");
+      "First steps, with data that ship with the program:\n"
+      "  hysteron generate rd8040-twin --only 2.0Hz --out twin\n"
+      "  hysteron fit twin --model bouc-wen --by-current alpha:2,c0:2 --out out\n"
+      "  hysteron diagnose twin --model bouc-wen --by-current alpha:2,c0:2 --out diagnosis\n"
+      "The last two write report.html, a page to open. With recordings of your own, a folder of CSV files takes the place\n"
+      "of twin. Every command has its own --help, with examples.");
   // Of several processes with one command line the first speaks.
   const auto started = launched();
   const auto complain = [&](const std::string& message) {
@@ -70,6 +71,7 @@ int run(int count, char** arguments) {
   app::add_merge(program);
   app::add_reproduce(program);
   app::add_profile(program);
+  app::add_manual(program);
   try {
     load_plugins(count, arguments);
     program.parse(count, arguments);
