@@ -2,6 +2,7 @@
 
 #include <omp.h>
 
+#include <algorithm>
 #include <atomic>
 #include <exception>
 #include <mutex>
@@ -70,7 +71,11 @@ HYSTERON_NOT_WATCHED void run_team(std::size_t count, int threads, Loop& loop) {
 
 }  // namespace
 
-int team_size(int threads) { return threads > 0 ? threads : omp_get_max_threads(); }
+// As many as --threads allows. The OpenMP library keeps what it knows of a team on the stack, which a slip in
+// OMP_NUM_THREADS would overflow.
+constexpr int most_threads = 1024;
+
+int team_size(int threads) { return std::min(threads > 0 ? threads : omp_get_max_threads(), most_threads); }
 
 void parallel_for(std::size_t count, int threads, const std::function<void(std::size_t)>& body) {
   Loop loop{body};

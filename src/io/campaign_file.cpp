@@ -64,6 +64,9 @@ class CampaignParser : private TomlReader {
         fail(*file, "'file' is " + in_quotes(path.string()) + ", expected a name relative to the folder");
       }
       entry.file = path.lexically_normal().generic_string();
+      if (entry.file == ".." || entry.file.starts_with("../")) {
+        fail(*file, "'file' is " + in_quotes(path.string()) + ", which leaves the folder, expected a name inside it");
+      }
       if (!seen.insert(entry.file).second) {
         fail(*file, "recording " + in_quotes(entry.file) + " is listed twice, expected each once");
       }

@@ -1,8 +1,12 @@
 #include "plugin/plugin.hpp"
 
 #include <dlfcn.h>
+#include <elf.h>
 
+#include <array>
+#include <cstring>
 #include <filesystem>
+#include <fstream>
 
 #include "core/error.hpp"
 
@@ -22,11 +26,38 @@ void check_free(const std::string& path, const char* kind, std::string_view id) 
   }
 }
 
+template <class T>
+bool read_at(std::ifstream& file, std::uint64_t at, T& value) {
+  file.seekg(static_cast<std::streamoff>(at));
+  return static_cast<bool>(file.read(reinterpret_cast<char*>(&value), sizeof value));
+}
+
+// The loader maps what the headers name; what is behind the end of the file ends the program at the first touch.
+bool is_complete(const std::string& path) {
+  std::error_code code;
+  const std::uint64_t size = std::filesystem::file_size(path, code);
+  std::ifstream file(path, std::ios::binary);
+  Elf64_Ehdr head{};
+  if (code || !read_at(file, 0, head) || std::memcmp(head.e_ident, ELFMAG, SELFMAG) != 0) return false;
+  if (head.e_ident[EI_CLASS] != ELFCLASS64 || head.e_phentsize != sizeof(Elf64_Phdr)) return false;
+  const std::uint64_t sections = std::uint64_t{head.e_shnum} * head.e_shentsize;
+  if (head.e_shoff > size || sections > size - head.e_shoff) return false;
+  for (std::uint64_t k = 0; k < head.e_phnum; ++k) {
+    Elf64_Phdr part{};
+    if (head.e_phoff > size || !read_at(file, head.e_phoff + k * sizeof part, part)) return false;
+    if (part.p_offset > size || part.p_filesz > size - part.p_offset) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 void load_plugin(const std::string& path) {
   if (!std::filesystem::exists(path)) {
     throw InputError(path + ": no such file, expected a plugin library");
+  }
+  if (!std::filesystem::is_regular_file(path) || !is_complete(path)) {
+    throw InputError(path + ": cannot be loaded (no complete library), expected a plugin library");
   }
   // With a slash, so that the loader takes the file and does not search for it.
   void* library = dlopen(std::filesystem::absolute(path).c_str(), RTLD_NOW | RTLD_LOCAL);

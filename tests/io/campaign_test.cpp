@@ -100,6 +100,10 @@ TEST(Campaign, WrongTomlIsOneClearLine) {
        ":3: there is no recording 'r9.csv' in the folder, expected a CSV or MAT file"},
       {"absolute file", schema + "[[recording]]\nfile = \"/r1.csv\"\n",
        ":3: 'file' is '/r1.csv', expected a name relative to the folder"},
+      {"file outside", schema + "[[recording]]\nfile = \"../r1.csv\"\n",
+       ":3: 'file' is '../r1.csv', which leaves the folder, expected a name inside it"},
+      {"file outside by a detour", schema + "[[recording]]\nfile = \"a/../../r1.csv\"\n",
+       ":3: 'file' is 'a/../../r1.csv', which leaves the folder, expected a name inside it"},
       {"listed twice", schema + "[[recording]]\nfile = \"r1.csv\"\n[[recording]]\nfile = \"./r1.csv\"\n",
        ":5: recording 'r1.csv' is listed twice, expected each once"},
   };
