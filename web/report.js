@@ -37,7 +37,7 @@ function svgNode(markup) {
 // Tables too wide for a phone stand there as one block a row, each cell beside its column's title.
 const stacked = (columns) => (columns.length > 3 ? "stack" : null);
 
-// columns: {title, num, head (cell is the row's header)}; cells are text or nodes.
+// columns: {title, num, pair (two numbers, which may stand below one another), head (cell is the row's header)}; cells are text or nodes.
 function plainTable(caption, columns, rows) {
   return el("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": caption },
     el("table", { class: stacked(columns) }, el("caption", {}, el("span", {}, caption)),
@@ -45,7 +45,7 @@ function plainTable(caption, columns, rows) {
       el("tbody", {}, rows.map((cells) => el("tr", {}, cells.map((cell, i) =>
         el(columns[i].head ? "th" : "td", {
           scope: columns[i].head ? "row" : null,
-          class: columns[i].num ? "num" : columns[i].nowrap ? "nowrap" : columns[i].text ? "text" : null,
+          class: columns[i].pair ? "num pair" : columns[i].num ? "num" : columns[i].nowrap ? "nowrap" : columns[i].text ? "text" : null,
           "data-title": columns[i].head ? null : columns[i].title,
         }, cell)))))));
 }
@@ -188,7 +188,7 @@ function curves(r) {
 
 function legend(withResidual) {
   const item = (cls, text, dashed) => el("li", {}, el("i", { style: `border-color:var(--${cls});border-top-style:${dashed ? "dashed" : "solid"}` }), text);
-  return el("ul", { class: "legend" }, item("measured", "measured"), item("simulated", hasBaseline ? "simulated, with the effects found" : "simulated"),
+  return el("ul", { class: "legend" }, item("measured", "measured"), item("simulated", hasBaseline ? "simulated, augmented model" : "simulated"),
     hasBaseline ? item("baseline", "simulated, base model", true) : null,
     withResidual && !hasBaseline ? item("residual", "residual, measured − simulated") : null);
 }
@@ -609,8 +609,8 @@ function parameterRemarks(p) {
 function modelSection() {
   const model = report.model || {};
   const columns = [{ title: "Parameter", head: true }, { title: "Meaning and remarks", text: true }, { title: "Value", num: true }, { title: "Unit", nowrap: true },
-    { title: "Std. error", num: true }, { title: "95 % interval", num: true }, { title: "Bounds", num: true }, { title: "Within bounds" }];
-  const interval = (pair, text) => (Array.isArray(pair) && pair.some(isNumber) ? `${text(pair[0])} … ${text(pair[1])}` : "–");
+    { title: "Std. error", num: true }, { title: "95 % interval", num: true, pair: true }, { title: "Bounds", num: true, pair: true }, { title: "Within bounds" }];
+  const interval = (pair, text) => (Array.isArray(pair) && pair.some(isNumber) ? `${text(pair[0])}\u00a0… ${text(pair[1])}`.replace(/ × /g, "\u00a0×\u00a0") : "–");
   const rows = parameters.map((p) => [
     p.symbol && p.symbol !== p.name ? el("span", {}, el("code", {}, printedTerm(p)), ` ${p.symbol}`) : el("code", {}, printedTerm(p)),
     el("span", {}, p.meaning || "", " ", parameterRemarks(p)),
@@ -758,52 +758,152 @@ const verdictWords = {
   ambiguous: "Ambiguous: something is missing, and these data cannot tell the candidates apart.",
   unattributed: "Unattributed: something is missing that no known effect explains.",
 };
+const grades = [["established", "Established", "confidence from 95 %"], ["supported", "Supported", "confidence from 80 %"], ["suggested", "Suggested, not named", "confidence from 50 %"]];
+const share = (v) => Math.max(0, Math.min(1, v));
 const percent = (v) => (isNumber(v) ? `${fmt(100 * v, 3)} %` : "–");
+const rounded = (v) => (isNumber(v) ? `${(100 * v).toFixed(0)} %` : "–");
+const significant = (v, digits) => fmt(Number(v.toPrecision(digits)), digits);
+const unitText = (unit) => printedUnit(unit).replace(/\^(-?\d+)/g, (_, power) => superscript(power));
+const withError = (c) => `${significant(c.value, 3)} ± ${significant(c.std_error, 1)}${c.unit === "1" ? "" : `\u00a0${unitText(c.unit)}`}`;
+const sameSign = (c) => `${Math.round(c.consistency * c.recordings)} of ${c.recordings}`;
+const capital = (text) => text.charAt(0).toUpperCase() + text.slice(1);
+const zOf = (score) => (score && score.std_error > 0 ? score.mean / score.std_error : null);
+// The signature contrast shows an effect at two standard errors in its sense, beyond 95 % of the placebos.
+const shows = (c) => c.z_for >= 2 && c.placebo_quantile >= 0.95;
 
 function diagnosisSection() {
   const d = report.diagnosis;
   if (!d || typeof d !== "object") return null;
   const base = d.baseline || {};
+  const augmented = d.augmented || {};
+  const named = [...list(d.effects), ...list(d.suggestions)];
   const parts = [];
-  const nrmse = [["Base model", base.nrmse_fit, base.nrmse_heldout]];
-  if (d.augmented) nrmse.push(["With the effects found", d.augmented.nrmse_fit, d.augmented.nrmse_heldout]);
+  for (const [grade, heading, from] of grades) {
+    const rows = named.filter((e) => (e.grade || "established") === grade);
+    if (rows.length) parts.push(el("h3", {}, heading, el("span", { class: "muted" }, ` (${from})`)), rows.map((e) => effectBlock(e, d)));
+  }
+  const shapes = list(augmented.effects).filter((id) => !named.some((e) => e.id === id));
+  if (shapes.length) parts.push(el("p", {}, "The augmented model also holds ", shapes.map((id, i) => [i ? ", " : "", el("code", {}, id)]), ": a shape that predicts better, not offered as a cause."));
+  const nrmse = [[`Base model, ${base.model || ""}`, base.nrmse_fit, base.nrmse_heldout]];
+  if (d.augmented) nrmse.push([augmented.model && augmented.model !== base.model ? `Augmented model, ${augmented.model}` : "Augmented model", augmented.nrmse_fit, augmented.nrmse_heldout]);
   if (isNumber(base.noise_floor_nrmse)) nrmse.push(["Noise floor of the recordings", base.noise_floor_nrmse, base.noise_floor_heldout_nrmse ?? null]);
-  parts.push(plainTable("NRMSE before and after", [{ title: "", head: true }, { title: "Fitted recordings", num: true }, { title: "Held-out recordings", num: true }],
+  parts.push(el("h3", {}, "Error before and after"), plainTable("NRMSE of the base and the augmented model", [{ title: "", head: true }, { title: "Fitted recordings", num: true }, { title: "Held-out recordings", num: true }],
     nrmse.map(([name, a, b]) => [name, fmt(a, 3), fmt(b, 3)])));
-  if (d.augmented && d.augmented.remaining_structure) parts.push(el("p", {}, list(d.effects).length ? "The residual still holds structure: the effects named are not the whole story." : "The residual still holds structure."));
-  for (const e of list(d.effects)) {
-    const before = isNumber(e.nrmse_heldout_before) && isNumber(e.nrmse_heldout_after)
-      ? `Held-out NRMSE ${fmt(e.nrmse_heldout_before, 3)} → ${fmt(e.nrmse_heldout_after, 3)}. ` : "";
-    parts.push(el("div", { class: "effect" },
-      el("h3", {}, el("code", {}, e.id), isNumber(e.confidence) ? `, confidence ${fmt(e.confidence, 3)}` : ""),
-      e.sentence ? el("p", {}, prose(e.sentence)) : null,
-      el("p", { class: "muted" }, before, isNumber(e.share_of_misfit) ? `Explains ${percent(e.share_of_misfit)} of the misfit. ` : "",
-        list(e.indistinguishable_from).length ? `Not distinguishable from ${e.indistinguishable_from.join(", ")} with these data.` : ""),
-      list(e.parameters).length ? plainTable(`Parameters of ${e.id}`, [{ title: "Parameter", head: true }, { title: "Value", num: true }, { title: "95 % interval", num: true }, { title: "Unit" }],
-        e.parameters.map((p) => [p.name, fmt(p.value, 4), Array.isArray(p.ci95) ? `${fmt(p.ci95[0], 3)} … ${fmt(p.ci95[1], 3)}` : "–", p.unit || "–"])) : null));
-  }
-  if (list(d.locations).length) {
-    parts.push(el("h3", {}, "Where the misfit lives"), plainTable("Share of the misfit against share of the samples",
-      [{ title: "Where", head: true }, { title: "Variable" }, { title: "From", num: true }, { title: "To", num: true }, { title: "Unit" }, { title: "Share of misfit", num: true }, { title: "Share of samples", num: true }, { title: "Recordings" }],
-      d.locations.map((l) => [l.where || "", l.variable || "", fmt(l.from, 3), fmt(l.to, 3), l.unit || "–", percent(l.share_of_misfit), percent(l.share_of_samples), list(l.recordings).join(", ")])));
-  }
-  parts.push(residualMaps(), evidenceTables(d.evidence), driftCharts(d.drift));
-  if (list(d.notes).length) parts.push(el("h3", {}, "Remarks"), el("ul", {}, d.notes.map((n) => el("li", {}, n))));
+  if (isNumber(d.unknown_share) && d.verdict !== "complete") parts.push(el("p", {}, `${rounded(d.unknown_share)} of the misfit beyond the noise is explained by nothing named or suggested.`));
+  parts.push(placesTable("Where the misfit of the base model sits", d.locations), placesTable("Where the misfit of the augmented model sits", augmented.locations));
+  parts.push(contenderTables(d), contrastTable(d.evidence), lawsTable(d.evidence), residualMaps(), driftCharts(d.drift));
+  if (list(d.notes).length) parts.push(el("h3", {}, "Remarks"), el("ul", {}, d.notes.map((n) => el("li", {}, prose(n)))));
   if (list(d.rejected).length) {
     // Many effects share a reason: a row a reason, not an effect.
     const reasons = [...new Set(d.rejected.map((x) => x.reason || ""))];
-    const named = (x) => [el("code", { class: "nowrap" }, x.id), isNumber(x.p) ? ` (${fmt(x.p, 2)})` : ""];
-    parts.push(el("h3", {}, "Examined and rejected"), plainTable("Effects tested and not named; in brackets the p value of each alone",
+    parts.push(el("h3", {}, "Examined and not named"), plainTable("Effects that were tried, with the reason why none is named",
       [{ title: "Reason", head: true }, { title: "Effects" }],
-      reasons.map((reason) => [prose(reason), el("span", {}, d.rejected.filter((x) => (x.reason || "") === reason).flatMap((x, i) => [i ? ", " : "", ...named(x)]))])));
+      reasons.map((reason) => [prose(reason), el("span", {}, d.rejected.filter((x) => (x.reason || "") === reason).flatMap((x, i) => [i ? ", " : "", el("code", { class: "nowrap" }, x.id)]))])));
   }
   if (list(d.not_observable).length) {
     parts.push(el("h3", {}, "Not observable in these data"), plainTable("Effects these recordings could not have shown", [{ title: "Effect", head: true }, { title: "Why, or the smallest size that would show" }],
       d.not_observable.map((x) => [x.id, prose(x.reason || x.detection_limit || "")])));
   }
   parts.push(aliasMap(d.alias_map));
-  if (d.next_experiment) parts.push(el("h3", {}, "Next experiment"), el("p", {}, d.next_experiment));
   return section("diagnosis", "Diagnosis", ...parts);
+}
+
+// What is named or suggested: what it is and how sure, then what speaks for and against it.
+function effectBlock(e, d) {
+  const candidate = list(d.evidence && d.evidence.candidates).find((c) => c.id === (e.in_place_of || e.id));
+  const c = e.contrast;
+  const facts = [];
+  const add = (name, ...value) => facts.push(el("dt", {}, name), el("dd", {}, ...value));
+  if (c === null) {
+    add("Signature contrast", "None can be taken from these recordings.");
+  } else if (c) {
+    add("Signature contrast", `${capital(c.what)}: ${withError(c)}; z ${fmt(c.z, 2)}, beyond ${percent(c.placebo_quantile)} of the placebos, the same sign in ${sameSign(c)} recordings`,
+      shows(c) ? "." : ". Not enough to show this effect by itself.");
+  }
+  if (!e.in_place_of && candidate) {
+    const rival = list(candidate.contenders).filter((r) => !r.law && !(r.holds_the_candidate && !r.apart) && !list(e.indistinguishable_from).includes(r.id)).sort((a, b) => b.share - a.share)[0];
+    if (rival) add("Nearest rival", el("code", {}, rival.id), ` explains ${rounded(share(rival.share))} of its gain in its place${rival.refitted ? "" : ", to first order"}.`);
+    if (list(e.behind_other_laws).length) add("Behind other laws", `Keeps ${e.behind_other_laws.map((k) => `${rounded(share(k.share_of_gain))} of its gain behind ${k.model}`).join(", ")}.`);
+    if (isNumber(e.robustness_value)) add("Robustness value", `${fmt(e.robustness_value, 2)}: to explain it away, unmodelled physics would have to explain ${rounded(e.robustness_value)} of what stays and share ${rounded(e.robustness_value)} of its shape.`);
+  }
+  const alike = list(e.indistinguishable_from);
+  if (alike.length) add("Not distinguishable from", alike.map((id, i) => [i ? ", " : "", el("code", {}, id)]), isNumber(e.confidence_alone) ? `; the confidence that it is this one is ${rounded(e.confidence_alone)}.` : ".");
+  if (isNumber(e.share_of_misfit)) add("Share of the misfit", `${rounded(e.share_of_misfit)}; held-out NRMSE ${fmt(e.nrmse_heldout_before, 3)} without it, ${fmt(e.nrmse_heldout_after, 3)} with it.`);
+  return el("div", { class: `effect ${e.grade || ""}` },
+    el("h4", {}, e.in_place_of ? "or " : "", el("code", {}, e.id), isNumber(e.confidence) ? `, confidence ${rounded(e.confidence)}${list(e.indistinguishable_from).length ? ` that it is this or ${e.indistinguishable_from.join(" or ")}` : ""}` : "", e.family ? el("span", { class: "muted" }, `, family ${e.family}`) : ""),
+    e.sentence ? el("p", {}, prose(e.sentence)) : null,
+    list(e.parameters).length ? plainTable(`Parameters of ${e.id}`, [{ title: "Parameter", head: true }, { title: "Value", num: true }, { title: "95 % interval", num: true }, { title: "Unit" }],
+      e.parameters.map((p) => [p.name, fmt(p.value, 4), Array.isArray(p.ci95) ? `${fmt(p.ci95[0], 3)} … ${fmt(p.ci95[1], 3)}` : "–", unitText(p.unit)])) : null,
+    el("dl", { class: "facts" }, facts), c ? contrastPlot(c) : null);
+}
+
+// The contrast of each recording as a dot, all together as the band of two standard errors.
+function contrastPlot(c) {
+  const rows = list(c.of_recordings).filter((r) => isNumber(r.value));
+  if (rows.length < 2) return null;
+  const [pitch, top, left, right, width] = [17, 6, 112, 12, 360];
+  const height = top + pitch * rows.length + 34;
+  const low = c.value - 2 * c.std_error;
+  const high = c.value + 2 * c.std_error;
+  const [lo, hi] = padded(extent([rows.map((r) => r.value), [0, low, high]]));
+  const at = (v) => (left + ((v - lo) / (hi - lo)) * (width - left - right)).toFixed(1);
+  const bottom = top + pitch * rows.length;
+  const cut = (name) => (name.length > 16 ? `…${name.slice(-15)}` : name);
+  const marks = [
+    `<rect class="band" x="${at(low)}" y="${top}" width="${Math.max(1, at(high) - at(low)).toFixed(1)}" height="${bottom - top}"/>`,
+    ...linearTicks(lo, hi, 3).map(([v, text]) => `<path class="grid${v === 0 ? " zero" : ""}" d="M${at(v)} ${top}V${bottom}"/><text class="tick" x="${at(v)}" y="${bottom + 14}" text-anchor="middle">${esc(text)}</text>`),
+    ...rows.map((r, k) => `<text x="${left - 8}" y="${top + (k + 0.5) * pitch}" dy="0.35em" text-anchor="end">${esc(cut(r.file))}</text><circle class="dot" cx="${at(r.value)}" cy="${top + (k + 0.5) * pitch}" r="3.5"><title>${esc(r.file)}: ${fmt(r.value, 3)}</title></circle>`),
+    `<text class="tick" x="${(left + width - right) / 2}" y="${height - 4}" text-anchor="middle">${esc(c.unit === "1" ? "share" : unitText(c.unit))}</text>`,
+  ];
+  return el("figure", { class: "plot contrast" }, el("figcaption", {}, `${capital(c.what)}, by recording; band: all together ± 2 standard errors`),
+    svgNode(`<svg viewBox="0 0 ${width} ${height}" role="img" aria-label="${esc(`${c.what} by recording`)}">${marks.join("")}</svg>`));
+}
+
+function placesTable(title, places) {
+  if (!list(places).length) return null;
+  return [el("h3", {}, title), plainTable("Share of the misfit against share of the samples",
+    [{ title: "Where", head: true }, { title: "Variable" }, { title: "From", num: true }, { title: "To", num: true }, { title: "Unit" }, { title: "Share of misfit", num: true }, { title: "Share of samples", num: true }, { title: "Recordings" }],
+    places.map((l) => [l.where || "", l.variable || "", fmt(l.from, 3), fmt(l.to, 3), l.unit || "–", percent(l.share_of_misfit), percent(l.share_of_samples), list(l.recordings).join(", ")]))];
+}
+
+// What was set in the place of each effect of the augmented model.
+function contenderTables(d) {
+  const candidates = list(d.evidence && d.evidence.candidates).filter((c) => list(c.contenders).length);
+  if (!candidates.length) return null;
+  const remark = (r) => [r.law ? "richer dependence on the drive" : r.kin ? "related effect" : "",
+    r.holds_the_candidate ? "holds it as a limit" : "", r.held_by_the_candidate ? "is a limit of it" : "", r.ended_as ? "it ends as this" : ""].filter(Boolean).join(", ");
+  return [
+    el("h3", {}, "Contenders"),
+    el("p", { class: "muted" }, "What else would explain of the gain of each effect of the augmented model, in its place. The block score compares both on recordings left out in turn: above 2 the effect predicts them better, below −2 the contender does. Shares to first order are of contenders that were not refitted."),
+    candidates.map((c) => plainTable(`In the place of ${c.id}: block score z of the model with it over the model without it ${fmt(zOf(c.score), 2)}`,
+      [{ title: "Contender", head: true }, { title: "Share of its gain", num: true }, { title: "How" }, { title: "Block score z", num: true }, { title: "Remark" }],
+      [...c.contenders].sort((a, b) => b.share - a.share).slice(0, 8).map((r) => [r.law ? r.id.replace(/^law:/, "") : r.id, rounded(share(r.share)), r.refitted ? "refitted" : "first order",
+        r.behind && r.behind.clusters ? fmt(zOf(r.behind), 2) : "–", remark(r) || "–"]))),
+  ];
+}
+
+function contrastTable(evidence) {
+  const rows = list(evidence && evidence.signatures);
+  if (!rows.length) return null;
+  return [
+    el("h3", {}, "Signature contrasts"),
+    el("p", { class: "muted" }, "What only one mechanism does to the force, read off the residual of the base model without fitting. z is the value over its standard error; the placebo quantile is the share of placebos, the same residual moved against the motion, that are smaller."),
+    plainTable("Strongest first", [{ title: "Contrast", head: true }, { title: "Value ± standard error", num: true }, { title: "z", num: true }, { title: "Placebo quantile", num: true }, { title: "Same sign in recordings", num: true }, { title: "Speaks for" }],
+      [...rows].sort((a, b) => Math.abs(b.z) - Math.abs(a.z)).map((c) => [c.what, withError(c), fmt(c.z, 2), percent(c.placebo_quantile), sameSign(c),
+        list(c.speaks_for).map((id, i) => `${id}${c.sign[i] === 0 ? "" : c.sign[i] > 0 ? " (above 0)" : " (below 0)"}`).join(", ")])),
+  ];
+}
+
+function lawsTable(evidence) {
+  const rows = list(evidence && evidence.other_laws);
+  if (!rows.length || !isNumber(evidence.base_compared)) return null;
+  const root = (squares) => fmt(Math.sqrt(squares), 3);
+  return [
+    el("h3", {}, "Other laws without effects"),
+    plainTable("NRMSE on the recordings and samples that hypotheses are compared on", [{ title: "Law", head: true }, { title: "NRMSE", num: true }, { title: "Has the effects of its own" }],
+      [[`${evidence.model} (base)`, root(evidence.base_compared), "–"], [`${evidence.model}, augmented`, root(evidence.augmented_compared), "–"],
+        ...rows.map((r) => [r.model, root(r.squares), r.has_what_was_found ? "yes" : "no"])]),
+  ];
 }
 
 // Which effects look alike in these recordings: |cosine| of what they add to the force. Each stands beside the one of
@@ -833,11 +933,11 @@ function aliasMap(map) {
   ];
 }
 
-// What is left, of the base model and with the effects found: over displacement and velocity, and since reversal.
+// What is left, of the base model and of the augmented model: over displacement and velocity, and since reversal.
 // Residuals are shares of the largest force of their recording, so that all recordings speak together.
 
 const twoLegend = () => el("ul", { class: "legend" },
-  [["baseline", "base model", "dashed"], ["simulated", "with the effects found", "solid"]].map(([cls, text, style]) =>
+  [["baseline", "base model", "dashed"], ["simulated", "augmented model", "solid"]].map(([cls, text, style]) =>
     el("li", {}, el("i", { style: `border-color:var(--${cls});border-top-style:${style}` }), text)));
 const peakOf = (r) => Math.max(...extent([r.force_n]).map(Math.abs)) || 1;
 
@@ -902,7 +1002,7 @@ function residualMaps() {
   const bin = (v, [lo, hi], count) => Math.min(count - 1, Math.max(0, Math.floor(((v - lo) / (hi - lo || 1)) * count)));
   const place = (r, i) => (isNumber(r.displacement_mm[i]) && isNumber(r.velocity_mm_s[i])
     ? bin(r.velocity_mm_s[i], yRange, rows) * columns + bin(r.displacement_mm[i], xRange, columns) : null);
-  const lefts = [["Base model", new Map(recordings.map((r) => [r, baselineResidual(r)]))], ["With the effects found", new Map(recordings.map((r) => [r, residual(r)]))]];
+  const lefts = [["Base model", new Map(recordings.map((r) => [r, baselineResidual(r)]))], ["Augmented model", new Map(recordings.map((r) => [r, residual(r)]))]];
   const peak = new Map(recordings.map((r) => [r, peakOf(r)]));
   const share = (left) => (r, i) => (left.get(r)[i] === null ? null : left.get(r)[i] / peak.get(r));
   const grids = lefts.map(([, left]) => meanOnGrid(columns, rows, place, share(left)));
@@ -929,21 +1029,6 @@ function residualMaps() {
       width: Math.max(320, Math.min(780, root.clientWidth - 40)), height: 240, margin: [6, 10, 36, 52], title: "Mean residual against distance since reversal",
       x: { label: "Distance since reversal [mm]", range: [0, reach] }, y: { label: "Mean residual [%]", range: padded(extent(along)) },
       series: [{ x: middles, y: along[0], cls: "baseline" }, { x: middles, y: along[1], cls: "simulated" }] }))),
-  ];
-}
-
-function evidenceTables(evidence) {
-  const found = list(evidence && evidence.found);
-  if (!found.length) return null;
-  const titles = [{ title: "In its place", head: true }, { title: "Explains of its gain", num: true }, { title: "Evidence against it", num: true }];
-  const trials = list(evidence.trials);
-  return [
-    el("h3", {}, "Evidence, and what would do in its place"),
-    el("p", { class: "muted" }, "Evidence is the gain of the Bayesian information criterion with the number of independent values; ten is strong. A share near 100 % means the recordings hardly tell the two apart."),
-    found.map((f) => plainTable(`${f.id}: without it the fitted NRMSE is ${fmt(f.nrmse_fit_without, 3)}; evidence for it ${fmt(f.evidence, 3)}`, titles,
-      list(f.rivals).slice(0, 8).map((r) => [r.id.startsWith("law:") ? `richer dependence of ${r.id.slice(4)} on the drive` : r.id, percent(Math.max(0, Math.min(1, r.share_of_gain))), fmt(r.evidence, 3)]))),
-    trials.length ? plainTable("Whether the strongest is needed under other assumptions too", [{ title: "Effect", head: true }, { title: "Under" }, { title: "Keeps of its gain", num: true }, { title: "Evidence", num: true }],
-      trials.map((t) => [t.id, t.under, percent(Math.max(0, Math.min(1, t.share_of_gain))), fmt(t.evidence, 3)])) : null,
   ];
 }
 
@@ -998,15 +1083,23 @@ function provenanceSection() {
 
 // ------------------------------------------------------------------------------------------------------------------ page
 
+// The paragraph of a diagnosis, what is missing first and the next recording last. A record without one has its verdict
+// and names told.
+function summaryLines() {
+  const d = report.diagnosis;
+  const sentences = list(d && d.summary);
+  if (report.verdict || !d || !d.verdict) return el("p", { class: "verdict" }, verdictLine());
+  if (!sentences.length) {
+    const told = list(d.effects).length ? `${d.verdict === "ambiguous" ? "Candidates" : "Named"}: ${d.effects.map((e) => e.id).join(", ")}.` : "";
+    return [el("p", { class: "verdict" }, `${verdictWords[d.verdict] || d.verdict} ${told}`),
+      d.next_experiment ? el("p", { class: "verdict" }, `Next recording: ${d.next_experiment}.`) : null];
+  }
+  return [el("p", { class: "verdict" }, el("strong", {}, prose(sentences[0])), " ", prose(sentences.slice(1, -1).join(" "))),
+    el("p", { class: "verdict" }, prose(sentences[sentences.length - 1]))];
+}
+
 function verdictLine() {
   if (report.verdict) return report.verdict;
-  const d = report.diagnosis;
-  if (d && d.verdict) {
-    // One effect is told in its own sentence; several are named here and told below.
-    const found = list(d.effects);
-    const told = found.length === 1 ? prose(found[0].sentence || found[0].id) : found.length ? `${d.verdict === "ambiguous" ? "Candidates" : "Found"}: ${found.map((e) => e.id).join(", ")}.` : "";
-    return `${verdictWords[d.verdict] || d.verdict} ${told}`;
-  }
   const held = recordings.filter((r) => r.role === "validate").length;
   const checked = recordings.filter((r) => r.role === "checked").length;
   const fitted = recordings.length - held;
@@ -1033,7 +1126,7 @@ function page() {
   const warnings = list(report.warnings);
   document.getElementById("content").replaceChildren(
     el("header", {}, el("h1", {}, report.title || "Hysteron report"), report.subtitle ? el("p", { class: "subtitle" }, report.subtitle) : "",
-      el("p", { class: "verdict" }, verdictLine()),
+      summaryLines(),
       el("dl", { class: "tiles" }, list(report.summary).map((t) => el("div", { class: "tile" }, el("dt", {}, t.label),
         el("dd", {}, el("div", { class: "value" }, String(t.value)), t.note ? el("div", { class: "note" }, t.note) : "")))),
       warnings.length ? el("div", { class: "warning", role: "note", "aria-label": "Warnings" }, el("strong", {}, warnings.length === 1 ? "Warning" : "Warnings"),
