@@ -1,6 +1,6 @@
 // Learns the tables that grades are read from (src/diagnose/judge/table_data.cpp) from diagnosed challenges:
 //
-//   hysteron_learn_grades FOLDER... [--out table_data.cpp] [--judge FOLDER...] [--list]
+//   hysteron_learn_grades FOLDER... [--out src/diagnose/judge/table_data.cpp] [--page results/grades.md] [--list]
 //
 // FOLDER is an --out of `hysteron challenge`, diagnosed. Three logistic functions with weights that are never negative
 // are fitted: that a name of the augmented model is in the truth, that it or one that does as well in its place is,
@@ -50,6 +50,7 @@ struct Row {
   std::string campaign;
   std::string level;
   std::string id;
+  std::string truth;
 };
 
 struct Rows {
@@ -97,9 +98,11 @@ void read(const std::filesystem::path& folder, Rows& rows) {
       const std::string id = effect.at("id");
       detectable = detectable || effect.at("detectability").get<double>() >= hysteron::challenge::detectable_from;
       if (effect.at("foreign").get<bool>()) {
+        row.truth += " " + id;
         row.parts.insert(part_of(id));
       } else {
         truth.insert(id);
+        row.truth += " " + id;
         row.parts.insert(part_of(effect.value("form", id)));
       }
     }
@@ -232,55 +235,92 @@ std::vector<Step> steps_of(const std::vector<Row>& rows, const std::vector<doubl
   return steps;
 }
 
-template <class Features>
-std::string table_text(const std::string& name, const std::vector<Row>& rows, const Features& features) {
+// A table with what it was learned from.
+struct Learned {
+  std::string name;
+  std::string of;  // in words
+  Logistic logistic;
+  std::vector<Step> steps;
+  std::size_t rows = 0;
+  std::size_t right = 0;
+  std::map<std::string, std::array<std::size_t, 3>> levels;  // right ones, let through and right, let through and wrong
+};
+
+// The probability of the step a score falls in.
+double stepped(const std::vector<Step>& steps, double score) {
+  double result = steps.front().probability();
+  for (const Step& step : steps) {
+    if (score >= step.score) {
+      result = step.probability();
+    }
+  }
+  return result;
+}
+
+Learned learned_table(const std::string& name, const std::string& of, const std::vector<Row>& rows) {
   std::vector<const Row*> all;
   for (const Row& row : rows) {
     all.push_back(&row);
   }
-  const Logistic logistic = learned(all);
+  Learned result{name, of, learned(all), {}, rows.size(), 0, {}};
   const std::vector<double> scores = unseen_scores(rows);
-  const std::vector<Step> steps = steps_of(rows, scores);
-  fmt::print("\n{}: {} rows, {} right\n", name, rows.size(), std::ranges::count_if(rows, &Row::right));
-  for (std::size_t k = 0; k < features.size(); ++k) {
-    fmt::print("  {:<18} {:8.3f}\n", features[k].name, logistic.weights[static_cast<Eigen::Index>(k)]);
-  }
-  for (const Step& step : steps) {
-    fmt::print("  score {:7.2f}: {:3.0f} of {:3.0f}\n", step.score, step.right, step.count);
-  }
-  std::size_t let_through = 0;
-  std::size_t wrong = 0;
-  std::size_t right = 0;
+  result.steps = steps_of(rows, scores);
   for (std::size_t k = 0; k < rows.size(); ++k) {
-    right += rows[k].right ? 1 : 0;
-    for (const Step& step : steps) {
-      if (step.probability() >= hysteron::supported_from && scores[k] >= step.score) {
-        ++let_through;
-        wrong += rows[k].right ? 0 : 1;
-        break;
-      }
+    std::array<std::size_t, 3>& level = result.levels[rows[k].level];
+    result.right += rows[k].right ? 1 : 0;
+    level[0] += rows[k].right ? 1 : 0;
+    if (stepped(result.steps, scores[k]) >= hysteron::supported_from) {
+      ++level[rows[k].right ? 1 : 2];
     }
   }
-  fmt::print("  supported or better on forms left out: {} of {} right ones, {} wrong\n", let_through - wrong, right,
-             wrong);
-  std::string text = fmt::format("constexpr double {}_weights[] = {{", name);
-  for (Eigen::Index k = 0; k < logistic.weights.size(); ++k) {
-    text += fmt::format("{}{:.4g}", k == 0 ? "" : ", ", logistic.weights[k]);
+  return result;
+}
+
+std::string source_of(const Learned& table) {
+  std::string text = fmt::format("constexpr double {}_weights[] = {{", table.name);
+  for (Eigen::Index k = 0; k < table.logistic.weights.size(); ++k) {
+    text += fmt::format("{}{:.4g}", k == 0 ? "" : ", ", table.logistic.weights[k]);
   }
-  text += fmt::format("}};\nconstexpr Knot {}_knots[] = {{", name);
-  for (std::size_t k = 0; k < steps.size(); ++k) {
-    text += fmt::format("{}{{{:.4g}, {:.4g}}}", k == 0 ? "" : ", ", steps[k].score, steps[k].probability());
+  text += fmt::format("}};\nconstexpr Knot {}_knots[] = {{", table.name);
+  for (std::size_t k = 0; k < table.steps.size(); ++k) {
+    text += fmt::format("{}{{{:.4g}, {:.4g}}}", k == 0 ? "" : ", ", table.steps[k].score, table.steps[k].probability());
   }
-  return text + fmt::format("}};\nconstexpr double {}_intercept = {:.5g};\n", name, logistic.intercept);
+  return text + fmt::format("}};\nconstexpr double {}_intercept = {:.5g};\n", table.name, table.logistic.intercept);
+}
+
+template <class Features>
+std::string page_of(const Learned& table, const Features& features) {
+  std::string text = fmt::format("\n## {}\n\n{} rows, {} of them right. Intercept {:.3f}.\n\n", table.of, table.rows,
+                                 table.right, table.logistic.intercept);
+  text += "| feature | weight | meaning |\n|---|--:|---|\n";
+  for (std::size_t k = 0; k < features.size(); ++k) {
+    text += fmt::format("| {} | {:.3f} | {} |\n", features[k].name,
+                        table.logistic.weights[static_cast<Eigen::Index>(k)], features[k].meaning);
+  }
+  text += "\nSteps of the probability, on forms and foreign causes left out:\n\n";
+  text += "| mean score | right | of | probability |\n|--:|--:|--:|--:|\n";
+  for (const Step& step : table.steps) {
+    text +=
+        fmt::format("| {:.2f} | {:.0f} | {:.0f} | {:.2f} |\n", step.score, step.right, step.count, step.probability());
+  }
+  text += fmt::format(
+      "\nAt {:.2f} and more, likewise:\n\n| level | right ones | let through | and wrong |\n|---|--:|--:|--:|\n",
+      hysteron::supported_from);
+  for (const auto& [level, counts] : table.levels) {
+    text += fmt::format("| {} | {} | {} | {} |\n", level, counts[0], counts[1] + counts[2], counts[2]);
+  }
+  return text;
 }
 
 int run(int argc, char** argv) {
   CLI::App program("learns the tables of grades from diagnosed challenges");
   std::vector<std::string> folders;
   std::string out;
+  std::string page_file;
   bool list = false;
   program.add_option("FOLDER", folders, "--out of a challenge")->required()->check(CLI::ExistingDirectory);
   program.add_option("--out", out, "table_data.cpp to write");
+  program.add_option("--page", page_file, "page to write; else printed");
   program.add_flag("--list", list, "a line for every name with its features");
   CLI11_PARSE(program, argc, argv);
   Rows rows;
@@ -288,30 +328,51 @@ int run(int argc, char** argv) {
     read(folder, rows);
   }
   if (list) {
-    for (const Row& row : rows.names) {
-      fmt::print("{} {} {} {}", row.campaign, row.level, row.id, row.right ? 1 : 0);
+    const std::vector<double> scores = unseen_scores(rows.names);
+    for (std::size_t k = 0; k < rows.names.size(); ++k) {
+      const Row& row = rows.names[k];
+      fmt::print("{:.2f} {} {} {} {} [{}]", scores[k], row.campaign, row.level, row.id, row.right ? "right" : "wrong",
+                 row.truth);
       for (const double value : row.features) {
-        fmt::print(" {:.3f}", value);
+        fmt::print(" {:.2f}", value);
       }
       fmt::print("\n");
     }
   }
-  std::string text =
+  const std::array<Learned, 3> tables = {
+      learned_table("name", "A name of the augmented model is in the truth", rows.names),
+      learned_table("set", "It, or one that does as well in its place, is", rows.sets),
+      learned_table("missing", "Physics is missing at all", rows.missing)};
+  std::string page = "# What grades are read from\n\nWritten by `build/release/bench/hysteron_learn_grades";
+  std::string source =
       "// Written by bench/learn_grades.cpp; what it was learned from: results/grades.md.\n"
-      "#include \"diagnose/judge/table.hpp\"\n\nnamespace hysteron {\nnamespace {\n\n";
-  text += table_text("name", rows.names, hysteron::name_features) + "\n";
-  text += table_text("set", rows.sets, hysteron::name_features) + "\n";
-  text += table_text("missing", rows.missing, hysteron::missing_features);
-  text += "\n}  // namespace\n";
-  for (const std::string name : {"name", "set", "missing"}) {
-    text += fmt::format(
+      "#include \"diagnose/judge/table.hpp\"\n\nnamespace hysteron {\nnamespace {\n";
+  for (const std::string& folder : folders) {
+    page += " " + std::filesystem::path(folder).filename().string();
+  }
+  page +=
+      " --page results/grades.md --out\nsrc/diagnose/judge/table_data.cpp`. docs/challenge.md says how the folders are "
+      "made.\n";
+  for (const Learned& table : tables) {
+    source += "\n" + source_of(table);
+  }
+  page += page_of(tables[0], hysteron::name_features) + page_of(tables[1], hysteron::name_features) +
+          page_of(tables[2], hysteron::missing_features);
+  source += "\n}  // namespace\n";
+  for (const Learned& table : tables) {
+    source += fmt::format(
         "\nconst Table& {0}_table() {{\n  static constexpr Table table{{{0}_intercept, {0}_weights, {0}_knots}};\n"
         "  return table;\n}}\n",
-        name);
+        table.name);
   }
-  text += "\n}  // namespace hysteron\n";
+  source += "\n}  // namespace hysteron\n";
   if (!out.empty()) {
-    hysteron::write_file_atomically(out, text);
+    hysteron::write_file_atomically(out, source);
+  }
+  if (!page_file.empty()) {
+    hysteron::write_file_atomically(page_file, page);
+  } else if (!list) {
+    fmt::print("{}", page);
   }
   return 0;
 }

@@ -2,10 +2,11 @@
 // do to all campaigns, in a second. Nothing is searched or fitted, so that what a rule makes the search do (another law
 // in place of the one asked for, an extended model) is as it was.
 //
-//   hysteron_verdicts FOLDER... [--list]
+//   hysteron_verdicts FOLDER... [--list] [--write]
 //
 // FOLDER is an --out of `hysteron challenge`, diagnosed; with --list every campaign that is not right is a line, and a
-// star marks those whose outcome is another than with the verdict they hold.
+// star marks those whose outcome is another than with the verdict they hold. --write puts the verdicts into the
+// diagnoses, without their sentences and parameters, for `hysteron challenge --score-only`.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -21,6 +22,7 @@
 #include "diagnose/judge/evidence.hpp"
 #include "diagnose/judge/verdict.hpp"
 #include "io/file.hpp"
+#include "io/output.hpp"
 
 namespace {
 
@@ -55,8 +57,10 @@ int run(int argc, char** argv) {
   CLI::App program("verdicts of a challenge once more, from the evidence of its diagnoses");
   std::vector<std::string> folders;
   bool list = false;
+  bool write = false;
   program.add_option("FOLDER", folders, "--out of a challenge")->required()->check(CLI::ExistingDirectory);
   program.add_flag("--list", list, "a line for every campaign that is not right");
+  program.add_flag("--write", write, "put the verdicts into the diagnoses");
   CLI11_PARSE(program, argc, argv);
 
   std::map<std::string, std::map<std::string, int>> counts;
@@ -78,7 +82,13 @@ int run(int argc, char** argv) {
         continue;
       }
       const hysteron::Verdict verdict = hysteron::verdict_of(hysteron::evidence_from(diagnosis.at("evidence")));
-      const json row = hysteron::challenge::score_campaign(answer, diagnosis_with(verdict));
+      const json again = diagnosis_with(verdict);
+      if (write) {
+        json written = diagnosis;
+        written.update(again);
+        hysteron::write_file_atomically(path, written.dump(1) + "\n");
+      }
+      const json row = hysteron::challenge::score_campaign(answer, again);
       const std::string outcome = row.at("outcome");
       const std::string held = hysteron::challenge::score_campaign(answer, diagnosis).at("outcome");
       const std::string level = answer.at("level");

@@ -129,6 +129,9 @@ TEST(Hypothesis, PartsComeAndGo) {
   EXPECT_EQ(name_of(law), "law:alpha,c0");
   EXPECT_TRUE(contains(more, law));
   EXPECT_TRUE(same_parts(without(without(more, law), effect_extension("asymmetry")), what));
+  // A parameter that goes takes its law along.
+  const Hypothesis lawful = with(more, law_extension({"asymmetry.e"}));
+  EXPECT_EQ(without(lawful, effect_extension("asymmetry")), without(more, effect_extension("asymmetry")));
   const std::vector<Extension> parts = extensions_of(more);
   ASSERT_EQ(parts.size(), 4U);
   EXPECT_EQ(parts[2], law_extension({"alpha", "alpha"}));

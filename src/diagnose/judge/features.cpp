@@ -123,7 +123,8 @@ NameFeatures features_of(const Candidate& candidate, const Evidence& evidence) {
           std::log1p(std::clamp(contrast.value_or(1.0), 0.0, 30.0)),
           contrast ? unit(*contrast / std::max(*contrast, elsewhere)) : unknown_kept,
           unit(gain / strongest),
-          1.0 / static_cast<double>(std::max<std::size_t>(evidence.candidates.size(), 1))};
+          1.0 / static_cast<double>(std::max<std::size_t>(evidence.candidates.size(), 1)),
+          unit(candidate.gain_alone / std::max(gain, 1e-300))};
 }
 
 MissingFeatures features_of(const Evidence& evidence) {

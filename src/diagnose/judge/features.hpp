@@ -16,7 +16,7 @@ struct Feature {
 };
 
 // Of a name.
-inline constexpr std::array<Feature, 16> name_features = {{
+inline constexpr std::array<Feature, 17> name_features = {{
     {"robustness",
      "robustness value: what unmodelled physics would have to explain of the rest, and share of the shape"},
     {"over_noise", "log10 of 1 + gain over the squares of the noise"},
@@ -36,6 +36,8 @@ inline constexpr std::array<Feature, 16> name_features = {{
      "that z over the largest of all that speak for nothing in the model; a half where none can be taken"},
     {"beside_strongest", "gain over that of the strongest effect of the model"},
     {"few", "1 over the number of effects in the model"},
+    {"alone",
+     "gain alone behind the base model over that in the augmented one: what only makes up for others has none"},
 }};
 using NameFeatures = std::array<double, name_features.size()>;
 NameFeatures features_of(const Candidate& candidate, const Evidence& evidence);

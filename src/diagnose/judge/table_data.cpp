@@ -3,7 +3,7 @@
 namespace hysteron {
 namespace {
 
-constexpr double name_weights[] = {2.0, 0.5, 1.0, 3.0, 2.0, 1.0, 1.0, 1.0, 1.0, 1.0, 0.5, 0.5, 1.0, 1.0, 0.5, 0.5};
+constexpr double name_weights[] = {2.0, 0.5, 1.0, 3.0, 2.0, 1.0, 1.0, 1.0, 1.0, 1.0, 0.5, 0.5, 1.0, 1.0, 0.5, 0.5, 1.0};
 constexpr double missing_weights[] = {2.0, 4.0, 0.5, 0.5, 1.0, 3.0};
 
 }  // namespace

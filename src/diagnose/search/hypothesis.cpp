@@ -28,7 +28,11 @@ Hypothesis with(const Hypothesis& what, const Extension& extension) {
 
 Hypothesis without(const Hypothesis& what, const Extension& extension) {
   Hypothesis result = what;
-  std::erase(result.effects, extension.effect);
+  if (!extension.is_law()) {
+    std::erase(result.effects, extension.effect);
+    // A parameter that goes takes its law along.
+    std::erase_if(result.richer, [&](const std::string& name) { return name.starts_with(extension.effect + "."); });
+  }
   for (const std::string& parameter : extension.parameters) {
     const auto found = std::ranges::find(result.richer, parameter);
     if (found != result.richer.end()) {

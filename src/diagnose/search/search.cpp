@@ -167,11 +167,11 @@ void grow(Course& course, const std::vector<Extension>& effects, int most_effect
     course.stages.push_back(tried);
     std::optional<LeftOut> after;
     const auto chosen = std::ranges::find_if(tried, [&](const Tried& one) {
-      if (!worth(one, course.current, count)) {
+      if (!one.fit || one.gain < least_gain_of_a_place * squared(course.current.cost)) {
         return false;
       }
       after = left_out(course.bench, *one.fit);
-      return block_score(before.predicted, after->predicted, course.noise).mean > 0.0;
+      return worth(one, course.current, count, block_score(before.predicted, after->predicted, course.noise));
     });
     if (chosen == tried.end()) {
       return;
@@ -293,10 +293,12 @@ std::vector<Found> worth_their_place(Course& course) {
   for (bool dropped = true; dropped;) {
     dropped = false;
     result.clear();
+    const LeftOut with = left_out(course.bench, course.current);
     for (const Extension& part : extensions_of(course.current.what)) {
       Found found = taken_out(course, part.is_law() ? law_extension({part.parameters.front()}) : part);
-      if (found.evidence < least_evidence_of_a_place ||
-          found.gain < least_gain_of_a_place * squared(found.without.cost)) {
+      const BlockScore score =
+          block_score(left_out(course.bench, found.without).predicted, with.predicted, course.noise);
+      if (!worth_keeping(found.evidence, found.gain, squared(found.without.cost), score)) {
         course.current = found.without;
         dropped = true;
         break;

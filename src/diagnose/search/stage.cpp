@@ -21,6 +21,10 @@ constexpr std::size_t survivors = 2;
 // are refitted.
 constexpr std::size_t refitted_behind_series = 4;
 constexpr std::size_t starts_behind_series = 8;
+// Block score over its standard error of a surely better prediction: three standard errors.
+constexpr double steady = 3.0;
+// Below zero by so many, recordings left out refute what the fitted ones ask for.
+constexpr double refuted = 2.0;
 // Effects in series that a hypothesis may have.
 constexpr std::ptrdiff_t most_in_series = 2;
 // The highest order of a law in the drive where it varies within recordings.
@@ -156,9 +160,15 @@ std::vector<Tried> stage(const Workbench& bench, const Fit& before, const std::v
   return result;
 }
 
-bool worth(const Tried& tried, const Fit& before, double candidates) {
-  return tried.fit && tried.evidence > least_evidence_of_a_place + 2.0 * std::log(candidates) &&
-         tried.gain > least_gain_of_a_place * squared(before.cost);
+bool worth(const Tried& tried, const Fit& before, double candidates, const BlockScore& left_out) {
+  const bool asked_for = tried.evidence > least_evidence_of_a_place + 2.0 * std::log(candidates);
+  return tried.gain > least_gain_of_a_place * squared(before.cost) &&
+         ((asked_for && left_out.z() > -refuted) || left_out.z() > steady);
+}
+
+bool worth_keeping(double evidence, double gain, double squares_without, const BlockScore& left_out) {
+  return gain > least_gain_of_a_place * squares_without &&
+         (evidence > least_evidence_of_a_place || left_out.z() > steady);
 }
 
 }  // namespace hysteron

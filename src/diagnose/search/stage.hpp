@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "diagnose/residual/block_score.hpp"
 #include "diagnose/search/score.hpp"
 
 namespace hysteron {
@@ -45,7 +46,10 @@ std::vector<Tried> stage(const Workbench& bench, const Fit& before, const std::v
 // Order of what was tried: refitted before not refitted, then by evidence.
 bool better(const Tried& a, const Tried& b);
 
-// Whether it is worth a place, being the best of so many candidates.
-bool worth(const Tried& tried, const Fit& before, double candidates);
+// Whether it is worth a place, being the best of so many candidates: by the criterion, or, where a residual so slow
+// that it holds few independent samples leaves that undecided, by how surely it predicts recordings left out.
+bool worth(const Tried& tried, const Fit& before, double candidates, const BlockScore& left_out);
+// Whether a part of the model stays: likewise, without the price of choosing.
+bool worth_keeping(double evidence, double gain, double squares_without, const BlockScore& left_out);
 
 }  // namespace hysteron
