@@ -249,12 +249,12 @@ Judgement judged(Search found, const Workbench& bench, const Workbench& fine) {
 }
 
 // Where another damper law does as well without any effect, what is missing behind that one is looked for. It takes the
-// place of the one asked for where it predicts recordings left out better, effects and all.
-void try_better_law(Judgement& first, const Workbench& bench, const Workbench& quick, const Workbench& fine,
+// place of the one asked for where it predicts recordings left out better, effects and all; whether it does.
+bool try_better_law(Judgement& first, const Workbench& bench, const Workbench& quick, const Workbench& fine,
                     const SearchOptions& searching, const SearchProgress& progress, std::vector<std::string>& notes) {
   const std::string law = better_law(first.evidence);
   if (law.empty()) {
-    return;
+    return false;
   }
   Judgement second = judged(search(quick, fine, {law, {}, {}}, searching,
                                    [&](double share, const std::string& stage) {
@@ -263,7 +263,7 @@ void try_better_law(Judgement& first, const Workbench& bench, const Workbench& q
                             bench, fine);
   const std::vector<LeftOut> both = left_out(fine, {&first.search.augmented, &second.search.augmented});
   if (block_score(both[0].predicted, both[1].predicted, noise_of(fine)).mean <= 0.0) {
-    return;
+    return false;
   }
   const std::string asked = first.search.base.what.model;
   // Of the misfit of the law asked for, part of which the other law takes.
@@ -282,6 +282,7 @@ void try_better_law(Judgement& first, const Workbench& bench, const Workbench& q
       fmt::format("{} takes the place of {}, with which recordings left out are predicted worse: what is "
                   "named is missing behind {}",
                   law, asked, law));
+  return true;
 }
 
 // Damper laws that may stand in for one another: those with hysteresis and few parameters.
@@ -359,11 +360,16 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const Split& split
   Split some{thinned(diagnosis.bench.split().fit, fine_samples), {}, {}, false};
   ObjectiveOptions coarse = objective;
   coarse.comparing = true;
-  const Workbench quick(scale, std::move(fewer), layout, coarse, options.seed, options.stopped);
+  Workbench quick(scale, std::move(fewer), layout, coarse, options.seed, options.stopped);
   const Workbench fine(scale, std::move(some), layout, coarse, options.seed, options.stopped);
+  quick.take_noise_of(diagnosis.bench);
   Judgement judgement =
       judged(search(quick, fine, {options.model, {}, {}}, searching, progress), diagnosis.bench, fine);
-  try_better_law(judgement, diagnosis.bench, quick, fine, searching, progress, diagnosis.notes);
+  const bool limited = judgement.search.limited;
+  if (!try_better_law(judgement, diagnosis.bench, quick, fine, searching, progress, diagnosis.notes) && limited) {
+    searching.in_full = true;
+    judgement = judged(search(quick, fine, {options.model, {}, {}}, searching, progress), diagnosis.bench, fine);
+  }
   diagnosis.search = std::move(judgement.search);
   diagnosis.surprises = std::move(judgement.surprising);
   diagnosis.evidence = std::move(judgement.evidence);

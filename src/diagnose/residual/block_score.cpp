@@ -23,11 +23,15 @@ double difference(double a, double b, double floor) {
 
 BlockScore block_score(const BlockSquares& a, const BlockSquares& b, const std::vector<double>& floor) {
   std::vector<double> clusters;
+  double before = 0.0;
+  double after = 0.0;
   for (std::size_t r = 0; r < a.size(); ++r) {
     double sum = 0.0;
     for (std::size_t k = 0; k < a[r].size(); ++k) {
       const double d = difference(a[r][k], b[r][k], floor[r]);
       sum += d;
+      before += a[r][k] / static_cast<double>(a[r].size());
+      after += b[r][k] / static_cast<double>(a[r].size());
       if (a.size() < fewest_recordings) {
         clusters.push_back(d);
       }
@@ -38,6 +42,7 @@ BlockScore block_score(const BlockSquares& a, const BlockSquares& b, const std::
   }
   BlockScore result;
   result.clusters = clusters.size();
+  result.saved = std::isfinite(before) && std::isfinite(after) && before > 0.0 ? 1.0 - after / before : 0.0;
   if (clusters.size() < 2) {
     return result;
   }

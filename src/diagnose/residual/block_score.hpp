@@ -18,6 +18,7 @@ struct BlockScore {
   double std_error = 0.0;  // from the spread between clusters
   double agreement = 0.0;  // share of clusters in which b predicts better
   std::size_t clusters = 0;
+  double saved = 0.0;  // share of the squared error that b takes off a, each recording weighing the same
 
   // Mean over standard error, 0 where fewer than two clusters tell nothing.
   [[nodiscard]] double z() const { return std_error > 0.0 ? mean / std_error : 0.0; }

@@ -116,6 +116,9 @@ struct Course {
   int swaps = 0;                                // of an effect for its rival
 };
 
+// By the noise of the force alone: what the noise of the motion makes of the model's force, another model need not.
+bool is_far(const Misfit& left) { return left.squares > far_from_noise * (left.floor - left.motion); }
+
 bool in_series(const std::string& effect) {
   const Part* part = find_effect(effect);
   return part != nullptr && part->in_series();
@@ -125,7 +128,7 @@ bool in_series(const std::string& effect) {
 // parameters that follow the drive by a richer curve.
 std::vector<Extension> open_to(const Course& course, const std::vector<Extension>& effects, const Misfit& left) {
   std::vector<Extension> result;
-  const bool far = left.squares > far_from_noise * left.floor;
+  const bool far = is_far(left);
   const bool has_series = std::ranges::any_of(course.current.what.effects, in_series);
   for (const Extension& effect : effects) {
     // A second element in series only where much is left: what is small behind the first is its form.
@@ -171,7 +174,8 @@ void grow(Course& course, const std::vector<Extension>& effects, int most_effect
         return false;
       }
       after = left_out(course.bench, *one.fit);
-      return worth(one, course.current, count, block_score(before.predicted, after->predicted, course.noise));
+      return worth(one, course.current, count, block_score(before.predicted, after->predicted, course.noise),
+                   is_far(left));
     });
     if (chosen == tried.end()) {
       return;
@@ -183,7 +187,7 @@ void grow(Course& course, const std::vector<Extension>& effects, int most_effect
       course.strongest = std::max(course.strongest, chosen->gain);
     }
     left = misfit_of(course.bench, course.current);
-    if (left.squares < far_from_noise * left.floor && chosen->gain < negligible * course.strongest) {
+    if (!is_far(left) && chosen->gain < negligible * course.strongest) {
       return;  // what is left could not be named beside what was found
     }
     if (!structured(left) && left.squares < (1.0 + unsure_of_noise) * left.floor) {
@@ -294,11 +298,12 @@ std::vector<Found> worth_their_place(Course& course) {
     dropped = false;
     result.clear();
     const LeftOut with = left_out(course.bench, course.current);
+    const bool far = is_far(misfit_of(course.bench, course.current));
     for (const Extension& part : extensions_of(course.current.what)) {
       Found found = taken_out(course, part.is_law() ? law_extension({part.parameters.front()}) : part);
       const BlockScore score =
           block_score(left_out(course.bench, found.without).predicted, with.predicted, course.noise);
-      if (!worth_keeping(found.evidence, found.gain, squared(found.without.cost), score)) {
+      if (!worth_keeping(found.evidence, found.gain, squared(found.without.cost), score, far)) {
         course.current = found.without;
         dropped = true;
         break;
@@ -394,8 +399,9 @@ Search search(const Workbench& bench, const Workbench& fine, const Hypothesis& b
   // to hold the two against each other.
   const double excess = std::max(left.squares - left.floor, 1e-300);
   const bool another = squared(result.quick_base.cost) - best_law > most_of_the_misfit * excess;
-  grow(course, effects, another ? std::min(options.most_effects, effects_beside_a_better_law) : options.most_effects,
-       progress);
+  result.limited = another && !options.in_full;
+  grow(course, effects,
+       result.limited ? std::min(options.most_effects, effects_beside_a_better_law) : options.most_effects, progress);
   if (!course.stages.empty()) {
     result.first_stage = course.stages.front();
   }

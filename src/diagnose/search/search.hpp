@@ -43,6 +43,7 @@ struct Search {
   // As the comparison saw them, on the quick workbench.
   Fit quick_base;
   Fit quick_augmented;
+  bool limited = false;  // few effects were looked for, as another law takes most of the misfit off
   double independent = 0.0;        // samples there
   double further = 0.0;            // squares that the best further extension would take off, to first order
   std::vector<Tried> first_stage;  // every extension of the base, best first
@@ -58,6 +59,7 @@ struct SearchOptions {
   std::vector<std::string> laws;        // damper laws that may take the place of the base's
   int most_effects = 5;
   std::size_t base_budget = 20000;
+  bool in_full = false;  // all effects are looked for, whatever another law does
 };
 
 // Hypotheses are compared on `quick` (thinned recordings, coarse integration); the base and the augmented model are

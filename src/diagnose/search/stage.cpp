@@ -23,6 +23,9 @@ constexpr std::size_t refitted_behind_series = 4;
 constexpr std::size_t starts_behind_series = 8;
 // Block score over its standard error of a surely better prediction: three standard errors.
 constexpr double steady = 3.0;
+// Far from the noise: shares of the squared error taken off the fitted recordings, and off recordings left out.
+constexpr double plain_gain = 0.03;
+constexpr double plain_gain_left_out = 0.01;
 // Below zero by so many, recordings left out refute what the fitted ones ask for.
 constexpr double refuted = 2.0;
 // Effects in series that a hypothesis may have.
@@ -160,15 +163,25 @@ std::vector<Tried> stage(const Workbench& bench, const Fit& before, const std::v
   return result;
 }
 
-bool worth(const Tried& tried, const Fit& before, double candidates, const BlockScore& left_out) {
-  const bool asked_for = tried.evidence > least_evidence_of_a_place + 2.0 * std::log(candidates);
-  return tried.gain > least_gain_of_a_place * squared(before.cost) &&
-         ((asked_for && left_out.z() > -refuted) || left_out.z() > steady);
+namespace {
+
+bool predicts(double share, const BlockScore& left_out) {
+  return share > plain_gain && left_out.saved > plain_gain_left_out;
 }
 
-bool worth_keeping(double evidence, double gain, double squares_without, const BlockScore& left_out) {
+}  // namespace
+
+bool worth(const Tried& tried, const Fit& before, double candidates, const BlockScore& left_out, bool far) {
+  const bool asked_for = tried.evidence > least_evidence_of_a_place + 2.0 * std::log(candidates);
+  return tried.gain > least_gain_of_a_place * squared(before.cost) &&
+         ((asked_for && left_out.z() > -refuted) || left_out.z() > steady ||
+          (far && predicts(tried.gain / squared(before.cost), left_out)));
+}
+
+bool worth_keeping(double evidence, double gain, double squares_without, const BlockScore& left_out, bool far) {
   return gain > least_gain_of_a_place * squares_without &&
-         (evidence > least_evidence_of_a_place || left_out.z() > steady);
+         (evidence > least_evidence_of_a_place || left_out.z() > steady ||
+          (far && predicts(gain / squares_without, left_out)));
 }
 
 }  // namespace hysteron

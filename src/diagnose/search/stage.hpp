@@ -48,8 +48,10 @@ bool better(const Tried& a, const Tried& b);
 
 // Whether it is worth a place, being the best of so many candidates: by the criterion, or, where a residual so slow
 // that it holds few independent samples leaves that undecided, by how surely it predicts recordings left out.
-bool worth(const Tried& tried, const Fit& before, double candidates, const BlockScore& left_out);
+// Far from the noise, where every residual is slow, a plain gain that recordings left out share is enough: such a part
+// is there to predict.
+bool worth(const Tried& tried, const Fit& before, double candidates, const BlockScore& left_out, bool far);
 // Whether a part of the model stays: likewise, without the price of choosing.
-bool worth_keeping(double evidence, double gain, double squares_without, const BlockScore& left_out);
+bool worth_keeping(double evidence, double gain, double squares_without, const BlockScore& left_out, bool far);
 
 }  // namespace hysteron

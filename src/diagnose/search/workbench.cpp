@@ -16,6 +16,8 @@ namespace {
 constexpr std::size_t start_count = 8;
 // Rounds after which only the best starts go on.
 constexpr int race_rounds = 2;
+// Of a node of a richer law, part of its box.
+constexpr double law_push = 0.03;
 // A descent whose squared cost fell by less than this part of itself in two rounds running has arrived, as far as a
 // comparison of hypotheses can tell.
 constexpr double arrived = 1e-4;
@@ -97,6 +99,15 @@ Workbench::Workbench(const DataScale& scale, Split split, LayoutOptions layout, 
   noise_.reserve(split_.fit.size());
   for (const Recording& recording : split_.fit) {
     noise_.push_back(noise_floor(recording));
+  }
+}
+
+void Workbench::take_noise_of(const Workbench& whole) {
+  for (std::size_t k = 0; k < split_.fit.size(); ++k) {
+    const auto at = std::ranges::find(whole.split_.fit, split_.fit[k].file, &Recording::file);
+    if (at != whole.split_.fit.end()) {
+      noise_[k] = whole.noise_[static_cast<std::size_t>(at - whole.split_.fit.begin())];
+    }
   }
 }
 
@@ -314,6 +325,16 @@ Starts Workbench::starts(const Hypothesis& what, const Fit& warm, const Fit* als
   const auto added = static_cast<std::size_t>(std::ranges::count(fresh, true));
   if (added == 0) {
     starts.resize(1);
+    // Only laws in the drive are richer, each node of which may move.
+    for (const ParameterLaw& law : layout.laws()) {
+      const std::string& name = layout.names()[law.parameter];
+      const bool richer = std::ranges::count(what.richer, name) > std::ranges::count(warm.what.richer, name);
+      for (std::size_t k = 0; richer && k < law.drive_nodes.size() * law.frequency_nodes.size(); ++k) {
+        starts.push_back(known);
+        double& node = starts.back()[law.first + k];
+        node += node > 0.5 ? -law_push : law_push;
+      }
+    }
   } else if (added == 1 && also == nullptr && added_effect != nullptr && added_effect->starts.empty()) {
     starts.resize(starts_of_a_pack(layout.dimension()));  // one size: where it starts from matters little
   }

@@ -77,6 +77,8 @@ class Workbench {
   // Of a fit on the fitted recordings, with all that is told of them: two simulations of each, in parallel.
   [[nodiscard]] Residuals residuals(const Fit& fit) const;
   // Noise of the fitted recordings' forces.
+  // The noise of the same recordings before they were thinned, which tells it better; by their files.
+  void take_noise_of(const Workbench& whole);
   [[nodiscard]] const std::vector<NoiseFloor>& noise() const { return noise_; }
   // How the residuals of a fit, those given, change with each parameter of its damper law that cannot be zero.
   [[nodiscard]] std::vector<Sensitivity> sensitivities(const Fit& fit, const Residuals& residuals) const;
