@@ -34,10 +34,6 @@ std::vector<Named> named(std::size_t index, const Evidence& evidence) {
   first.id = candidate.id;
   first.candidate = index;
   first.alone = name_table().probability(features);
-  // Alone where the name itself is good enough: then the others are further away than they look.
-  if (first.alone >= supported_from) {
-    others.clear();
-  }
   first.confidence = others.empty() ? first.alone : std::max(first.alone, set_table().probability(features));
   first.grade = grade_of(first.confidence);
   first.robustness = robustness_of(candidate, evidence);
