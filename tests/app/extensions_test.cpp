@@ -165,9 +165,9 @@ TEST_F(Extensions, EffectOfAPluginIsNamedAndSetAgainstItsKin) {
   }
   file.close();
   ASSERT_EQ(run(plugin + "diagnose drifting.csv --model viscous --quiet --out out").status, 0);
-  const json found = json::parse(read(folder_ / "out/diagnosis.json"))["evidence"]["found"];
+  const json found = json::parse(read(folder_ / "out/diagnosis.json"))["evidence"]["candidates"];
   ASSERT_EQ(ids_of(found), (std::vector<std::string>{"cubic-damping", "force-drift"}));
-  const std::vector<std::string> rivals = ids_of(found[0]["rivals"]);
+  const std::vector<std::string> rivals = ids_of(found[0]["contenders"]);
   EXPECT_EQ(std::ranges::count(rivals, "viscous-damping"), 1);
   EXPECT_EQ(std::ranges::count(rivals, "linear-stiffness"), 0);
   EXPECT_EQ(std::ranges::count(rivals, "offset-force"), 0);
