@@ -77,14 +77,14 @@ class RandomSearch final : public Solver {
 };
 
 const SolverEntry random_search = {
-    "random-search",
+    "uniform-search",
     "Uniform random search",
     "example of a plugin",
     "Uniform points of the box; what a solver has to beat.",
     false,
     {},
     [](const Problem& problem) -> std::unique_ptr<Solver> {
-      if (!problem.settings.empty()) throw InputError("solver random-search: it has no settings");
+      if (!problem.settings.empty()) throw InputError("solver uniform-search: it has no settings");
       return std::make_unique<RandomSearch>(problem);
     },
 };

@@ -110,7 +110,7 @@ TEST_F(Extensions, PluginAddsItsModelAndSolver) {
   EXPECT_EQ(run("describe cubic-damper").status, 2);
   EXPECT_EQ(json::parse(run(plugin + "describe cubic-damper --json").out)["parameters"].size(), 3U);
   ASSERT_EQ(run(plugin +
-                "fit r.csv --model cubic-damper --solver multistart-lm,random-search --quiet --budget 2000 --out out")
+                "fit r.csv --model cubic-damper --solver multistart-lm,uniform-search --quiet --budget 2000 --out out")
                 .status,
             0);
   const json model = json::parse(read(folder_ / "out/model.json"));
@@ -167,10 +167,16 @@ TEST_F(Extensions, EffectOfAPluginIsNamedAndSetAgainstItsKin) {
   ASSERT_EQ(run(plugin + "diagnose drifting.csv --model viscous --quiet --out out").status, 0);
   const json found = json::parse(read(folder_ / "out/diagnosis.json"))["evidence"]["candidates"];
   ASSERT_EQ(ids_of(found), (std::vector<std::string>{"cubic-damping", "force-drift"}));
-  const std::vector<std::string> rivals = ids_of(found[0]["contenders"]);
-  EXPECT_EQ(std::ranges::count(rivals, "viscous-damping"), 1);
-  EXPECT_EQ(std::ranges::count(rivals, "linear-stiffness"), 0);
-  EXPECT_EQ(std::ranges::count(rivals, "offset-force"), 0);
+  // Strangers that came close are contenders too, to first order; related ones are refitted in its place.
+  std::vector<std::string> related;
+  for (const json& row : found[0]["contenders"]) {
+    if (row["kin"].get<bool>()) {
+      EXPECT_TRUE(row["refitted"].get<bool>()) << row["id"];
+      related.push_back(row["id"]);
+    }
+  }
+  EXPECT_EQ(std::ranges::count(related, "viscous-damping"), 1);
+  EXPECT_EQ(std::ranges::count(related, "offset-force"), 0);
 }
 
 TEST_F(Extensions, PluginsThatAreNoneAreRefused) {
