@@ -121,6 +121,16 @@ TEST(Stage, RefitsWhatTheScorePromisesAndKeepsTheOrder) {
   EXPECT_TRUE(seen_unfitted);
 }
 
+TEST(Stage, ALawOfAnEffectThatIsNotThereIsNoCandidate) {
+  const std::vector<Recording> all = recordings_with({"inertia"}, {{"inertia.m", 6.0}}, 0.01);
+  const Workbench bench = bench_of(all, all);
+  const Fit base = bench.from_anywhere({"viscous", {}, {}}, 2000);
+  const std::vector<Tried> tried =
+      stage(bench, base, {law_extension({"inertia.m"}), effect_extension("inertia")}, 200.0);
+  ASSERT_EQ(tried.size(), 1U);
+  EXPECT_EQ(tried[0].part.effect, "inertia");
+}
+
 TEST(Hypothesis, PartsComeAndGo) {
   Hypothesis what{"bouc-wen", {"inertia"}, {"alpha"}};
   const Extension law = law_extension({"alpha", "c0"});

@@ -118,9 +118,14 @@ std::vector<Tried> stage(const Workbench& bench, const Fit& before, const std::v
   std::vector<Extension> open;
   const auto in_series = std::ranges::count_if(before.what.effects, is_series);
   const bool series_is_full = in_series >= most_in_series;
+  const std::vector<std::string> names = make_model(before.what.model, before.what.effects).parameter_names();
   for (const Extension& candidate : candidates) {
     const bool has = !candidate.is_law() && contains(before.what, candidate);
-    if (!has && !(series_is_full && is_series(candidate.effect))) {
+    // A law of an effect that is not there has nothing to act on.
+    const bool acts = std::ranges::all_of(candidate.parameters, [&](const std::string& parameter) {
+      return std::ranges::find(names, parameter) != names.end();
+    });
+    if (acts && !has && !(series_is_full && is_series(candidate.effect))) {
       open.push_back(candidate);
     }
   }
