@@ -27,8 +27,8 @@ struct ReadOptions {
   // Channel -> column, e.g. "force" -> "CH1 [kgf]": the column's full text or name; a unit given here overrides
   // the file's. In MAT files also a column number "3 [kN]" or "MATRIX:3 [kN]", counted from 1.
   std::map<std::string, std::string> columns;
-  bool displacement_required = true;
   bool force_required = true;
+  bool displacement_required = true;
   std::function<void(const Remark&)> remark = {};
 };
 
