@@ -20,7 +20,7 @@ const Allowed& allowed() {
       {"src/io", {"core"}},
       {"src/simulate", {"core", "scalar"}},
       {"models", {"simulate", "scalar"}},
-      {"models/effects", {"simulate", "scalar"}},
+      {"models/effects", {"models", "simulate", "scalar"}},
       {"src/fit", {"core", "scalar", "simulate"}},
       {"algorithms", {"algorithms/support", "core", "fit"}},
       {"src/diagnose/signal", {"core", "fit", "io", "simulate"}},
