@@ -3,10 +3,13 @@
 // in place of the one asked for, an extended model) is as it was.
 //
 //   hysteron_verdicts FOLDER... [--list] [--write]
+//   hysteron_verdicts FOLDER --plain
 //
 // FOLDER is an --out of `hysteron challenge`, diagnosed; with --list every campaign that is not right is a line, and a
 // star marks those whose outcome is another than with the verdict they hold. --write puts the verdicts into the
-// diagnoses, without their sentences and parameters, for `hysteron challenge --score-only`.
+// diagnoses, without their sentences and parameters, for `hysteron challenge --score-only`. --plain wants no challenge:
+// every diagnosis.json anywhere below FOLDER that holds evidence is judged, and the verdicts are printed as JSON by the
+// folders they stand in.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -19,6 +22,7 @@
 
 #include "challenge/score.hpp"
 #include "challenge/seal.hpp"
+#include "core/error.hpp"
 #include "diagnose/judge/evidence.hpp"
 #include "diagnose/judge/verdict.hpp"
 #include "io/file.hpp"
@@ -45,6 +49,31 @@ json diagnosis_with(const hysteron::Verdict& verdict) {
           {"suggestions", rows_of(verdict.suggestions)}};
 }
 
+// Whether a diagnosis holds what a verdict rests on.
+bool has_evidence(const json& diagnosis) {
+  return diagnosis.contains("evidence") && diagnosis.at("evidence").contains("doubt_of_data");
+}
+
+json judged_again(const json& diagnosis) {
+  return diagnosis_with(hysteron::verdict_of(hysteron::evidence_from(diagnosis.at("evidence"))));
+}
+
+// {"folder below the given one": {"verdict", "effects", "suggestions"}, ...}
+json verdicts_below(const std::filesystem::path& folder) {
+  json result = json::object();
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+    if (entry.path().filename() != "diagnosis.json") {
+      continue;
+    }
+    const json diagnosis = json::parse(hysteron::read_file(entry.path()));
+    if (has_evidence(diagnosis)) {
+      const std::filesystem::path below = std::filesystem::relative(entry.path().parent_path(), folder);
+      result[below.generic_string()] = judged_again(diagnosis);
+    }
+  }
+  return result;
+}
+
 std::string listed(const json& names) {
   std::string text;
   for (const json& name : names) {
@@ -58,10 +87,22 @@ int run(int argc, char** argv) {
   std::vector<std::string> folders;
   bool list = false;
   bool write = false;
-  program.add_option("FOLDER", folders, "--out of a challenge")->required()->check(CLI::ExistingDirectory);
+  bool plain = false;
+  program.add_option("FOLDER", folders, "--out of a challenge; with --plain any")
+      ->required()
+      ->check(CLI::ExistingDirectory);
   program.add_flag("--list", list, "a line for every campaign that is not right");
   program.add_flag("--write", write, "put the verdicts into the diagnoses");
+  program.add_flag("--plain", plain, "FOLDER is no challenge: verdicts of all diagnoses below it, as JSON")
+      ->excludes("--list", "--write");
   CLI11_PARSE(program, argc, argv);
+  if (plain) {
+    if (folders.size() != 1) {
+      throw hysteron::InputError("--plain takes one folder, " + std::to_string(folders.size()) + " were given");
+    }
+    fmt::print("{}\n", verdicts_below(folders.front()).dump(1));
+    return 0;
+  }
 
   std::map<std::string, std::map<std::string, int>> counts;
   int changed = 0;
@@ -77,12 +118,11 @@ int run(int argc, char** argv) {
         continue;
       }
       const json diagnosis = json::parse(hysteron::read_file(path));
-      if (!diagnosis.contains("evidence") || !diagnosis.at("evidence").contains("doubt_of_data")) {
+      if (!has_evidence(diagnosis)) {
         ++left_out;
         continue;
       }
-      const hysteron::Verdict verdict = hysteron::verdict_of(hysteron::evidence_from(diagnosis.at("evidence")));
-      const json again = diagnosis_with(verdict);
+      const json again = judged_again(diagnosis);
       if (write) {
         json written = diagnosis;
         written.update(again);
@@ -97,8 +137,9 @@ int run(int argc, char** argv) {
       changed += outcome == held ? 0 : 1;
       if (list && (outcome != "right" || outcome != held)) {
         fmt::print("{} {} {:<10} truth: {:<40} {:<15} {:<10}{} names: {} candidates: {}\n", folder.filename().string(),
-                   name.substr(name.size() - 4), level, listed(row.at("truth")), name_of(verdict.answer), outcome,
-                   outcome == held ? "" : " *was " + held, listed(row.at("named")), listed(row.at("candidates")));
+                   name.substr(name.size() - 4), level, listed(row.at("truth")), again.at("verdict").get<std::string>(),
+                   outcome, outcome == held ? "" : " *was " + held, listed(row.at("named")),
+                   listed(row.at("candidates")));
       }
     }
   }
