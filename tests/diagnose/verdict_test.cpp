@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "diagnose/judge/features.hpp"
+#include "diagnose/judge/speaking.hpp"
 #include "diagnose/judge/table.hpp"
 
 namespace hysteron {
@@ -184,6 +185,7 @@ TEST(Verdict, NamesWhatIsPlainAndNothingWhereNothingIsLeft) {
   EXPECT_FALSE(verdict.remaining_structure);
   EXPECT_NEAR(verdict.unknown_share, 0.0, 1e-12);
   EXPECT_EQ(verdict_of(nothing()).answer, Answer::complete);
+  EXPECT_EQ(verdict_of(nothing()).unknown_share, 0.0) << "nothing but noise has no unknown share";
 }
 
 TEST(Verdict, AShapeThatEverythingSpeaksAgainstIsNoName) {
@@ -200,7 +202,7 @@ TEST(Verdict, AShapeThatEverythingSpeaksAgainstIsNoName) {
   const Verdict verdict = verdict_of(evidence);
   EXPECT_TRUE(verdict.effects.empty());
   EXPECT_EQ(verdict.answer, Answer::unattributed);
-  EXPECT_GT(verdict.unknown_share, 0.5);
+  EXPECT_EQ(verdict.unknown_share, 1.0) << "nothing is named or suggested";
 }
 
 TEST(Verdict, AFaultOfTheDataLeavesNoName) {
@@ -211,6 +213,43 @@ TEST(Verdict, AFaultOfTheDataLeavesNoName) {
   EXPECT_TRUE(verdict.effects.empty());
   EXPECT_TRUE(verdict.suggestions.empty());
   EXPECT_EQ(verdict.reason, evidence.doubt_of_data);
+  ASSERT_EQ(verdict.doubtful.size(), 1U) << "the augmented model holds it all the same";
+  EXPECT_EQ(verdict.unknown_share, 1.0);
+}
+
+TEST(Verdict, WhatIsDoubtedHasItsPartOfWhatHasNoName) {
+  Evidence evidence = plain();
+  evidence.augmented = left_of(5.0 * floor_squares, true);
+  evidence.augmented_compared = evidence.augmented.squares;
+  Verdict verdict = verdict_of(evidence);
+  ASSERT_EQ(verdict.effects.size(), 1U);
+  EXPECT_NEAR(verdict.unknown_share, 4.0 / 19.0, 1e-12) << "what stays over what there was, beyond the noise";
+  // A second effect that nothing speaks for took a third as much off.
+  Candidate doubted = evidence.candidates[0];
+  doubted.id = "cavitation";
+  doubted.gain = evidence.candidates[0].gain / 3.0;
+  doubted.score = {0.0, 0.1, 0.5, 6};
+  doubted.contenders = {contender("quadratic-damping", 1.0, 0.0), contender("asymmetry", 1.0, 0.0, true)};
+  doubted.kept = {0.0};
+  evidence.candidates.push_back(doubted);
+  verdict = verdict_of(evidence);
+  ASSERT_EQ(verdict.effects.size() + verdict.suggestions.size(), 1U);
+  ASSERT_EQ(verdict.doubtful.size(), 1U);
+  EXPECT_NEAR(verdict.unknown_share, 4.0 / 19.0 + 15.0 / 19.0 / 4.0, 1e-12);
+}
+
+TEST(Speaking, IsTheContrastWithTheLargestZInTheSenseOfTheEffect) {
+  Evidence evidence = plain();
+  evidence.signatures = {{"a", "", "", -1.0, 0.1, -9.0, 1.0, 1.0, 6, {"shear-thinning", "inertia"}, {-1, 1}},
+                         {"b", "", "", 1.0, 0.1, 3.0, 1.0, 0.5, 6, {"inertia"}, {0}}};
+  EXPECT_FALSE(speaking_for("clearance", evidence)) << "no motion shows it";
+  EXPECT_EQ(speaking_for("shear-thinning", evidence)->signature->id, "a");
+  EXPECT_EQ(speaking_for("shear-thinning", evidence)->z, 9.0);
+  EXPECT_EQ(speaking_for("inertia", evidence)->signature->id, "b") << "the louder one speaks against it";
+  EXPECT_FALSE(shows(*speaking_for("inertia", evidence))) << "as large as half of the placebos";
+  EXPECT_TRUE(shows(*speaking_for("shear-thinning", evidence)));
+  evidence.signatures.pop_back();
+  EXPECT_EQ(speaking_for("inertia", evidence)->z, 0.0) << "one that speaks against it does not speak for it";
 }
 
 TEST(Verdict, WhatIsNotNoiseIsNotComplete) {

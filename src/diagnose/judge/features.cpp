@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnose/judge/speaking.hpp"
+
 namespace hysteron {
 namespace {
 
@@ -22,20 +24,6 @@ double best_share(const Candidate& candidate, const Which& which) {
   for (const Contender& row : candidate.contenders) {
     if (which(row)) {
       best = std::max(best, row.share);
-    }
-  }
-  return best;
-}
-
-// The signature contrasts that speak for the candidate, in its sense; the largest z. Nothing where none could be taken.
-std::optional<double> contrast_of(const Candidate& candidate, const Evidence& evidence) {
-  std::optional<double> best;
-  for (const Signature& row : evidence.signatures) {
-    for (std::size_t k = 0; k < row.speaks_for.size(); ++k) {
-      if (row.speaks_for[k] == candidate.id) {
-        const double z = row.sign[k] == 0 ? std::fabs(row.z) : row.z * row.sign[k];
-        best = std::max(best.value_or(0.0), z);
-      }
     }
   }
   return best;
@@ -102,7 +90,8 @@ NameFeatures features_of(const Candidate& candidate, const Evidence& evidence) {
   });
   const double inside =
       best_share(candidate, [](const Contender& row) { return row.kin && !(row.holds_the_candidate && !row.apart); });
-  const std::optional<double> contrast = contrast_of(candidate, evidence);
+  const std::optional<Speaking> contrast = speaking_for(candidate.id, evidence);
+  const double loudness = contrast ? contrast->z : 1.0;
   const double elsewhere = std::max(contrast_elsewhere(evidence), surely);
   double strongest = 1e-300;
   for (const Candidate& other : evidence.candidates) {
@@ -120,8 +109,8 @@ NameFeatures features_of(const Candidate& candidate, const Evidence& evidence) {
           unit(left.floor / std::max(left.squares, 1e-300)),
           unit(1.0 - chance(left.recurring, left.recurring_by_chance)),
           1.0 - static_cast<double>(candidate.on_bound) / std::max(candidate.parameters, 1),
-          std::log1p(std::clamp(contrast.value_or(1.0), 0.0, 30.0)),
-          contrast ? unit(*contrast / std::max(*contrast, elsewhere)) : unknown_kept,
+          std::log1p(std::clamp(loudness, 0.0, 30.0)),
+          contrast ? unit(loudness / std::max(loudness, elsewhere)) : unknown_kept,
           unit(gain / strongest),
           1.0 / static_cast<double>(std::max<std::size_t>(evidence.candidates.size(), 1)),
           unit(candidate.gain_alone / std::max(gain, 1e-300))};

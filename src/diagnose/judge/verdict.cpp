@@ -64,6 +64,29 @@ void append(std::vector<Named>& list, const std::vector<Named>& rows) {
   }
 }
 
+// Of the base model's misfit beyond the noise: what stays, and of what the augmented model takes off the part of effects
+// that are neither named nor suggested. Effects may explain the same, so that their own shares part it in proportion.
+double unknown_share(const Verdict& verdict, const Evidence& evidence) {
+  if (verdict.answer == Answer::complete) {
+    return 0.0;
+  }
+  double known = 0.0;
+  double doubted = 0.0;
+  for (const std::vector<Named>* list : {&verdict.effects, &verdict.suggestions}) {
+    for (const Named& row : *list) {
+      known += row.in_place_of ? 0.0 : row.share_of_misfit;
+    }
+  }
+  for (const Named& row : verdict.doubtful) {
+    doubted += row.share_of_misfit;
+  }
+  if (known <= 0.0) {
+    return 1.0;
+  }
+  const double stays = evidence.augmented.excess() / std::max(evidence.base.excess(), 1e-300);
+  return std::clamp(stays + std::max(1.0 - stays, 0.0) * doubted / (known + doubted), 0.0, 1.0);
+}
+
 }  // namespace
 
 std::string_view name_of(Answer answer) {
@@ -114,35 +137,27 @@ std::string better_law(const Evidence& evidence) {
   return best == nullptr ? std::string{} : best->model;
 }
 
-Verdict verdict_of(const Evidence& evidence) {
+namespace {
+
+// All but the share that has no name.
+Verdict answer_of(const Evidence& evidence) {
   Verdict verdict;
   verdict.remaining_structure = structured(evidence.augmented);
   verdict.missing = missing_table().probability(features_of(evidence));
-  double explained = 0.0;
   bool alone = false;
   for (std::size_t k = 0; k < evidence.candidates.size(); ++k) {
     const std::vector<Named> rows = named(k, evidence);
     const Grade grade = rows.front().grade;
-    if (grade == Grade::none) {
+    if (grade == Grade::none || !evidence.doubt_of_data.empty()) {
       verdict.doubtful.push_back(rows.front());
       continue;
     }
-    explained += rows.front().share_of_misfit;
     append(grade == Grade::suggested ? verdict.suggestions : verdict.effects, rows);
     alone = alone || (grade != Grade::suggested && rows.size() == 1);
   }
-  const double excess = std::max(evidence.base.excess(), 1e-300);
-  const double unexplained = evidence.augmented.excess() / excess;
-  double doubted = 0.0;
-  for (const Named& row : verdict.doubtful) {
-    doubted += row.share_of_misfit;
-  }
-  verdict.unknown_share = std::clamp(unexplained + doubted, 0.0, 1.0);
   if (!evidence.doubt_of_data.empty()) {
     verdict.answer = Answer::unattributed;
     verdict.reason = evidence.doubt_of_data;
-    verdict.effects.clear();
-    verdict.suggestions.clear();
     return verdict;
   }
   if (!verdict.effects.empty()) {
@@ -159,6 +174,14 @@ Verdict verdict_of(const Evidence& evidence) {
     verdict.reason = evidence.candidates.empty() ? "no known effect explains the misfit"
                                                  : "no effect explains enough of the misfit to be named";
   }
+  return verdict;
+}
+
+}  // namespace
+
+Verdict verdict_of(const Evidence& evidence) {
+  Verdict verdict = answer_of(evidence);
+  verdict.unknown_share = unknown_share(verdict, evidence);
   return verdict;
 }
 

@@ -41,7 +41,9 @@ struct Verdict {
   std::vector<Named> suggestions;  // at least as likely as not
   std::vector<Named> doubtful;     // in the augmented model, and neither
   double missing = 0.0;            // probability that physics is missing
-  double unknown_share = 0.0;  // of the base model's misfit beyond the noise: what nothing named or suggested explains
+  // Of the base model's misfit beyond the noise: what nothing named or suggested explains. 0 where nothing but noise is
+  // left, 1 where more is and nothing is named or suggested.
+  double unknown_share = 0.0;
   bool remaining_structure = false;
   std::string reason;  // why nothing, or not more, was named; may be empty
 };

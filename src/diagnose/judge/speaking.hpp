@@ -1,0 +1,22 @@
+// Which signature contrast speaks for an effect: the choice that a probability is computed from and a reader is shown.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "diagnose/judge/evidence.hpp"
+
+namespace hysteron {
+
+struct Speaking {
+  const Signature* signature = nullptr;  // of the evidence
+  double z = 0.0;                        // in the sense that the effect has; not below 0
+};
+
+// The one with the largest z in the effect's sense of those that speak for it. Nothing where none could be taken.
+std::optional<Speaking> speaking_for(const std::string& effect, const Evidence& evidence);
+
+// Two standard errors in the effect's sense, and beyond 95 % of the placebos: enough to be seen by itself.
+bool shows(const Speaking& speaking);
+
+}  // namespace hysteron
