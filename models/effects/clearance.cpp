@@ -50,9 +50,9 @@ struct Clearance {
   static constexpr Knowledge knowledge = {
       .family = families::free_travel,
       .in_words = "clearance (play with a stiffness of contact)",
-      .shows = "the rod travels without force after each reversal, equally far at any speed and current",
+      .shows = "the rod travels without force after each reversal, equally far at any speed[ and current]",
       .experiment =
-          "two strokes at the same speed, one about as small as the suspected gap, at two currents: a gap keeps its "
+          "two strokes at the same speed, one about as small as the suspected gap[, at two currents]: a gap keeps its "
           "width in mm, a compliance grows with the force",
       .kin = kin,
       .holds = holds,

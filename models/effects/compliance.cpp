@@ -35,8 +35,8 @@ struct Compliance {
       .in_words = "a compliance in series",
       .shows = "the rod travels further before the force has turned the larger the force is",
       .experiment =
-          "current steps while the damper is held, and the same stroke at three currents: the deflection of a "
-          "compliance grows with the force",
+          "[current steps while the damper is held, and the same stroke at three currents|the same stroke at three "
+          "speeds]: the deflection of a compliance grows with the force",
       .kin = kin,
       .kindred = kindred,
   };

@@ -28,7 +28,7 @@ struct CoulombFriction {
       .family = families::friction,
       .in_words = "Coulomb friction",
       .shows = "a force of one size against the motion, at the slowest speed too",
-      .experiment = "a slow triangle without current at several speeds below 20 mm/s",
+      .experiment = "a slow triangle[ without current] at several speeds below 20 mm/s",
       .kin = kin,
       .ends_as = ends_as,
   };

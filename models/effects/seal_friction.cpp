@@ -40,8 +40,8 @@ struct SealFriction {
   static constexpr Knowledge knowledge = {
       .family = families::friction,
       .in_words = "seal friction (Coulomb-Stribeck)",
-      .shows = "a force against the motion that is largest at low speed, the same at any current",
-      .experiment = "a slow triangle without current at several speeds below 20 mm/s",
+      .shows = "a force against the motion that is largest at low speed[, the same at any current]",
+      .experiment = "a slow triangle[ without current] at several speeds below 20 mm/s",
       .kin = kin,
       .holds = holds,
       .ends_as = ends_as,

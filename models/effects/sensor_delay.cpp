@@ -25,9 +25,10 @@ struct SensorDelay {
   static constexpr Knowledge knowledge = {
       .family = families::phase,
       .in_words = "a delay between the motion and force channels",
-      .shows = "the force follows motion and current later by one time, at any frequency",
+      .shows = "the force follows motion[ and current] later by one time, at any frequency",
       .experiment =
-          "a current step at constant velocity and sines at frequencies an octave apart: a delay stays constant in ms",
+          "[a current step at constant velocity and ]sines at frequencies an octave apart: a delay stays constant in "
+          "ms",
       .kin = kin,
   };
 

@@ -6,11 +6,11 @@
 #include <memory>
 
 #include "app/command.hpp"
+#include "app/diagnosis_text.hpp"
 #include "app/model_file.hpp"
 #include "app/page.hpp"
 #include "app/values.hpp"
 #include "core/error.hpp"
-#include "diagnose/account.hpp"
 #include "diagnose/record.hpp"
 #include "io/output.hpp"
 #include "report/html.hpp"
@@ -20,8 +20,6 @@ namespace hysteron::app {
 namespace {
 
 using nlohmann::json;
-
-constexpr std::size_t most_pairs_printed = 8;
 
 struct Options {
   DataOptions data;
@@ -34,25 +32,6 @@ struct Options {
   bool json = false;
   std::string out;
 };
-
-std::string explanation(const Diagnosis& diagnosis) {
-  const Answer answer = diagnosis.verdict.answer;
-  if (answer == Answer::complete) {
-    return above_noise_floor(diagnosis)
-               ? "What is left cannot be told from noise: the base model is complete as far as these recordings tell."
-               : "Nothing but noise is left: the base model is complete for these recordings.";
-  }
-  if (answer == Answer::missing_physics) {
-    return diagnosis.verdict.remaining_structure ? "Physics is missing; what is named below is not the whole story."
-                                                 : "Physics is missing, and what is named below explains it.";
-  }
-  if (answer == Answer::ambiguous) {
-    return "Physics is missing; these recordings cannot tell the candidates below apart.";
-  }
-  return diagnosis.verdict.suggestions.empty()
-             ? "What is left is neither told to be noise nor explained by a known effect."
-             : "The model misses something; what is suggested below is no more than likely.";
-}
 
 Identification identification_of(const Diagnosis& diagnosis, const Campaign& campaign,
                                  const ObjectiveOptions& objective, bool roles) {
@@ -74,61 +53,6 @@ Identification identification_of(const Diagnosis& diagnosis, const Campaign& cam
   result.solvers.push_back(outcome);
   estimate(result, Objective(*fit.layout, fitted, objective), fit.point, campaign.recordings.front().drive_kind);
   return result;
-}
-
-void print_summary(const Diagnosis& diagnosis, const std::filesystem::path& out) {
-  const Search& search = diagnosis.search;
-  fmt::print("verdict: {}\n{}\n\n", name_of(diagnosis.verdict.answer), explanation(diagnosis));
-  fmt::print("{}\n",
-             table({"model", "NRMSE fit", "NRMSE held out"},
-                   {{search.base.what.model, format_number(search.base.cost, 4), format_number(search.base.heldout, 4)},
-                    {search.augmented.what.model == search.base.what.model ? "augmented"
-                                                                           : "augmented " + search.augmented.what.model,
-                     format_number(search.augmented.cost, 4), format_number(search.augmented.heldout, 4)},
-                    {"noise floor (" + std::string(word_of(diagnosis.noise_floor_method)) + ")",
-                     format_number(diagnosis.noise_floor, 4), format_number(diagnosis.noise_floor_heldout, 4)}}));
-  const std::vector<Named> names = listed(diagnosis.verdict);
-  for (std::size_t k = 0; k < names.size(); ++k) {
-    const Named& named = names[k];
-    fmt::print("- {} ({:.0f} %{}): {}\n", name_of(named.grade), 100.0 * named.confidence,
-               named.indistinguishable_from.empty() ? "" : " that it is one of these", diagnosis.sentences[k]);
-  }
-  if (diagnosis.verdict.answer != Answer::complete) {
-    fmt::print("{}{:.0f} % of the base model's misfit beyond the noise has no name.\n", names.empty() ? "" : "\n",
-               100.0 * diagnosis.verdict.unknown_share);
-  }
-  if (!diagnosis.locations.empty()) {
-    fmt::print("\nwhere the base model's misfit sits:\n");
-    for (const Location& location : diagnosis.locations) {
-      fmt::print("- {}: {:.0f} % of the misfit in {:.0f} % of the samples\n", location.where,
-                 100.0 * location.share_of_misfit, 100.0 * location.share_of_samples);
-    }
-  }
-  std::string hidden;
-  for (const Unobservable& row : diagnosis.not_observable) {
-    if (!row.reason.empty()) {
-      hidden += "- " + row.id + ": " + row.reason + "\n";
-    }
-  }
-  if (!hidden.empty()) {
-    fmt::print("\nnot observable in these recordings:\n{}", hidden);
-  }
-  const std::vector<AlikePair> pairs = alike_pairs(diagnosis.alias);
-  if (!pairs.empty()) {
-    fmt::print("\nlook alike in these recordings, beside what {} imitates (cosine; all in the report):\n",
-               diagnosis.search.base.what.model);
-    for (std::size_t k = 0; k < std::min(pairs.size(), most_pairs_printed); ++k) {
-      fmt::print("- {} and {}: {:.3f}\n", pairs[k].effect, pairs[k].other, pairs[k].cosine);
-    }
-    if (pairs.size() > most_pairs_printed) {
-      fmt::print("- and {} more pairs above {}\n", pairs.size() - most_pairs_printed, alike_from);
-    }
-  }
-  fmt::print("\nnext experiment: {}\n", diagnosis.next_experiment);
-  for (const std::string& note : diagnosis.notes) {
-    fmt::print("note: {}\n", note);
-  }
-  fmt::print("report: {}\n", (out / "report.html").string());
 }
 
 void run(const Options& options) {
@@ -252,7 +176,7 @@ void run(const Options& options) {
   if (options.json) {
     fmt::print("{}", json_text(diagnosis_file));
   } else {
-    print_summary(*diagnosis, out);
+    fmt::print("{}report: {}\n", diagnosis_text(diagnosis_file), (out / "report.html").string());
   }
 }
 

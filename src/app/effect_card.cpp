@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "diagnose/account.hpp"
 #include "diagnose/search/relatives.hpp"
+#include "diagnose/search/wording.hpp"
 
 namespace hysteron::app {
 namespace {
@@ -48,7 +48,7 @@ std::vector<std::string> needs_of(const Knowledge& known) {
   return result;
 }
 
-json or_null(std::string_view text) { return text.empty() ? json(nullptr) : json(text); }
+json or_null(std::string_view text) { return text.empty() ? json(nullptr) : json(worded(text, DriveKind::current)); }
 
 }  // namespace
 
@@ -74,7 +74,7 @@ std::string effect_card_text(const std::string& effect) {
     text += fmt::format("Family: {}, {}\n", known.family.id, known.family.title);
   }
   if (!known.shows.empty()) {
-    text += fmt::format("It shows: {}\n", known.shows);
+    text += fmt::format("It shows: {}\n", worded(known.shows, DriveKind::current));
   }
   std::vector<std::string> related;
   for (const Relation& row : relations_of(effect)) {
@@ -90,7 +90,7 @@ std::string effect_card_text(const std::string& effect) {
   text += fmt::format("Inputs needed: motion and force{}\n",
                       known.needs.empty() ? "" : ", " + joined(needs_of(known), " and "));
   if (!known.experiment.empty()) {
-    text += fmt::format("Told apart by: {}\n", known.experiment);
+    text += fmt::format("Told apart by: {}\n", worded(known.experiment, DriveKind::current));
   }
   return text;
 }

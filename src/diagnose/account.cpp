@@ -6,7 +6,9 @@
 #include <cmath>
 #include <set>
 
+#include "diagnose/judge/speaking.hpp"
 #include "diagnose/search/relatives.hpp"
+#include "diagnose/search/wording.hpp"
 
 namespace hysteron {
 namespace {
@@ -16,44 +18,87 @@ constexpr double shown_by_judges = 0.98;
 // Times the noise floor above which more is left than an estimate of the noise is wrong by.
 constexpr double clear_of_floor = 1.2;
 
-// As it stands in a sentence.
-std::string title_of(const std::string& effect) {
-  const std::string_view in_words = knowledge_of(effect).in_words;
-  const Part* part = find_effect(effect);
-  return in_words.empty() ? std::string(part == nullptr ? effect : part->title) : std::string(in_words);
-}
-
-// What separates the first of the candidates that a recording can separate.
-std::string next_experiment(const std::vector<std::string>& candidates) {
+// The first of the candidates that a recording can separate, with that recording; the id is empty where none can.
+struct Separating {
+  std::string id;
+  std::string recording;
+};
+Separating separating(const std::vector<std::string>& candidates, DriveKind drive) {
   for (const std::string& id : candidates) {
-    if (const std::string_view separating = knowledge_of(id).experiment; !separating.empty()) {
-      return std::string(separating);
+    if (const std::string_view text = knowledge_of(id).experiment; !text.empty()) {
+      return {id, worded(text, drive)};
     }
   }
-  return "the same motion at other frequencies, amplitudes and currents";
+  return {"", worded("the same motion at other frequencies[, amplitudes and currents| and amplitudes]", drive)};
+}
+
+// "0.40 mm (95 %: 0.38 to 0.42 mm)".
+std::string interval_text(const ParameterInterval& p) {
+  constexpr int digits = 3;
+  const std::string value = size_text(p.value, p.unit, digits);
+  if (!p.half_width) {
+    return value +
+           (p.bound.empty() ? " (not told by these recordings)" : " (the " + p.bound + " end of what was searched)");
+  }
+  std::string low = size_text(p.value - *p.half_width, p.unit, digits);
+  const std::string high = size_text(p.value + *p.half_width, p.unit, digits);
+  const std::size_t space = low.find(' ');
+  if (space != std::string::npos && high.ends_with(low.substr(space))) {
+    low.resize(space);
+  }
+  return fmt::format("{} (95 %: {} to {})", value, low, high);
 }
 
 }  // namespace
 
-std::string joined(const std::vector<std::string>& words, const std::string& last) {
-  std::string result;
-  for (std::size_t k = 0; k < words.size(); ++k) {
-    result += (k == 0 ? "" : (k + 1 == words.size() ? last : ", ")) + words[k];
+const Contrast* contrast_of(const Diagnosis& diagnosis, const std::string& effect) {
+  const std::optional<Speaking> speaking = speaking_for(effect, diagnosis.evidence);
+  if (!speaking) {
+    return nullptr;
   }
-  return result;
+  const auto at = std::ranges::find_if(
+      diagnosis.contrasts, [&](const Contrast& one) { return card_of(one.kind).id == speaking->signature->id; });
+  return at == diagnosis.contrasts.end() ? nullptr : &*at;
+}
+
+const Contender* nearest_rival(const Named& named, const Evidence& evidence) {
+  const Contender* best = nullptr;
+  for (const Contender& row : evidence.candidates[named.candidate].contenders) {
+    // What holds the candidate as its limit and is not told from it there is the candidate.
+    const bool same = row.law || row.id == named.id || (row.holds_the_candidate && !row.apart);
+    const bool in_set = std::ranges::find(named.indistinguishable_from, row.id) != named.indistinguishable_from.end();
+    if (!same && !in_set && (best == nullptr || row.share > best->share)) {
+      best = &row;
+    }
+  }
+  return best;
+}
+
+std::string experiment_for(const Diagnosis& diagnosis, const Named& named) {
+  std::vector<std::string> candidates = {named.id};
+  candidates.insert(candidates.end(), named.indistinguishable_from.begin(), named.indistinguishable_from.end());
+  if (const Contender* rival = nearest_rival(named, diagnosis.evidence)) {
+    candidates.push_back(rival->id);
+  }
+  return separating(candidates, diagnosis.drive).recording;
+}
+
+std::string sizes_text(const std::vector<ParameterInterval>& parameters, std::size_t most) {
+  std::vector<std::string> values;
+  for (const ParameterInterval& p : parameters) {
+    if (values.size() < most) {
+      values.push_back(fmt::format("{} = {}", p.name, size_text(p.value, p.unit, 2)));
+    }
+  }
+  return joined(values, " and ");
 }
 
 std::string sentence_of(const Diagnosis& diagnosis, const Named& named,
                         const std::vector<ParameterInterval>& parameters) {
   std::vector<std::string> values;
+  values.reserve(parameters.size());
   for (const ParameterInterval& p : parameters) {
-    std::string text = fmt::format("{} = {:.3g}{}", p.name, p.value, p.unit == "1" ? "" : " " + p.unit);
-    if (p.half_width) {
-      text += fmt::format(" (95 %: {:.3g} to {:.3g})", p.value - *p.half_width, p.value + *p.half_width);
-    } else {
-      text += p.bound.empty() ? " (not told by these recordings)" : " (the " + p.bound + " end of what was searched)";
-    }
-    values.push_back(text);
+    values.push_back(fmt::format("{} = {}", p.name, interval_text(p)));
   }
   std::string text = "Consistent with " + title_of(named.id);
   for (const Found& found : diagnosis.search.found) {
@@ -82,12 +127,8 @@ std::string sentence_of(const Diagnosis& diagnosis, const Named& named,
     }
     text += "; these recordings cannot tell it from " + joined(others, " or ");
   }
-  const std::vector<Contender>& contenders = diagnosis.evidence.candidates[named.candidate].contenders;
-  const auto rival = std::ranges::find_if(contenders, [&](const Contender& row) {
-    return !row.law && row.id != named.id &&
-           std::ranges::find(named.indistinguishable_from, row.id) == named.indistinguishable_from.end();
-  });
-  if (!named.in_place_of && rival != contenders.end()) {
+  const Contender* rival = named.in_place_of ? nullptr : nearest_rival(named, diagnosis.evidence);
+  if (rival != nullptr) {
     text += fmt::format("; next best in its place: {} ({:.0f} % of its gain)", title_of(rival->id),
                         100.0 * std::clamp(rival->share, 0.0, 1.0));
   }
@@ -107,9 +148,15 @@ std::vector<Rejected> rejected_of(const Diagnosis& diagnosis) {
     return std::ranges::find(all, id, &Named::id) != all.end();
   };
   for (const Named& row : diagnosis.verdict.doubtful) {
-    result.push_back({row.id, fmt::format("in the augmented model as a shape that predicts better; as a cause it is "
-                                          "less likely than not ({:.0f} %)",
-                                          100.0 * row.confidence)});
+    if (is_listed(row.id)) {
+      continue;
+    }
+    result.push_back({row.id, diagnosis.evidence.doubt_of_data.empty()
+                                  ? fmt::format("in the augmented model as a shape that predicts better; as a cause it "
+                                                "is less likely than not ({:.0f} %)",
+                                                100.0 * row.confidence)
+                                  : "in the augmented model as a shape that predicts better; on these recordings no "
+                                    "cause can be named"});
   }
   const double base = squared(diagnosis.search.quick_base.cost);
   const double all = std::max(base - squared(diagnosis.search.quick_augmented.cost), 1e-300);
@@ -138,22 +185,35 @@ std::vector<Rejected> rejected_of(const Diagnosis& diagnosis) {
 std::string experiment_after(const Diagnosis& diagnosis) {
   const Verdict& verdict = diagnosis.verdict;
   std::vector<std::string> candidates;
-  for (const Named& named : listed(verdict)) {
+  std::vector<Named> rows = listed(verdict);
+  if (verdict.answer == Answer::unattributed && rows.empty()) {
+    rows = verdict.doubtful;
+  }
+  for (const Named& named : rows) {
     candidates.push_back(named.id);
   }
-  if (verdict.answer == Answer::ambiguous) {
-    return next_experiment(candidates);
-  }
-  if (verdict.answer == Answer::missing_physics || !candidates.empty()) {
-    return "to confirm: " + next_experiment(candidates);
-  }
-  if (verdict.answer == Answer::complete) {
+  if (verdict.answer == Answer::complete && candidates.empty()) {
     return "none is needed for this model; effects listed as not observable need their own recordings";
   }
-  if (const std::string law = better_law(diagnosis.evidence); !law.empty()) {
+  const std::string law = better_law(diagnosis.evidence);
+  if (verdict.answer == Answer::unattributed && !law.empty() && law != diagnosis.search.augmented.what.model) {
     return "none yet: diagnose these recordings with --model " + law + " first";
   }
-  return next_experiment({});
+  const Separating decides = separating(candidates, diagnosis.drive);
+  if (decides.id.empty()) {
+    return decides.recording;
+  }
+  if (verdict.answer != Answer::ambiguous) {
+    return fmt::format("{}; it would {} {}", decides.recording,
+                       verdict.answer == Answer::missing_physics ? "confirm" : "show whether there is",
+                       title_of(decides.id));
+  }
+  const Named& named = *std::ranges::find(rows, decides.id, &Named::id);
+  std::vector<std::string> titles = {title_of(named.id)};
+  for (const std::string& other : named.indistinguishable_from) {
+    titles.push_back(title_of(other));
+  }
+  return fmt::format("{}; it would tell {} apart", decides.recording, joined(titles, " and "));
 }
 
 bool above_noise_floor(const Diagnosis& diagnosis) {
@@ -164,23 +224,12 @@ bool above_noise_floor(const Diagnosis& diagnosis) {
 
 void note_verdict(Diagnosis& diagnosis) {
   const Verdict& verdict = diagnosis.verdict;
-  if (!verdict.reason.empty()) {
-    diagnosis.notes.push_back(verdict.reason);
-  }
   if (verdict.answer == Answer::complete && above_noise_floor(diagnosis)) {
     diagnosis.notes.push_back(
         fmt::format("what is left is {:.2f} times the noise floor, {:.2f} times on the held-out recordings; too little "
                     "of it is seen to follow the motion to tell it from slow noise, of which the floor misses a part",
                     diagnosis.search.augmented.cost / diagnosis.noise_floor,
                     diagnosis.search.augmented.heldout / diagnosis.noise_floor_heldout));
-  }
-  std::vector<std::string> shapes;
-  for (const Named& row : verdict.doubtful) {
-    shapes.push_back(row.id);
-  }
-  if (!shapes.empty()) {
-    diagnosis.notes.push_back("the augmented model uses " + joined(shapes, " and ") +
-                              " as a shape that predicts better; it is not offered as the cause");
   }
   for (const DriftOfParameter& before : diagnosis.drift_of_base.parameters) {
     if (before.follows.empty()) {
@@ -194,8 +243,8 @@ void note_verdict(Diagnosis& diagnosis) {
                     before.rank_correlation > 0.0 ? "rises" : "falls",
                     before.follows == "order" ? "order of recording" : before.follows, 100.0 * low, 100.0 * high,
                     diagnosis.search.augmented.what.effects.empty() || after == all.end() ? ""
-                    : after->follows.empty() ? ", with the effects found no longer"
-                                             : ", with the effects found still"));
+                    : after->follows.empty() ? ", in the augmented model no longer"
+                                             : ", in the augmented model still"));
   }
   for (const Named& named : verdict.effects) {
     const Candidate& candidate = diagnosis.evidence.candidates[named.candidate];

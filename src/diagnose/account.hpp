@@ -8,8 +8,18 @@
 
 namespace hysteron {
 
-// "a, b and c" with " and " for `last`.
-std::string joined(const std::vector<std::string>& words, const std::string& last);
+// The signature contrast that speaks for an effect most, with its values recording by recording; null where none does.
+const Contrast* contrast_of(const Diagnosis& diagnosis, const std::string& effect);
+
+// What explains most in the place of a named effect of the effects that the recordings tell from it; null where nothing
+// was tried there.
+const Contender* nearest_rival(const Named& named, const Evidence& evidence);
+
+// A recording that would tell a named effect from what is mistaken for it.
+std::string experiment_for(const Diagnosis& diagnosis, const Named& named);
+
+// "gap = 0.40 mm": the sizes of an effect, at most so many, in engineers' units.
+std::string sizes_text(const std::vector<ParameterInterval>& parameters, std::size_t most);
 
 // What speaks for a named effect: parameters with intervals, held-out errors, what cannot be told from it, what comes
 // next.
@@ -22,7 +32,7 @@ std::vector<Rejected> rejected_of(const Diagnosis& diagnosis);
 std::string experiment_after(const Diagnosis& diagnosis);
 // Whether the augmented model leaves clearly more than the noise floor, fitted or held out.
 bool above_noise_floor(const Diagnosis& diagnosis);
-// Adds why the verdict is what it is, and what the augmented model holds without being offered as a cause.
+// Adds what is to be known beside the summary.
 void note_verdict(Diagnosis& diagnosis);
 
 }  // namespace hysteron

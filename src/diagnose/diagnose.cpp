@@ -12,9 +12,11 @@
 #include "diagnose/account.hpp"
 #include "diagnose/residual/wander.hpp"
 #include "diagnose/search/of_fit.hpp"
+#include "diagnose/search/wording.hpp"
 #include "diagnose/signal/noise.hpp"
 #include "diagnose/signal/outliers.hpp"
 #include "diagnose/signal/thin.hpp"
+#include "diagnose/summary.hpp"
 #include "fit/identify.hpp"
 #include "io/velocity.hpp"
 
@@ -95,6 +97,10 @@ const Fit& fit_of(const Search& search, const Named& named) {
   const auto rival =
       std::ranges::find_if(found->rivals, [&](const Rival& one) { return one.fit && one.part.effect == named.id; });
   return rival == found->rivals.end() ? search.augmented : *rival->fit;
+}
+
+std::string law_instead(const Search& search) {
+  return search.augmented.what.model == search.base.what.model ? std::string{} : search.augmented.what.model;
 }
 
 const Fit& without_of(const Search& search, const Named& named) {
@@ -226,20 +232,22 @@ std::string doubt_of_velocity(const std::vector<Recording>& recordings) {
 struct Judgement {
   Search search;
   std::vector<std::string> surprising;
+  std::vector<Contrast> contrasts;
   Evidence evidence;
   Verdict verdict;
 };
 
 Judgement judged(Search found, const Workbench& bench, const Workbench& fine) {
   std::map<const Fit*, std::vector<Estimate>> estimates;  // fits are asked for several effects
+  Judgement result{std::move(found), {}, {}, {}, {}};
+  result.contrasts = contrasts(fine.split().fit, fine.residuals(result.search.base).of);
   const Circumstances known = {[&](const Fit& fit, const std::string& effect) {
                                  if (!estimates.contains(&fit)) {
                                    estimates[&fit] = estimates_of(fine, fit);
                                  }
                                  return intervals_of(estimates[&fit], effect);
                                },
-                               velocity_channel_lag(bench.split().fit)};
-  Judgement result{std::move(found), {}, {}, {}};
+                               velocity_channel_lag(bench.split().fit), result.contrasts};
   result.surprising = surprises(bench, result.search.augmented);
   result.evidence = evidence_of(result.search, fine, known);
   result.evidence.doubt_of_completeness = doubt_of_completeness(result.search, fine, result.surprising);
@@ -268,9 +276,11 @@ bool try_better_law(Judgement& first, const Workbench& bench, const Workbench& q
   const std::string asked = first.search.base.what.model;
   // Of the misfit of the law asked for, part of which the other law takes.
   const Left before = first.evidence.base;
+  const double left = std::clamp(second.evidence.base.excess() / std::max(before.excess(), 1e-300), 0.0, 1.0);
+  second.verdict.unknown_share *= left;
   for (std::vector<Named>* list : {&second.verdict.effects, &second.verdict.suggestions, &second.verdict.doubtful}) {
     for (Named& named : *list) {
-      named.share_of_misfit *= std::clamp(second.evidence.base.excess() / std::max(before.excess(), 1e-300), 0.0, 1.0);
+      named.share_of_misfit *= left;
     }
   }
   const Fit base = first.search.base;
@@ -374,7 +384,9 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const Split& split
   diagnosis.surprises = std::move(judgement.surprising);
   diagnosis.evidence = std::move(judgement.evidence);
   diagnosis.verdict = std::move(judgement.verdict);
-  const bool swapped = diagnosis.search.augmented.what.model != options.model;
+  diagnosis.contrasts = std::move(judgement.contrasts);
+  diagnosis.drive = drive_kind_of(campaign.recordings);
+  const std::string instead = law_instead(diagnosis.search);
   const std::vector<Named> names = listed(diagnosis.verdict);
   score_on_all(diagnosis.search, names, diagnosis.bench);
   estimate_noise_floor(diagnosis, options.objective.normalisation);
@@ -384,15 +396,25 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const Split& split
   if (diagnosis.verdict.answer != Answer::complete &&
       (structured(diagnosis.search.base_misfit) || !diagnosis.search.found.empty())) {
     diagnosis.locations = locate(diagnosis.bench.split().fit, diagnosis.bench.residuals(diagnosis.search.base));
+    if (diagnosis.verdict.remaining_structure && !(diagnosis.search.augmented.what == diagnosis.search.base.what)) {
+      diagnosis.locations_left =
+          locate(diagnosis.bench.split().fit, diagnosis.bench.residuals(diagnosis.search.augmented));
+    }
   }
   diagnosis.drift_of_base = drift_of(fine, diagnosis.search.base);
   diagnosis.drift_of_augmented = drift_of(fine, diagnosis.search.augmented);
   for (const Named& named : names) {
     diagnosis.parameters.push_back(intervals_of(estimates_of(fine, fit_of(diagnosis.search, named)), named.id));
-    diagnosis.sentences.push_back(sentence_of(diagnosis, named, diagnosis.parameters.back()) +
-                                  (swapped ? " All this behind " + diagnosis.search.augmented.what.model +
-                                                 ", which takes the place of " + options.model + "."
-                                           : ""));
+    diagnosis.sentences.push_back(
+        sentence_of(diagnosis, named, diagnosis.parameters.back()) +
+        (instead.empty() ? "" : " All this behind " + instead + ", which takes the place of " + options.model + "."));
+  }
+  const Residuals of_base = fine.residuals(diagnosis.search.base);
+  for (const Named& named : names) {
+    diagnosis.views.push_back(view_of(contrast_of(diagnosis, named.id), fine.split().fit, of_base.of));
+  }
+  for (const Named& shape : diagnosis.verdict.doubtful) {
+    diagnosis.shapes.push_back(intervals_of(estimates_of(fine, diagnosis.search.augmented), shape.id));
   }
   std::vector<std::string> absent;
   for (const std::string& id : searching.candidates) {
@@ -410,6 +432,7 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const Split& split
   diagnosis.rejected = rejected_of(diagnosis);
   diagnosis.next_experiment = experiment_after(diagnosis);
   note_verdict(diagnosis);
+  diagnosis.summary = summary_of(diagnosis);
 
   progress(0.98, "final fit");
   const bool roles = std::ranges::any_of(campaign.roles, [](Role role) { return role == Role::validate; });

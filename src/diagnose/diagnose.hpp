@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "diagnose/judge/verdict.hpp"
+#include "diagnose/residual/contrast_view.hpp"
 #include "diagnose/residual/drift.hpp"
 #include "diagnose/residual/locate.hpp"
 #include "diagnose/search/alias.hpp"
@@ -39,16 +40,23 @@ struct Diagnosis {
   double noise_floor = 0.0;          // of the force, NRMSE over the fitted recordings
   double noise_floor_heldout = 0.0;  // likewise over the judging ones
   NoiseMethod noise_floor_method = NoiseMethod::unknown;
-  std::vector<Location> locations;
+  DriveKind drive = DriveKind::none;
+  std::vector<Contrast> contrasts;       // of what the base model leaves of the fitted recordings, in their order
+  std::vector<Location> locations;       // of the base model's misfit
+  std::vector<Location> locations_left;  // of the augmented model's
   Drift drift_of_base;
   Drift drift_of_augmented;
   // Of the verdict's effects, then of its suggestions.
   std::vector<std::vector<ParameterInterval>> parameters;
   std::vector<std::string> sentences;
+  std::vector<std::optional<ContrastView>> views;  // of the fitted recordings, where each can be looked at
+  // Of the shapes that the augmented model holds without a name, the verdict's doubtful ones.
+  std::vector<std::vector<ParameterInterval>> shapes;
   std::vector<Rejected> rejected;
   std::vector<Unobservable> not_observable;
   AliasMap alias;  // of the effects considered, beside the base model
   std::string next_experiment;
+  std::vector<std::string> summary;    // sentences of one paragraph, what matters most first, the next recording last
   std::vector<std::string> surprises;  // held-out recordings that miss by far more than every fitted one
   Fit final;                           // the augmented model fitted to everything that may be fitted
   std::vector<std::string> notes;
@@ -59,6 +67,9 @@ std::vector<Named> listed(const Verdict& verdict);
 // The hypothesis that holds what is listed, and the same less it. References into `search`, of which the verdict is.
 const Fit& fit_of(const Search& search, const Named& named);
 const Fit& without_of(const Search& search, const Named& named);
+
+// The law of the augmented model where that is not the one asked for; empty where it is.
+std::string law_instead(const Search& search);
 
 // Orders of the laws of a base model when none are given: every yield force and damping that has a drive to depend on
 // becomes linear in it.

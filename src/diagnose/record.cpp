@@ -1,6 +1,12 @@
 #include "diagnose/record.hpp"
 
+#include <algorithm>
+
+#include "diagnose/account.hpp"
 #include "diagnose/judge/evidence.hpp"
+#include "diagnose/judge/speaking.hpp"
+#include "diagnose/search/relatives.hpp"
+#include "diagnose/search/wording.hpp"
 
 namespace hysteron {
 
@@ -33,30 +39,125 @@ json drift_json(const Diagnosis& diagnosis) {
           {"augmented", parameters(diagnosis.drift_of_augmented)}};
 }
 
-}  // namespace
+json parameters_json(const std::vector<ParameterInterval>& parameters) {
+  json rows = json::array();
+  for (const ParameterInterval& p : parameters) {
+    rows.push_back({{"name", p.name},
+                    {"value", p.value},
+                    {"unit", p.unit},
+                    {"ci95", p.half_width ? json{p.value - *p.half_width, p.value + *p.half_width} : json(nullptr)}});
+  }
+  return rows;
+}
 
-namespace {
+json family_json(const std::string& effect) {
+  const std::string_view family = knowledge_of(effect).family.id;
+  return family.empty() ? json(nullptr) : json(family);
+}
+
+// Null where none can be taken from these recordings.
+json contrast_json(const Diagnosis& diagnosis, const std::string& effect) {
+  const std::optional<Speaking> speaking = speaking_for(effect, diagnosis.evidence);
+  if (!speaking) {
+    return nullptr;
+  }
+  const Signature& row = *speaking->signature;
+  json result = {{"id", row.id},
+                 {"what", row.what},
+                 {"value", row.value},
+                 {"std_error", row.std_error},
+                 {"unit", row.unit},
+                 {"z", row.z},
+                 {"z_for", speaking->z},
+                 {"placebo_quantile", row.placebo_quantile},
+                 {"shown", shows(*speaking)},
+                 {"consistency", row.consistency},
+                 {"recordings", row.recordings},
+                 {"of_recordings", json::array()}};
+  if (const Contrast* contrast = contrast_of(diagnosis, effect)) {
+    for (const ContrastOfRecording& one : contrast->of_recordings) {
+      result["of_recordings"].push_back(
+          {{"file", diagnosis.bench.split().fit[one.recording].file}, {"value", one.value}});
+    }
+  }
+  return result;
+}
+
+json rival_json(const Diagnosis& diagnosis, const Named& named) {
+  const Contender* rival = named.in_place_of ? nullptr : nearest_rival(named, diagnosis.evidence);
+  return rival == nullptr ? json(nullptr)
+                          : json{{"id", rival->id},
+                                 {"share_of_gain", std::clamp(rival->share, 0.0, 1.0)},
+                                 {"refitted", rival->refitted}};
+}
+
+json laws_json(const Diagnosis& diagnosis, const Named& named) {
+  json rows = json::array();
+  const std::vector<double>& kept = diagnosis.evidence.candidates[named.candidate].kept;
+  for (std::size_t k = 0; k < kept.size() && !named.in_place_of; ++k) {
+    rows.push_back({{"model", diagnosis.search.swaps[k].model}, {"share_of_gain", std::clamp(kept[k], 0.0, 1.0)}});
+  }
+  return rows;
+}
+
+json view_json(const Diagnosis& diagnosis, const std::optional<ContrastView>& view) {
+  return view ? json{{"recording", diagnosis.bench.split().fit[view->recording].file},
+                     {"from", view->from},
+                     {"to", view->to},
+                     {"over", word_of(view->over)}}
+              : json(nullptr);
+}
 
 json named_json(const Diagnosis& diagnosis, const Named& named, std::size_t index) {
-  json parameters = json::array();
-  for (const ParameterInterval& p : diagnosis.parameters[index]) {
-    parameters.push_back(
-        {{"name", p.name},
-         {"value", p.value},
-         {"unit", p.unit},
-         {"ci95", p.half_width ? json{p.value - *p.half_width, p.value + *p.half_width} : json(nullptr)}});
-  }
   return {{"id", named.id},
+          {"title", title_of(named.id)},
+          {"family", family_json(named.id)},
           {"grade", name_of(named.grade)},
           {"confidence", named.confidence},
           {"confidence_alone", named.alone},
           {"indistinguishable_from", named.indistinguishable_from},
+          {"in_place_of", named.in_place_of ? json(*named.in_place_of) : json(nullptr)},
           {"sentence", diagnosis.sentences[index]},
+          {"contrast", contrast_json(diagnosis, named.id)},
+          {"view", view_json(diagnosis, diagnosis.views[index])},
           {"robustness_value", named.robustness},
-          {"parameters", parameters},
+          {"nearest_rival", rival_json(diagnosis, named)},
+          {"experiment", experiment_for(diagnosis, named)},
+          {"behind_other_laws", laws_json(diagnosis, named)},
+          {"parameters", parameters_json(diagnosis.parameters[index])},
           {"nrmse_heldout_before", without_of(diagnosis.search, named).heldout},
           {"nrmse_heldout_after", fit_of(diagnosis.search, named).heldout},
           {"share_of_misfit", named.share_of_misfit}};
+}
+
+json locations_json(const std::vector<Location>& locations) {
+  json rows = json::array();
+  for (const Location& location : locations) {
+    rows.push_back({{"where", location.where},
+                    {"variable", location.variable},
+                    {"from", location.from},
+                    {"to", location.to},
+                    {"unit", location.unit},
+                    {"share_of_misfit", location.share_of_misfit},
+                    {"share_of_samples", location.share_of_samples},
+                    {"recordings", location.recordings}});
+  }
+  return rows;
+}
+
+// What the augmented model holds without a name.
+json shapes_json(const Diagnosis& diagnosis) {
+  json rows = json::array();
+  for (std::size_t k = 0; k < diagnosis.verdict.doubtful.size(); ++k) {
+    const Named& shape = diagnosis.verdict.doubtful[k];
+    rows.push_back({{"id", shape.id},
+                    {"title", title_of(shape.id)},
+                    {"family", family_json(shape.id)},
+                    {"confidence", shape.confidence},
+                    {"contrast", contrast_json(diagnosis, shape.id)},
+                    {"parameters", parameters_json(diagnosis.shapes[k])}});
+  }
+  return rows;
 }
 
 }  // namespace
@@ -68,17 +169,6 @@ json diagnosis_json(const Diagnosis& diagnosis) {
   const std::vector<Named> names = listed(diagnosis.verdict);
   for (std::size_t k = 0; k < names.size(); ++k) {
     (k < diagnosis.verdict.effects.size() ? effects : suggestions).push_back(named_json(diagnosis, names[k], k));
-  }
-  json locations = json::array();
-  for (const Location& location : diagnosis.locations) {
-    locations.push_back({{"where", location.where},
-                         {"variable", location.variable},
-                         {"from", location.from},
-                         {"to", location.to},
-                         {"unit", location.unit},
-                         {"share_of_misfit", location.share_of_misfit},
-                         {"share_of_samples", location.share_of_samples},
-                         {"recordings", location.recordings}});
   }
   json rejected = json::array();
   for (const Rejected& row : diagnosis.rejected) {
@@ -101,10 +191,11 @@ json diagnosis_json(const Diagnosis& diagnosis) {
             {"noise_floor_heldout_nrmse", diagnosis.noise_floor_heldout},
             {"noise_floor_method", word_of(diagnosis.noise_floor_method)}}},
           {"verdict", name_of(diagnosis.verdict.answer)},
+          {"summary", diagnosis.summary},
           {"effects", effects},
           {"suggestions", suggestions},
           {"unknown_share", diagnosis.verdict.unknown_share},
-          {"locations", locations},
+          {"locations", locations_json(diagnosis.locations)},
           {"rejected", rejected},
           {"not_observable", hidden},
           {"alias_map", {{"effects", diagnosis.alias.effects}, {"cosine", diagnosis.alias.cosine}}},
@@ -114,7 +205,9 @@ json diagnosis_json(const Diagnosis& diagnosis) {
             {"richer_laws", search.augmented.what.richer},
             {"nrmse_fit", search.augmented.cost},
             {"nrmse_heldout", search.augmented.heldout},
-            {"remaining_structure", diagnosis.verdict.remaining_structure}}},
+            {"remaining_structure", diagnosis.verdict.remaining_structure},
+            {"shapes", shapes_json(diagnosis)},
+            {"locations", locations_json(diagnosis.locations_left)}}},
           {"evidence", evidence_json(diagnosis.evidence)},
           {"drift", drift_json(diagnosis)},
           {"next_experiment", diagnosis.next_experiment},

@@ -59,7 +59,9 @@ struct KindredParameter {
 
 struct Knowledge {
   Family family = {};
-  std::string_view in_words;    // its title as it stands in a sentence
+  std::string_view in_words;  // its title as it stands in a sentence
+  // In both "current" stands for the drive, "[with|without]" for what is said with a drive and without one:
+  // "equally far at any speed[ and current]".
   std::string_view shows;       // what the force does where it is there, a clause
   std::string_view experiment;  // a recording that tells it from what it is mistaken for
   Acts acts = Acts::everywhere;

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "core/error.hpp"
+#include "diagnose/concealed_damper.hpp"
 #include "diagnose/judge/evidence.hpp"
 #include "diagnose/record.hpp"
 #include "diagnose/residual/locate.hpp"
@@ -18,51 +19,11 @@
 namespace hysteron {
 namespace {
 
-constexpr std::uint64_t seed = 5;
-
-// Six sines of one damper, two amplitudes at three frequencies.
-Campaign campaign_of(const std::string& model, const std::vector<std::string>& effects,
-                     const std::map<std::string, double>& values, double noise) {
-  LayoutOptions made;
-  made.fix = values;
-  const Layout layout(make_model(model, effects), DataScale{}, made);
-  Campaign campaign;
-  int index = 0;
-  for (const double frequency : {0.5, 1.3, 3.0}) {
-    for (const double amplitude : {0.004, 0.012}) {
-      Recording recording = testing::motion("r" + std::to_string(index) + ".csv", {{amplitude, frequency}},
-                                            3.0 / frequency, 400, 0.2 / frequency);
-      testing::set_force(recording, layout, layout.terms(layout.initial()), {}, noise,
-                         Stream(seed).child(static_cast<std::uint64_t>(index)));
-      campaign.recordings.push_back(recording);
-      campaign.roles.push_back(Role::unassigned);
-      ++index;
-    }
-  }
-  return campaign;
-}
-
-// Of a Bouc-Wen damper.
-Campaign campaign_with(const std::vector<std::string>& effects, const std::map<std::string, double>& values,
-                       double noise) {
-  std::map<std::string, double> made = {{"alpha", 600.0}, {"c0", 1500.0}, {"k0", 2000.0}, {"f0", 20.0},
-                                        {"x_y", 8e-4},    {"share", 0.6}, {"n", 1.5}};
-  made.insert(values.begin(), values.end());
-  return campaign_of("bouc-wen", effects, made, noise);
-}
-
-std::unique_ptr<Diagnosis> diagnosis_of(const Campaign& campaign, const std::vector<std::string>& candidates) {
-  DiagnoseOptions options;
-  options.model = "bouc-wen";
-  options.seed = seed;
-  options.objective.threads = 2;
-  options.candidates = candidates;
-  return diagnose(campaign, options, [](double, const std::string&) {});
-}
-
-// Relatives and strangers of what is concealed, few enough to be quick.
-const std::vector<std::string> few = {"quadratic-damping", "shear-thinning", "inertia",      "sensor-delay",
-                                      "gas-spring",        "force-drift",    "seal-friction"};
+using testing::campaign_of;
+using testing::campaign_with;
+using testing::diagnosis_of;
+using testing::few;
+using testing::seed;
 
 TEST(Diagnosis, NamesAndMeasuresAConcealedMass) {
   const auto diagnosis = diagnosis_of(campaign_with({"inertia"}, {{"inertia.m", 8.0}}, 0.01), few);
@@ -275,24 +236,6 @@ TEST(Diagnosis, ALawThatNeedsTwoMoreOrdersIsOneFinding) {
   EXPECT_NEAR(search.found[0].gain, squared(search.quick_base.cost) - squared(search.quick_augmented.cost),
               1e-3 * search.found[0].gain);
   EXPECT_EQ(diagnosis->verdict.answer, Answer::missing_physics);
-}
-
-TEST(Diagnosis, RecordHoldsWhatTheContractNames) {
-  const auto diagnosis =
-      diagnosis_of(campaign_with({"inertia"}, {{"inertia.m", 8.0}}, 0.01), {"inertia", "force-drift"});
-  const nlohmann::json record = diagnosis_json(*diagnosis);
-  EXPECT_EQ(record["schema"], "hysteron.diagnosis/2");
-  for (const char* key : {"baseline", "verdict", "effects", "suggestions", "unknown_share", "locations", "rejected",
-                          "not_observable", "augmented", "next_experiment"}) {
-    EXPECT_TRUE(record.contains(key)) << key;
-  }
-  for (const auto& row : record["rejected"]) {
-    EXPECT_FALSE(row.contains("p")) << "a p value that is not calibrated";
-  }
-  for (const char* key : {"id", "grade", "confidence", "robustness_value", "indistinguishable_from", "sentence",
-                          "parameters", "nrmse_heldout_before", "nrmse_heldout_after", "share_of_misfit"}) {
-    EXPECT_TRUE(record["effects"].at(0).contains(key)) << key;
-  }
 }
 
 TEST(Diagnosis, TooFewSamplesSayNothing) {

@@ -222,6 +222,9 @@ std::vector<Location> locate(const std::vector<Recording>& recordings, const Res
     location.from = std::fabs(edges[best_from]) < 1e-6 * std::fabs(edges.back()) ? 0.0 : edges[best_from];
     location.to = edges[best_to];
     location.where = sentence(variable, location.from, location.to, best_from == 0, best_to == count);
+    if (location.where.ends_with(' ')) {  // a variable without a unit
+      location.where.pop_back();
+    }
     location.share_of_misfit = part;
     location.share_of_samples = of_samples;
     location.lowest_ratio = ratios[resamples / 20];

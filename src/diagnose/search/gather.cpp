@@ -4,7 +4,6 @@
 #include <cmath>
 #include <map>
 
-#include "diagnose/residual/contrast.hpp"
 #include "diagnose/search/of_fit.hpp"
 #include "diagnose/search/relatives.hpp"
 
@@ -140,9 +139,9 @@ Contender contender_of(const Rival& rival, const Found& found, const Search& sea
   return row;
 }
 
-std::vector<Signature> signatures_of(const Workbench& bench, const Fit& base) {
+std::vector<Signature> signatures_of(const std::vector<Contrast>& contrasts) {
   std::vector<Signature> result;
-  for (const Contrast& contrast : contrasts(bench.split().fit, bench.residuals(base).of)) {
+  for (const Contrast& contrast : contrasts) {
     Signature row;
     row.id = card_of(contrast.kind).id;
     row.what = contrast.what;
@@ -176,7 +175,7 @@ Evidence evidence_of(const Search& search, const Workbench& fine, const Circumst
   result.further = search.further;
   result.richer_laws = static_cast<int>(search.richer.size());
 
-  result.signatures = signatures_of(fine, search.base);
+  result.signatures = signatures_of(known.contrasts);
 
   Looked looked;
   looked.want(search.base);

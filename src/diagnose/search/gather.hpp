@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "diagnose/judge/evidence.hpp"
+#include "diagnose/residual/contrast.hpp"
 #include "diagnose/search/observe.hpp"
 #include "diagnose/search/search.hpp"
 
@@ -28,6 +29,8 @@ struct Circumstances {
   std::function<std::vector<ParameterInterval>(const Fit& fit, const std::string& effect)> intervals;
   // What displacement and velocity tell of a lag between them, without a model.
   std::optional<ChannelLag> channel;
+  // Signature contrasts of what the base model leaves of the fitted recordings.
+  std::vector<Contrast> contrasts;
 };
 
 // On `fine`, of the fitted recordings. The doubts are left empty.

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "diagnose/search/relatives.hpp"
+#include "diagnose/search/wording.hpp"
 #include "io/velocity.hpp"
 
 namespace hysteron {
@@ -33,12 +34,13 @@ std::optional<std::string> unmet(Need need, const std::vector<Recording>& record
       break;
     case Need::changing_drive:
       if (std::ranges::none_of(recordings, drive_varies)) {
-        return "the current is constant in every recording";
+        return worded("the current is constant in every recording", drive_kind_of(recordings));
       }
       break;
     case Need::three_drive_levels:
       if (drive_levels(recordings) < 3) {
-        return "fewer than three current levels: it looks like another slope of the force with current";
+        return worded("fewer than three current levels: it looks like another slope of the force with current",
+                      drive_kind_of(recordings));
       }
       break;
     case Need::velocity:

@@ -1,0 +1,181 @@
+#include "app/diagnosis_text.hpp"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/printable.hpp"
+#include "diagnose/search/alias.hpp"
+#include "io/file.hpp"
+#include "report/terminal.hpp"
+
+namespace hysteron::app {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::size_t most_pairs_printed = 8;
+constexpr std::size_t paragraph_width = 100;
+
+const json& list_of(const json& record, const char* name) {
+  static const json empty = json::array();
+  const auto at = record.find(name);
+  return at == record.end() || at->is_null() ? empty : *at;
+}
+
+std::string text_of(const json& record, const char* name) { return printable(record.value(name, std::string{})); }
+
+std::string wrapped(const std::string& text) {
+  std::string result;
+  std::size_t column = 0;
+  for (std::size_t from = 0; from < text.size();) {
+    const std::size_t space = std::min(text.find(' ', from), text.size());
+    const std::string word = text.substr(from, space - from);
+    const std::size_t width = display_width(word);
+    if (column > 0 && column + 1 + width > paragraph_width) {
+      result += '\n';
+      column = 0;
+    } else if (column > 0) {
+      result += ' ';
+      ++column;
+    }
+    result += word;
+    column += width;
+    from = space + 1;
+  }
+  return result + "\n";
+}
+
+// Of a record without a summary of its own.
+std::string names_of(const json& record) {
+  std::string names;
+  for (const json& effect : list_of(record, "effects")) {
+    names += (names.empty() ? "" : ", ") + text_of(effect, "id");
+  }
+  return names.empty() ? "Nothing is named." : "Named: " + names + ".";
+}
+
+std::string summary_text(const json& record) {
+  std::string paragraph;
+  for (const json& sentence : list_of(record, "summary")) {
+    paragraph += (paragraph.empty() ? "" : " ") + printable(sentence.get<std::string>());
+  }
+  return wrapped(paragraph.empty() ? names_of(record) : paragraph);
+}
+
+std::string number_in(const json& record, const char* name) {
+  const auto at = record.find(name);
+  return at == record.end() || at->is_null() ? "-" : format_number(at->get<double>(), 4);
+}
+
+std::string errors_text(const json& record) {
+  const json& base = record.at("baseline");
+  const json& augmented = record.at("augmented");
+  const std::string law = text_of(base, "model");
+  const std::string instead = text_of(augmented, "model");
+  const std::string method = text_of(base, "noise_floor_method");
+  return table({"model", "NRMSE fit", "NRMSE held out"},
+               {{law, number_in(base, "nrmse_fit"), number_in(base, "nrmse_heldout")},
+                {instead.empty() || instead == law ? "augmented" : "augmented " + instead,
+                 number_in(augmented, "nrmse_fit"), number_in(augmented, "nrmse_heldout")},
+                {"noise floor" + (method.empty() ? "" : " (" + method + ")"), number_in(base, "noise_floor_nrmse"),
+                 number_in(base, "noise_floor_heldout_nrmse")}});
+}
+
+std::string names_text(const json& record) {
+  std::string text;
+  for (const char* list : {"effects", "suggestions"}) {
+    for (const json& effect : list_of(record, list)) {
+      const bool of_set = !list_of(effect, "indistinguishable_from").empty();
+      text += fmt::format("\n- {} ({:.0f} %{}): {}\n", effect.contains("grade") ? text_of(effect, "grade") : "named",
+                          100.0 * effect.value("confidence", 0.0), of_set ? " that it is one of these" : "",
+                          text_of(effect, "sentence"));
+      if (!text_of(effect, "experiment").empty()) {
+        text += "  decided by: " + text_of(effect, "experiment") + "\n";
+      }
+    }
+  }
+  return text;
+}
+
+std::string places_text(const std::string& title, const json& places) {
+  std::string text = places.empty() ? "" : "\n" + title + "\n";
+  for (const json& place : places) {
+    text += fmt::format("- {}: {:.0f} % of the misfit in {:.0f} % of the samples\n", text_of(place, "where"),
+                        100.0 * place.value("share_of_misfit", 0.0), 100.0 * place.value("share_of_samples", 0.0));
+  }
+  return text;
+}
+
+std::string hidden_text(const json& record) {
+  std::string text;
+  for (const json& row : list_of(record, "not_observable")) {
+    if (row.contains("reason")) {
+      text += fmt::format("- {}: {}\n", text_of(row, "id"), text_of(row, "reason"));
+    }
+  }
+  return text.empty() ? text : "\nnot observable in these recordings:\n" + text;
+}
+
+std::string alike_text(const json& record) {
+  if (!record.contains("alias_map")) {
+    return {};
+  }
+  const json& map = record["alias_map"];
+  const std::vector<AlikePair> pairs = alike_pairs({map.at("effects"), map.at("cosine")});
+  if (pairs.empty()) {
+    return {};
+  }
+  std::string text = fmt::format(
+      "\nlook alike in these recordings, beside what {} imitates (cosine; all in the "
+      "report):\n",
+      text_of(record.at("baseline"), "model"));
+  for (std::size_t k = 0; k < std::min(pairs.size(), most_pairs_printed); ++k) {
+    text +=
+        fmt::format("- {} and {}: {:.3f}\n", printable(pairs[k].effect), printable(pairs[k].other), pairs[k].cosine);
+  }
+  if (pairs.size() > most_pairs_printed) {
+    text += fmt::format("- and {} more pairs above {}\n", pairs.size() - most_pairs_printed, alike_from);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string diagnosis_text(const json& record) {
+  std::string text = fmt::format("verdict: {}\n{}\n", text_of(record, "verdict"), summary_text(record));
+  text += errors_text(record);
+  text += names_text(record);
+  text += places_text("where the base model's misfit sits:", list_of(record, "locations"));
+  text += places_text("where the augmented model's misfit sits:", list_of(record.at("augmented"), "locations"));
+  text += hidden_text(record);
+  text += alike_text(record);
+  text += fmt::format("\nnext experiment: {}\n", text_of(record, "next_experiment"));
+  for (const json& note : list_of(record, "notes")) {
+    text += fmt::format("note: {}\n", printable(note.get<std::string>()));
+  }
+  return text;
+}
+
+json read_diagnosis(const std::string& path) {
+  json record;
+  try {
+    record = json::parse(read_file(path));
+  } catch (const json::parse_error&) {
+    throw InputError(path, 0, "is not JSON, expected a diagnosis.json of `hysteron diagnose`");
+  }
+  if (!record.is_object() || !record.contains("schema") || !record["schema"].is_string()) {
+    throw InputError(path, 0, "no schema, expected \"hysteron.diagnosis/2\" or \"hysteron.diagnosis/1\"");
+  }
+  if (record["schema"] != "hysteron.diagnosis/2" && record["schema"] != "hysteron.diagnosis/1") {
+    throw InputError(path, 0,
+                     "schema " + printable(record["schema"].dump(-1, ' ', true)) +
+                         " is not known to this version, expected \"hysteron.diagnosis/2\" or "
+                         "\"hysteron.diagnosis/1\"");
+  }
+  return record;
+}
+
+}  // namespace hysteron::app

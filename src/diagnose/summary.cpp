@@ -1,0 +1,178 @@
+#include "diagnose/summary.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "diagnose/account.hpp"
+#include "diagnose/judge/speaking.hpp"
+#include "diagnose/search/relatives.hpp"
+#include "diagnose/search/wording.hpp"
+
+namespace hysteron {
+namespace {
+
+constexpr std::size_t most_sizes = 2;
+
+std::string percent(double share) { return fmt::format("{:.0f} %", 100.0 * share); }
+
+std::string capital(std::string text) {
+  if (!text.empty() && text.front() >= 'a' && text.front() <= 'z') {
+    text.front() = static_cast<char>(text.front() - 'a' + 'A');
+  }
+  return text;
+}
+
+std::string with_sizes(const std::string& effect, const std::vector<ParameterInterval>& parameters) {
+  const std::string sizes = sizes_text(parameters, most_sizes);
+  return title_of(effect) + (sizes.empty() ? "" : ", " + sizes);
+}
+
+// "series dashpot, c = 12 kN s/m (the force relaxes while the rod is held; seen in 20 of 20 recordings)".
+std::string phrase_of(const Diagnosis& diagnosis, const Named& named, std::size_t index) {
+  std::string text = with_sizes(named.id, diagnosis.parameters[index]);
+  std::string shown = worded(knowledge_of(named.id).shows, diagnosis.drive);
+  const std::optional<Speaking> speaking = speaking_for(named.id, diagnosis.evidence);
+  if (speaking && shows(*speaking)) {
+    const Signature& row = *speaking->signature;
+    shown += fmt::format("{}seen in {:.0f} of {} recordings", shown.empty() ? "" : "; ",
+                         std::round(row.consistency * static_cast<double>(row.recordings)), row.recordings);
+  }
+  if (!shown.empty()) {
+    text += " (" + shown + ")";
+  }
+  if (!named.indistinguishable_from.empty()) {
+    std::vector<std::string> others;
+    for (const std::string& id : named.indistinguishable_from) {
+      others.push_back(title_of(id));
+    }
+    text += "; " + joined(others, " or ") + " would do as well";
+  }
+  return text;
+}
+
+// "Established: ..., with 97 %."; empty where no name has the grade. Sets are told once, by the first of them.
+std::string sentence_of_grade(const Diagnosis& diagnosis, Grade grade) {
+  const std::vector<Named> names = listed(diagnosis.verdict);
+  std::vector<std::string> phrases;
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    if (names[k].grade == grade && !names[k].in_place_of) {
+      phrases.push_back(phrase_of(diagnosis, names[k], k));
+    }
+  }
+  std::string text;
+  for (const std::string& phrase : phrases) {
+    text += (text.empty() ? "" : ". Also ") + phrase;
+  }
+  return text.empty() ? text : capital(std::string(name_of(grade))) + ": " + text + ".";
+}
+
+std::string sentence_of_shapes(const Diagnosis& diagnosis) {
+  const std::vector<Named>& doubtful = diagnosis.verdict.doubtful;
+  std::vector<std::string> shapes;
+  for (std::size_t k = 0; k < doubtful.size(); ++k) {
+    shapes.push_back(
+        fmt::format("{} ({})", with_sizes(doubtful[k].id, diagnosis.shapes[k]), percent(doubtful[k].confidence)));
+  }
+  if (shapes.empty()) {
+    return {};
+  }
+  return fmt::format("Not sure enough to name: {}; {} better.", joined(shapes, "; and "),
+                     shapes.size() == 1 ? "it is a shape that predicts" : "they are shapes that predict");
+}
+
+std::string sentence_of_errors(const Diagnosis& diagnosis) {
+  const Search& search = diagnosis.search;
+  const double before = search.base.heldout;
+  const double after = search.augmented.heldout;
+  const std::string instead = law_instead(search);
+  std::string subject = !diagnosis.verdict.doubtful.empty() || listed(diagnosis.verdict).empty() ? "The augmented model"
+                        : listed(diagnosis.verdict).size() == 1                                  ? "It"
+                                                                                                 : "Together they";
+  if (!instead.empty()) {
+    subject = fmt::format("The augmented model, with {} in the place of {},", instead, search.base.what.model);
+  }
+  if (search.augmented.what == search.base.what) {
+    return fmt::format("The held-out error of {} is {:#.2g} (noise {:#.2g}).", search.base.what.model, before,
+                       diagnosis.noise_floor_heldout);
+  }
+  const bool many = subject == "Together they";
+  if (after < before) {
+    return fmt::format("{} {} the held-out error from {:#.2g} to {:#.2g} (noise {:#.2g}).", subject,
+                       many ? "take" : "takes", before, after, diagnosis.noise_floor_heldout);
+  }
+  return fmt::format("{} {} nothing off the held-out error ({:#.2g} before, {:#.2g} after, noise {:#.2g}).", subject,
+                     many ? "take" : "takes", before, after, diagnosis.noise_floor_heldout);
+}
+
+std::string sentence_of_unknown(const Diagnosis& diagnosis) {
+  const Verdict& verdict = diagnosis.verdict;
+  if (verdict.answer == Answer::complete) {
+    return {};
+  }
+  if (verdict.unknown_share < 0.005) {
+    return "None of the misfit beyond the noise is left without a name.";
+  }
+  const std::string instead = law_instead(diagnosis.search);
+  return fmt::format("{} of the misfit of {} beyond the noise has no name{}.", percent(verdict.unknown_share),
+                     diagnosis.search.base.what.model,
+                     instead.empty()           ? ""
+                     : listed(verdict).empty() ? "; the rest is gone with " + instead
+                                               : "; the rest is gone with " + instead + " and what is named");
+}
+
+// Of what stays, else of what the base model misses.
+std::string sentence_of_place(const Diagnosis& diagnosis) {
+  const bool left = !diagnosis.locations_left.empty();
+  const std::vector<Location>& places = left ? diagnosis.locations_left : diagnosis.locations;
+  if (places.empty() || diagnosis.verdict.answer == Answer::complete) {
+    return {};
+  }
+  const Location& place = places.front();
+  const bool named = place.where.starts_with(place.variable);
+  const std::string where =
+      named ? "where the " + place.variable + " is" + place.where.substr(place.variable.size()) : place.where;
+  return fmt::format("{} of {} sits {} ({} of the samples).", percent(place.share_of_misfit),
+                     left ? "what stays" : "the misfit of " + diagnosis.search.base.what.model, where,
+                     percent(place.share_of_samples));
+}
+
+void add(std::vector<std::string>& summary, const std::string& sentence) {
+  if (!sentence.empty()) {
+    summary.push_back(sentence);
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> summary_of(const Diagnosis& diagnosis) {
+  const Verdict& verdict = diagnosis.verdict;
+  std::vector<std::string> summary;
+  if (verdict.answer == Answer::complete) {
+    add(summary, above_noise_floor(diagnosis) ? "What is left cannot be told from noise: the base model is complete as "
+                                                "far as these recordings tell."
+                                              : "Nothing but noise is left: the base model is complete for these "
+                                                "recordings.");
+  } else if (verdict.effects.empty()) {
+    add(summary, "Something is missing, and no name is sure enough: " + verdict.reason + ".");
+  }
+  for (const Grade grade : {Grade::established, Grade::supported, Grade::suggested}) {
+    add(summary, sentence_of_grade(diagnosis, grade));
+  }
+  add(summary, sentence_of_shapes(diagnosis));
+  add(summary, sentence_of_errors(diagnosis));
+  add(summary, sentence_of_unknown(diagnosis));
+  add(summary, sentence_of_place(diagnosis));
+  if (!verdict.effects.empty()) {
+    const Named& first = verdict.effects.front();
+    add(summary, fmt::format("To explain {} away, unmodelled physics would have to explain {} of what stays and share "
+                             "{} of its shape.",
+                             verdict.effects.size() == 1 ? "it" : "the first", percent(first.robustness),
+                             percent(first.robustness)));
+  }
+  add(summary, "Next recording: " + diagnosis.next_experiment + ".");
+  return summary;
+}
+
+}  // namespace hysteron

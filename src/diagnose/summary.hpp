@@ -1,0 +1,15 @@
+// The paragraph that a diagnosis opens with, on the terminal, on its page and in its record.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "diagnose/diagnose.hpp"
+
+namespace hysteron {
+
+// Sentences: what is known and how sure, what has no name, what it is worth, where the rest sits, what would explain
+// the strongest away; last the recording to make next.
+std::vector<std::string> summary_of(const Diagnosis& diagnosis);
+
+}  // namespace hysteron

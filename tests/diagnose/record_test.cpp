@@ -1,0 +1,216 @@
+// diagnosis.json against the public contract, on campaigns in which something is missing, nothing is, or what is has no
+// equation.
+#include "diagnose/record.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "diagnose/concealed_damper.hpp"
+
+namespace hysteron {
+namespace {
+
+using nlohmann::json;
+using testing::campaign_with;
+using testing::diagnosis_of;
+using testing::few;
+
+void expect_share(const json& row, const char* name) {
+  ASSERT_TRUE(row.contains(name) && row[name].is_number()) << name << " of " << row.dump();
+  EXPECT_GE(row[name].get<double>(), 0.0) << name;
+  EXPECT_LE(row[name].get<double>(), 1.0) << name;
+}
+
+void expect_positive(const json& row, const char* name) {
+  ASSERT_TRUE(row.contains(name) && row[name].is_number()) << name << " of " << row.dump();
+  EXPECT_GT(row[name].get<double>(), 0.0) << name;
+}
+
+void expect_text(const json& row, const char* name) {
+  ASSERT_TRUE(row.contains(name) && row[name].is_string()) << name << " of " << row.dump();
+  const auto text = row[name].get<std::string>();
+  EXPECT_FALSE(text.empty()) << name;
+  EXPECT_EQ(text.find("nan"), std::string::npos) << text;
+  EXPECT_EQ(text.find_first_of("[]|"), std::string::npos) << "mark-up of a card reached a reader: " << text;
+}
+
+void expect_parameters(const json& rows) {
+  ASSERT_TRUE(rows.is_array());
+  for (const json& row : rows) {
+    expect_text(row, "name");
+    expect_text(row, "unit");
+    ASSERT_TRUE(row.at("value").is_number());
+    if (row.at("ci95").is_null()) {
+      continue;
+    }
+    ASSERT_EQ(row["ci95"].size(), 2U);
+    EXPECT_LE(row["ci95"][0].get<double>(), row["value"].get<double>());
+    EXPECT_GE(row["ci95"][1].get<double>(), row["value"].get<double>());
+  }
+}
+
+void expect_contrast(const json& contrast) {
+  if (contrast.is_null()) {
+    return;
+  }
+  expect_text(contrast, "what");
+  expect_text(contrast, "unit");
+  ASSERT_TRUE(contrast.at("value").is_number());
+  expect_positive(contrast, "std_error");
+  expect_share(contrast, "placebo_quantile");
+  ASSERT_TRUE(contrast.at("recordings").is_number_unsigned());
+  EXPECT_EQ(contrast.at("of_recordings").size(), contrast["recordings"].get<std::size_t>());
+}
+
+void expect_named(const json& row, double least, double most) {
+  expect_text(row, "id");
+  expect_text(row, "family");
+  expect_text(row, "sentence");
+  expect_text(row, "experiment");
+  expect_share(row, "confidence");
+  EXPECT_GE(row["confidence"].get<double>(), least);
+  EXPECT_LT(row["confidence"].get<double>(), most);
+  EXPECT_EQ(row.at("grade"), row["confidence"] >= 0.95   ? "established"
+                             : row["confidence"] >= 0.80 ? "supported"
+                                                         : "suggested");
+  expect_share(row, "confidence_alone");
+  expect_share(row, "robustness_value");
+  expect_share(row, "share_of_misfit");
+  expect_positive(row, "nrmse_heldout_before");
+  expect_positive(row, "nrmse_heldout_after");
+  expect_parameters(row.at("parameters"));
+  expect_contrast(row.at("contrast"));
+  for (const json& other : row.at("indistinguishable_from")) {
+    EXPECT_NE(other, row["id"]);
+  }
+  ASSERT_TRUE(row.contains("nearest_rival"));
+  if (!row["nearest_rival"].is_null()) {
+    expect_text(row["nearest_rival"], "id");
+    expect_share(row["nearest_rival"], "share_of_gain");
+  }
+  for (const json& law : row.at("behind_other_laws")) {
+    expect_text(law, "model");
+    expect_share(law, "share_of_gain");
+  }
+  ASSERT_TRUE(row.at("view").is_object()) << "a name that cannot be looked at";
+  EXPECT_LT(row["view"].at("from").get<double>(), row["view"].at("to").get<double>());
+}
+
+void expect_contract(const Diagnosis& diagnosis) {
+  const json record = json::parse(diagnosis_json(diagnosis).dump());
+  EXPECT_EQ(record.at("schema"), "hysteron.diagnosis/2");
+  for (const char* name : {"nrmse_fit", "nrmse_heldout", "noise_floor_nrmse"}) {
+    expect_positive(record.at("baseline"), name);
+  }
+  expect_text(record["baseline"], "model");
+  const std::set<std::string> verdicts = {"complete", "missing-physics", "ambiguous", "unattributed"};
+  ASSERT_TRUE(verdicts.contains(record.at("verdict").get<std::string>()));
+  expect_share(record, "unknown_share");
+  expect_text(record, "next_experiment");
+  ASSERT_GE(record.at("summary").size(), 2U);
+  for (const json& sentence : record["summary"]) {
+    EXPECT_TRUE(sentence.get<std::string>().ends_with(".")) << sentence;
+  }
+  EXPECT_TRUE(record["summary"].back().get<std::string>().starts_with("Next recording: "));
+
+  std::set<std::string> accounted;
+  for (const json& row : record.at("effects")) {
+    expect_named(row, 0.80, 1.01);
+    accounted.insert(row["id"]);
+  }
+  for (const json& row : record.at("suggestions")) {
+    expect_named(row, 0.50, 0.80);
+    accounted.insert(row["id"]);
+  }
+  std::set<std::string> rejected;
+  for (const json& row : record.at("rejected")) {
+    expect_text(row, "id");
+    expect_text(row, "reason");
+    EXPECT_FALSE(row.contains("p")) << "a p value that is not calibrated";
+    EXPECT_TRUE(rejected.insert(row["id"]).second) << row["id"] << " has two reasons";
+    EXPECT_FALSE(accounted.contains(row["id"])) << row["id"] << " is named and rejected";
+  }
+  accounted.merge(rejected);
+  for (const std::string& held : diagnosis.final.what.effects) {
+    EXPECT_TRUE(accounted.contains(held)) << held << " is in model.json and in no list";
+  }
+  for (const json& row : record.at("locations")) {
+    expect_text(row, "where");
+    expect_text(row, "variable");
+    expect_share(row, "share_of_misfit");
+    expect_share(row, "share_of_samples");
+    EXPECT_LE(row.at("from").get<double>(), row.at("to").get<double>());
+    EXPECT_FALSE(row.at("recordings").empty());
+  }
+  for (const json& row : record.at("not_observable")) {
+    expect_text(row, "id");
+    expect_text(row, row.contains("reason") ? "reason" : "detection_limit");
+  }
+  expect_positive(record.at("augmented"), "nrmse_fit");
+  expect_positive(record["augmented"], "nrmse_heldout");
+  EXPECT_TRUE(record["augmented"].at("remaining_structure").is_boolean());
+  for (const json& row : record["augmented"].at("shapes")) {
+    expect_text(row, "id");
+    expect_share(row, "confidence");
+    expect_parameters(row.at("parameters"));
+    expect_contrast(row.at("contrast"));
+  }
+}
+
+std::string paragraph(const Diagnosis& diagnosis) {
+  std::string text;
+  for (const std::string& sentence : diagnosis.summary) {
+    text += sentence + " ";
+  }
+  return text;
+}
+
+TEST(Record, OfAMissingMass) {
+  const auto diagnosis = diagnosis_of(campaign_with({"inertia"}, {{"inertia.m", 8.0}}, 0.01), few);
+  expect_contract(*diagnosis);
+  const json record = diagnosis_json(*diagnosis);
+  ASSERT_EQ(record["effects"].size(), 1U);
+  const json& mass = record["effects"][0];
+  EXPECT_EQ(mass["family"], "phase");
+  EXPECT_EQ(mass["contrast"]["id"], "acceleration");
+  EXPECT_NEAR(mass["contrast"]["value"].get<double>(), 8.0, 1.0);
+  EXPECT_TRUE(mass["contrast"]["shown"]);
+  EXPECT_LT(record["unknown_share"].get<double>(), 0.1);
+  const std::string text = paragraph(*diagnosis);
+  EXPECT_NE(text.find("the inertia of fluid, rod or fixture, m = "), std::string::npos) << text;
+  EXPECT_NE(text.find("in 5 of 5 recordings"), std::string::npos) << text;
+  EXPECT_NE(text.find("takes the held-out error from "), std::string::npos) << text;
+  EXPECT_NE(text.find("unmodelled physics would have to explain"), std::string::npos) << text;
+  EXPECT_EQ(text.find("current"), std::string::npos) << "these recordings have no drive: " << text;
+}
+
+TEST(Record, WhereNothingIsMissing) {
+  const auto diagnosis = diagnosis_of(campaign_with({}, {}, 0.02), few);
+  expect_contract(*diagnosis);
+  const json record = diagnosis_json(*diagnosis);
+  EXPECT_EQ(record["verdict"], "complete");
+  EXPECT_EQ(record["unknown_share"], 0.0);
+  EXPECT_EQ(paragraph(*diagnosis).find("no name"), std::string::npos) << paragraph(*diagnosis);
+}
+
+TEST(Record, OfACauseThatIsNotAmongTheCandidates) {
+  const auto diagnosis = diagnosis_of(campaign_with({"cubic-stiffness"}, {{"cubic-stiffness.k3", 9e7}}, 0.01),
+                                      {"force-drift", "quadratic-damping", "sensor-delay"});
+  expect_contract(*diagnosis);
+  const json record = diagnosis_json(*diagnosis);
+  EXPECT_EQ(record["verdict"], "unattributed");
+  EXPECT_EQ(record["unknown_share"], 1.0);
+  const std::string text = paragraph(*diagnosis);
+  EXPECT_TRUE(text.starts_with("Something is missing, and no name is sure enough")) << text;
+  EXPECT_EQ(text.find("current"), std::string::npos) << "these recordings have no drive: " << text;
+  for (const json& shape : record["augmented"]["shapes"]) {
+    EXPECT_NE(text.find("Not sure enough to name: "), std::string::npos) << text;
+    EXPECT_NE(text.find(shape["title"].get<std::string>()), std::string::npos) << text;
+  }
+}
+
+}  // namespace
+}  // namespace hysteron
