@@ -758,7 +758,7 @@ const verdictWords = {
   ambiguous: "Ambiguous: something is missing, and these data cannot tell the candidates apart.",
   unattributed: "Unattributed: something is missing that no known effect explains.",
 };
-const grades = [["established", "Established", "confidence from 95 %"], ["supported", "Supported", "confidence from 80 %"], ["suggested", "Suggested, not named", "confidence from 50 %"]];
+const grades = [["named", "Named", ""], ["established", "Established", "confidence from 95 %"], ["supported", "Supported", "confidence from 80 %"], ["suggested", "Suggested, not named", "confidence from 50 %"]];
 const share = (v) => Math.max(0, Math.min(1, v));
 const percent = (v) => (isNumber(v) ? `${fmt(100 * v, 3)} %` : "–");
 const rounded = (v) => (isNumber(v) ? `${(100 * v).toFixed(0)} %` : "–");
@@ -769,7 +769,18 @@ const sameSign = (c) => `${Math.round(c.consistency * c.recordings)} of ${c.reco
 const capital = (text) => text.charAt(0).toUpperCase() + text.slice(1);
 const zOf = (score) => (score && score.std_error > 0 ? score.mean / score.std_error : null);
 // The signature contrast shows an effect at two standard errors in its sense, beyond 95 % of the placebos.
-const shows = (c) => c.z_for >= 2 && c.placebo_quantile >= 0.95;
+const shows = (c) => c.shown ?? (c.z_for >= 2 && c.placebo_quantile >= 0.95);
+const overWords = { time: "Time [s]", displacement: "Displacement [mm]", velocity: "Velocity [mm/s]" };
+// One meaning each, here and on the terminal.
+const glossary = [
+  ["residual", "Measured less simulated force. The misfit is its mean square; beyond the noise: less that of the noise."],
+  ["explained", "The part of the misfit that is gone with an effect and comes back when it is taken out and the rest is refitted."],
+  ["held-out", "Of recordings that nothing was fitted to."],
+  ["shape that predicts better", "What the augmented model holds, and what is less likely than not the cause."],
+  ["distinguishable", "Of two effects one predicts fitted recordings that are left out in turn better, by two standard errors."],
+  ["related effect", "One that is mistaken for another on many motions, or is its limit."],
+  ["noise floor", "The error that a perfect model would have."],
+];
 
 function diagnosisSection() {
   const d = report.diagnosis;
@@ -779,17 +790,16 @@ function diagnosisSection() {
   const named = [...list(d.effects), ...list(d.suggestions)];
   const parts = [];
   for (const [grade, heading, from] of grades) {
-    const rows = named.filter((e) => (e.grade || "established") === grade);
-    if (rows.length) parts.push(el("h3", {}, heading, el("span", { class: "muted" }, ` (${from})`)), rows.map((e) => effectBlock(e, d)));
+    const rows = named.filter((e) => (e.grade || "named") === grade);
+    if (rows.length) parts.push(el("h3", {}, heading, el("span", { class: "muted" }, from ? ` (${from})` : "")), rows.map((e) => effectBlock(e, d)));
   }
-  const shapes = list(augmented.effects).filter((id) => !named.some((e) => e.id === id));
-  if (shapes.length) parts.push(el("p", {}, "The augmented model also holds ", shapes.map((id, i) => [i ? ", " : "", el("code", {}, id)]), ": a shape that predicts better, not offered as a cause."));
+  parts.push(shapesTable(augmented, named));
   const nrmse = [[`Base model, ${base.model || ""}`, base.nrmse_fit, base.nrmse_heldout]];
   if (d.augmented) nrmse.push([augmented.model && augmented.model !== base.model ? `Augmented model, ${augmented.model}` : "Augmented model", augmented.nrmse_fit, augmented.nrmse_heldout]);
   if (isNumber(base.noise_floor_nrmse)) nrmse.push(["Noise floor of the recordings", base.noise_floor_nrmse, base.noise_floor_heldout_nrmse ?? null]);
   parts.push(el("h3", {}, "Error before and after"), plainTable("NRMSE of the base and the augmented model", [{ title: "", head: true }, { title: "Fitted recordings", num: true }, { title: "Held-out recordings", num: true }],
     nrmse.map(([name, a, b]) => [name, fmt(a, 3), fmt(b, 3)])));
-  if (isNumber(d.unknown_share) && d.verdict !== "complete") parts.push(el("p", {}, `${rounded(d.unknown_share)} of the misfit beyond the noise is explained by nothing named or suggested.`));
+  if (isNumber(d.unknown_share) && d.verdict !== "complete" && !list(d.summary).length) parts.push(el("p", {}, `${rounded(d.unknown_share)} of the misfit beyond the noise is explained by nothing named or suggested.`));
   parts.push(placesTable("Where the misfit of the base model sits", d.locations), placesTable("Where the misfit of the augmented model sits", augmented.locations));
   parts.push(contenderTables(d), contrastTable(d.evidence), lawsTable(d.evidence), residualMaps(), driftCharts(d.drift));
   if (list(d.notes).length) parts.push(el("h3", {}, "Remarks"), el("ul", {}, d.notes.map((n) => el("li", {}, prose(n)))));
@@ -805,6 +815,7 @@ function diagnosisSection() {
       d.not_observable.map((x) => [x.id, prose(x.reason || x.detection_limit || "")])));
   }
   parts.push(aliasMap(d.alias_map));
+  parts.push(el("h3", {}, "Words"), el("dl", { class: "facts" }, glossary.flatMap(([word, meaning]) => [el("dt", {}, word), el("dd", {}, meaning)])));
   return section("diagnosis", "Diagnosis", ...parts);
 }
 
@@ -821,20 +832,48 @@ function effectBlock(e, d) {
       shows(c) ? "." : ". Not enough to show this effect by itself.");
   }
   if (!e.in_place_of && candidate) {
-    const rival = list(candidate.contenders).filter((r) => !r.law && !(r.holds_the_candidate && !r.apart) && !list(e.indistinguishable_from).includes(r.id)).sort((a, b) => b.share - a.share)[0];
-    if (rival) add("Nearest rival", el("code", {}, rival.id), ` explains ${rounded(share(rival.share))} of its gain in its place${rival.refitted ? "" : ", to first order"}.`);
+    const rival = e.nearest_rival;
+    if (rival) add("Nearest rival", el("code", {}, rival.id), ` explains ${rounded(rival.share_of_gain)} of what it explains, in its place${rival.refitted ? "" : ", to first order"}.`);
     if (list(e.behind_other_laws).length) add("Behind other laws", `Keeps ${e.behind_other_laws.map((k) => `${rounded(share(k.share_of_gain))} of its gain behind ${k.model}`).join(", ")}.`);
     if (isNumber(e.robustness_value)) add("Robustness value", `${fmt(e.robustness_value, 2)}: to explain it away, unmodelled physics would have to explain ${rounded(e.robustness_value)} of what stays and share ${rounded(e.robustness_value)} of its shape.`);
   }
   const alike = list(e.indistinguishable_from);
   if (alike.length) add("Not distinguishable from", alike.map((id, i) => [i ? ", " : "", el("code", {}, id)]), isNumber(e.confidence_alone) ? `; the confidence that it is this one is ${rounded(e.confidence_alone)}.` : ".");
   if (isNumber(e.share_of_misfit)) add("Share of the misfit", `${rounded(e.share_of_misfit)}; held-out NRMSE ${fmt(e.nrmse_heldout_before, 3)} without it, ${fmt(e.nrmse_heldout_after, 3)} with it.`);
+  if (e.experiment) add("Recording that would decide", `${capital(e.experiment)}.`);
   return el("div", { class: `effect ${e.grade || ""}` },
     el("h4", {}, e.in_place_of ? "or " : "", el("code", {}, e.id), isNumber(e.confidence) ? `, confidence ${rounded(e.confidence)}${list(e.indistinguishable_from).length ? ` that it is this or ${e.indistinguishable_from.join(" or ")}` : ""}` : "", e.family ? el("span", { class: "muted" }, `, family ${e.family}`) : ""),
     e.sentence ? el("p", {}, prose(e.sentence)) : null,
     list(e.parameters).length ? plainTable(`Parameters of ${e.id}`, [{ title: "Parameter", head: true }, { title: "Value", num: true }, { title: "95 % interval", num: true }, { title: "Unit" }],
       e.parameters.map((p) => [p.name, fmt(p.value, 4), Array.isArray(p.ci95) ? `${fmt(p.ci95[0], 3)} … ${fmt(p.ci95[1], 3)}` : "–", unitText(p.unit)])) : null,
-    el("dl", { class: "facts" }, facts), c ? contrastPlot(c) : null);
+    el("dl", { class: "facts" }, facts),
+    el("div", { class: "plots" }, lookPlot(e, c), c ? contrastPlot(c) : null));
+}
+
+// The force where the contrast acts: what was measured, the base model on the same motion, the augmented model.
+function lookPlot(e, c) {
+  const curve = (report.curves || {})[e.id];
+  if (!curve || list(curve.x).length < 2) return null;
+  const lines = [["force_n", "measured", "measured"], ["baseline_n", "baseline", "base model"], ["predicted_n", "simulated", `with ${e.id}`]];
+  const shown = lines.map(([key, cls]) => ({ x: curve.x, y: list(curve[key]), cls }));
+  const label = overWords[curve.over] || "";
+  return el("figure", { class: "plot contrast" }, el("figcaption", {}, `${curve.recording}: force over ${curve.over}${c ? ", where the contrast acts" : ""}`),
+    svgNode(chart({ width: 360, height: 260, margin: [6, 10, 36, 58], title: `Force over ${curve.over} of ${curve.recording}: measured, base model, augmented model`,
+      x: { label, range: curve.over === "time" ? extent([curve.x]) : padded(extent([curve.x])) }, y: { label: "Force [N]", range: padded(extent(shown.map((s) => s.y))) }, series: shown })),
+    el("ul", { class: "legend" }, lines.map(([, cls, text]) => el("li", {}, el("i", { style: `border-color:var(--${cls});border-top-style:${cls === "baseline" ? "dashed" : "solid"}` }), text))));
+}
+
+// What the augmented model holds without a name.
+function shapesTable(augmented, named) {
+  const shapes = list(augmented.shapes);
+  const others = list(augmented.effects).filter((id) => !named.some((e) => e.id === id));
+  if (!shapes.length) {
+    return others.length ? el("p", {}, "The augmented model also holds ", others.map((id, i) => [i ? ", " : "", el("code", {}, id)]), ": a shape that predicts better, not offered as a cause.") : null;
+  }
+  const sizes = (rows) => list(rows).map((p) => `${p.name} = ${significant(p.value, 2)}${p.unit === "1" ? "" : `\u00a0${unitText(p.unit)}`}`).join(", ");
+  return [el("h3", {}, "Not sure enough to name"), plainTable("Shapes with which the augmented model predicts better; none is offered as a cause",
+    [{ title: "Shape", head: true }, { title: "Probability that it is the cause", num: true }, { title: "Sizes", text: true }],
+    shapes.map((s) => [s.title ? `${capital(s.title)} (${s.id})` : s.id, rounded(s.confidence), sizes(s.parameters) || "–"]))];
 }
 
 // The contrast of each recording as a dot, all together as the band of two standard errors.
@@ -877,7 +916,7 @@ function contenderTables(d) {
     el("p", { class: "muted" }, "What else would explain of the gain of each effect of the augmented model, in its place. The block score compares both on recordings left out in turn: above 2 the effect predicts them better, below −2 the contender does. Shares to first order are of contenders that were not refitted."),
     candidates.map((c) => plainTable(`In the place of ${c.id}: block score z of the model with it over the model without it ${fmt(zOf(c.score), 2)}`,
       [{ title: "Contender", head: true }, { title: "Share of its gain", num: true }, { title: "How" }, { title: "Block score z", num: true }, { title: "Remark" }],
-      [...c.contenders].sort((a, b) => b.share - a.share).slice(0, 8).map((r) => [r.law ? r.id.replace(/^law:/, "") : r.id, rounded(share(r.share)), r.refitted ? "refitted" : "first order",
+      [...c.contenders].sort((a, b) => b.share - a.share).slice(0, 8).map((r) => [r.law ? [...new Set(r.id.replace(/^law:/, "").split(","))].join(", ") : r.id, rounded(share(r.share)), r.refitted ? "refitted" : "first order",
         r.behind && r.behind.clusters ? fmt(zOf(r.behind), 2) : "–", remark(r) || "–"]))),
   ];
 }

@@ -55,6 +55,45 @@ Identification identification_of(const Diagnosis& diagnosis, const Campaign& cam
   return result;
 }
 
+// What each name can be looked at by: the force in the stretch where its contrast acts, measured, of the base model and
+// of the augmented one, over what the view says; by id.
+json curves_json(const Diagnosis& diagnosis, const Campaign& campaign, const ObjectiveOptions& objective) {
+  constexpr std::size_t most_points = 500;
+  const auto predicted = [](const Fit& fit, const Target& target) {
+    return predict(fit.layout->model(), fit.layout->held(), fit.terms, target);
+  };
+  json curves = json::object();
+  const std::vector<Named> names = listed(diagnosis.verdict);
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    if (!diagnosis.views[k]) {
+      continue;
+    }
+    const ContrastView& view = *diagnosis.views[k];
+    const std::string& file = diagnosis.bench.split().fit[view.recording].file;
+    const Recording& recording = *std::ranges::find(campaign.recordings, file, &Recording::file);
+    const Target target = make_target(recording, objective);
+    const std::vector<double> base = predicted(diagnosis.search.base, target);
+    const std::vector<double> augmented =
+        predicted(names[k].in_place_of ? fit_of(diagnosis.search, names[k]) : diagnosis.final, target);
+    const auto first = std::ranges::lower_bound(recording.time, view.from) - recording.time.begin();
+    const auto end = std::ranges::upper_bound(recording.time, view.to) - recording.time.begin();
+    const std::ptrdiff_t stride = (end - first) / static_cast<std::ptrdiff_t>(most_points) + 1;
+    json row = {{"recording", file},        {"over", word_of(view.over)},  {"x", json::array()},
+                {"force_n", json::array()}, {"baseline_n", json::array()}, {"predicted_n", json::array()}};
+    for (auto at = first; at < end; at += stride) {
+      const auto n = static_cast<std::size_t>(at);
+      row["x"].push_back(view.over == ForceOver::time           ? recording.time[n]
+                         : view.over == ForceOver::displacement ? 1e3 * recording.displacement[n]
+                                                                : 1e3 * recording.velocity[n]);
+      row["force_n"].push_back(recording.force[n]);
+      row["baseline_n"].push_back(base[n]);
+      row["predicted_n"].push_back(augmented[n]);
+    }
+    curves[names[k].id] = std::move(row);
+  }
+  return curves;
+}
+
 void run(const Options& options) {
   const auto begun = std::chrono::steady_clock::now();
   const Campaign campaign = load(options.data);
@@ -128,7 +167,7 @@ void run(const Options& options) {
                                              predict(base.layout->model(), base.layout->held(), base.terms, target)));
     data.push_back({{"file", recording.file}, {"sha256", recording.sha256}});
   }
-  json page = {{"title", "Diagnosis of " + std::string(result.layout.model().law->title)},
+  json page = {{"title", "Diagnosis of " + std::string(diagnosis->search.base.layout->model().law->title)},
                {"subtitle", fmt::format("{} recordings", campaign.recordings.size())},
                {"version", HYSTERON_VERSION},
                {"command", command_line()},
@@ -138,6 +177,7 @@ void run(const Options& options) {
                {"recordings", page_recordings},
                {"data", data},
                {"diagnosis", diagnosis_file},
+               {"curves", curves_json(*diagnosis, campaign, diagnose_with.objective)},
                {"notes", diagnosis->notes},
                {"warnings", json::array()},
                {"solvers", json::array()},

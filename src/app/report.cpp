@@ -1,14 +1,52 @@
-// hysteron report: tables and page from the records of a study.
+// hysteron report: tables and page from the records of a study, summary and page from the record of a diagnosis.
 #include <fmt/format.h>
 
 #include <memory>
 
 #include "app/command.hpp"
+#include "app/diagnosis_text.hpp"
 #include "app/study_output.hpp"
+#include "core/error.hpp"
+#include "io/file.hpp"
+#include "io/output.hpp"
+#include "report/html.hpp"
 #include "report/study.hpp"
 #include "study/gather.hpp"
 
 namespace hysteron::app {
+namespace {
+
+using nlohmann::json;
+
+// The page of `folder` with its recordings, where it has one; else what diagnosis.json tells alone.
+json page_of(const std::filesystem::path& folder, const json& record) {
+  const std::filesystem::path path = folder / "report.html";
+  json page = std::filesystem::exists(path) ? data_of_page(read_file(path)) : json(nullptr);
+  if (page.is_null()) {
+    page = {{"title", "Diagnosis"}, {"version", HYSTERON_VERSION}};
+  }
+  page["diagnosis"] = record;
+  return page;
+}
+
+void report_diagnosis(const std::filesystem::path& folder, const std::filesystem::path& out, bool as_json) {
+  const std::string path = (folder / "diagnosis.json").string();
+  const json record = read_diagnosis(path);
+  std::string text;
+  try {
+    text = diagnosis_text(record);
+  } catch (const json::exception&) {
+    throw InputError(path, 0,
+                     "a field is missing or of another type than " + record["schema"].get<std::string>() +
+                         " has, expected the file as `hysteron diagnose` wrote it");
+  }
+  const std::string page = fit_report_html(page_of(folder, record));
+  make_output_folder(out);
+  write_file_atomically(out / "report.html", page);
+  fmt::print("{}", as_json ? json_text(record) : text + "report: " + (out / "report.html").string() + "\n");
+}
+
+}  // namespace
 
 void add_report(CLI::App& program) {
   struct Options {
@@ -19,14 +57,23 @@ void add_report(CLI::App& program) {
     bool json = false;
   };
   auto options = std::make_shared<Options>();
-  CLI::App* command = program.add_subcommand("report", "tables and page from the records of a study, finished or not");
-  command->add_option("DIR", options->folder, "folder written by `hysteron bench`")->required();
+  CLI::App* command = program.add_subcommand(
+      "report", "tables and page from the records of a study, finished or not, or of a diagnosis");
+  command->add_option("DIR", options->folder, "folder written by `hysteron bench` or `hysteron diagnose`")->required();
   command->add_option("--out", options->out, "folder for the report, default DIR");
   command->add_flag("--times", options->times, "times in the report too; without it equal studies give equal files");
   command->add_flag("--ioh", options->ioh, "also write ioh/ in the format of IOHprofiler");
-  command->add_flag("--json", options->json, "the analysis as JSON on standard output");
+  command->add_flag("--json", options->json, "the analysis, or the diagnosis, as JSON on standard output");
   command->footer("Example:\n  hysteron report out --times --ioh");
   command->callback([options] {
+    const std::filesystem::path folder = options->folder;
+    if (std::filesystem::exists(folder / "diagnosis.json")) {
+      if (options->times || options->ioh) {
+        throw InputError("--times and --ioh are of a study, " + options->folder + " holds a diagnosis");
+      }
+      report_diagnosis(folder, options->out.empty() ? folder : std::filesystem::path(options->out), options->json);
+      return;
+    }
     const Store store = open_gathered(options->folder);
     const StudyView view = view_of(store, store.records(), options->folder);
     const std::filesystem::path out = options->out.empty() ? options->folder : options->out;

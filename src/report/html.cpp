@@ -26,14 +26,17 @@ double shortened(double value, int digits) {
 
 // A page with 60 recordings is mostly digits that no screen shows; this makes it three times smaller.
 void shorten_samples(nlohmann::json& report) {
-  if (!report.is_object() || !report.contains("recordings")) return;
-  for (auto& recording : report["recordings"]) {
-    if (!recording.is_object()) continue;
-    for (auto& [name, channel] : recording.items()) {
-      if (!channel.is_array()) continue;
-      const int digits = name == "time" ? 9 : 6;
-      for (auto& sample : channel) {
-        if (sample.is_number_float()) sample = shortened(sample.get<double>(), digits);
+  if (!report.is_object()) return;
+  for (const char* part : {"recordings", "curves"}) {
+    if (!report.contains(part)) continue;
+    for (auto& row : report[part]) {
+      if (!row.is_object()) continue;
+      for (auto& [name, channel] : row.items()) {
+        if (!channel.is_array()) continue;
+        const int digits = name == "time" || name == "x" ? 9 : 6;
+        for (auto& sample : channel) {
+          if (sample.is_number_float()) sample = shortened(sample.get<double>(), digits);
+        }
       }
     }
   }
@@ -141,6 +144,16 @@ std::string fit_report_html(const nlohmann::json& report) {
   nlohmann::json reduced = report;
   shorten_samples(reduced);
   return page_of(reduced, web::report_js());
+}
+
+nlohmann::json data_of_page(const std::string& html) {
+  constexpr std::string_view open = R"(<script type="application/json" id="report-data">)";
+  const std::size_t from = html.find(open);
+  const std::size_t to = from == std::string::npos ? from : html.find("</script>", from);
+  if (to == std::string::npos) return nullptr;
+  const std::size_t begin = from + open.size();
+  nlohmann::json data = nlohmann::json::parse(html.substr(begin, to - begin), nullptr, false);
+  return data.is_object() ? data : nlohmann::json(nullptr);
 }
 
 std::string study_page_html(const nlohmann::json& page) { return page_of(page, web::study_js()); }
