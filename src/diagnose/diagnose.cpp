@@ -347,17 +347,55 @@ void check_samples(const Split& split) {
   }
 }
 
-std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const Split& split, const DiagnoseOptions& options,
-                                    const SearchProgress& progress) {
-  check_samples(split);
-  std::vector<std::string> notes;
+}  // namespace
+
+Workbenches workbenches_of(const Campaign& campaign, const Split& split, const DiagnoseOptions& options,
+                           std::vector<std::string>& notes) {
   const LayoutOptions layout = with_laws(options, campaign, notes);
   const DataScale scale = scale_of(campaign.recordings);
   ObjectiveOptions objective = options.objective;
   objective.skip_run_in = true;
   objective.stopped = options.stopped;
-  auto result = std::make_unique<Diagnosis>(Workbench(scale, split, layout, objective, options.seed, options.stopped),
-                                            std::move(notes));
+  ObjectiveOptions coarse = objective;
+  coarse.comparing = true;
+  Split fewer{thinned(spread(split.fit, quick_recordings), quick_samples), {}, {}, false};
+  Split some{thinned(split.fit, fine_samples), {}, {}, false};
+  Workbenches result{Workbench(scale, split, layout, objective, options.seed, options.stopped),
+                     Workbench(scale, std::move(fewer), layout, coarse, options.seed, options.stopped),
+                     Workbench(scale, std::move(some), layout, coarse, options.seed, options.stopped)};
+  result.quick.take_noise_of(result.whole);
+  return result;
+}
+
+std::string without_outliers(Campaign& campaign) {
+  std::size_t replaced = 0;
+  std::size_t samples = 0;
+  std::size_t recordings = 0;
+  for (Recording& recording : campaign.recordings) {
+    const std::size_t here = replace_outliers(recording);
+    replaced += here;
+    samples += recording.size();
+    recording.drive = quiet_drive(recording.drive);
+    recordings += here > 0 ? 1 : 0;
+  }
+  return replaced == 0 ? std::string{}
+                       : fmt::format(
+                             "{} of {} force samples, in {} of {} recordings, stand out alone: they were replaced by "
+                             "what their neighbours say before anything was compared (table and plots of the "
+                             "recordings still hold them)",
+                             replaced, samples, recordings, campaign.recordings.size());
+}
+
+namespace {
+
+std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const Split& split, const DiagnoseOptions& options,
+                                    const SearchProgress& progress) {
+  check_samples(split);
+  std::vector<std::string> notes;
+  Workbenches benches = workbenches_of(campaign, split, options, notes);
+  const Workbench& quick = benches.quick;
+  const Workbench& fine = benches.fine;
+  auto result = std::make_unique<Diagnosis>(std::move(benches.whole), std::move(notes));
   Diagnosis& diagnosis = *result;
   diagnosis.notes.push_back(split.how);
 
@@ -365,14 +403,6 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const Split& split
   searching.most_effects = options.most_effects;
   searching.candidates = candidates_of(options, diagnosis);
   searching.laws = comparable_laws();
-  // Nothing before the verdict sees the judging recordings.
-  Split fewer{thinned(spread(diagnosis.bench.split().fit, quick_recordings), quick_samples), {}, {}, false};
-  Split some{thinned(diagnosis.bench.split().fit, fine_samples), {}, {}, false};
-  ObjectiveOptions coarse = objective;
-  coarse.comparing = true;
-  Workbench quick(scale, std::move(fewer), layout, coarse, options.seed, options.stopped);
-  const Workbench fine(scale, std::move(some), layout, coarse, options.seed, options.stopped);
-  quick.take_noise_of(diagnosis.bench);
   Judgement judgement =
       judged(search(quick, fine, {options.model, {}, {}}, searching, progress), diagnosis.bench, fine);
   const bool limited = judgement.search.limited;
@@ -439,27 +469,6 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const Split& split
   diagnosis.final = fine.on_all(diagnosis.search.augmented,
                                 thinned(roles ? diagnosis.bench.split().fit : campaign.recordings, fine_samples), 5);
   return result;
-}
-
-// Takes what stands out alone from the forces, and the noise from the drive, which thinned samples tell less well; the
-// note that says so, empty where nothing stands out.
-std::string without_outliers(Campaign& campaign) {
-  std::size_t replaced = 0;
-  std::size_t samples = 0;
-  std::size_t recordings = 0;
-  for (Recording& recording : campaign.recordings) {
-    const std::size_t here = replace_outliers(recording);
-    replaced += here;
-    samples += recording.size();
-    recording.drive = quiet_drive(recording.drive);
-    recordings += here > 0 ? 1 : 0;
-  }
-  return replaced == 0 ? std::string{}
-                       : fmt::format(
-                             "{} of {} force samples, in {} of {} recordings, stand out alone: they were replaced by "
-                             "what their neighbours say before anything was compared (table and plots of the "
-                             "recordings still hold them)",
-                             replaced, samples, recordings, campaign.recordings.size());
 }
 
 void add_note(Diagnosis& diagnosis, const std::string& note) {

@@ -75,6 +75,21 @@ std::string law_instead(const Search& search);
 // becomes linear in it.
 std::map<std::string, int> base_laws(const std::string& model, const std::vector<Recording>& recordings);
 
+// Takes what stands out alone from the forces, and the noise from the drive, which thinned samples tell less well; the
+// note that says so, empty where nothing stands out.
+std::string without_outliers(Campaign& campaign);
+
+// What hypotheses are fitted on: the split itself, few recordings and samples to compare hypotheses, more of them for
+// what a search ends with. One box; nothing but `whole` sees the judging recordings. Where the laws of the base model
+// are the program's own choice, a note says so.
+struct Workbenches {
+  Workbench whole;
+  Workbench quick;
+  Workbench fine;
+};
+Workbenches workbenches_of(const Campaign& campaign, const Split& split, const DiagnoseOptions& options,
+                           std::vector<std::string>& notes);
+
 // Throws InputError for an unknown model or a campaign that leaves nothing to fit.
 std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const DiagnoseOptions& options,
                                     const SearchProgress& progress);
