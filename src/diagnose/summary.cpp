@@ -87,9 +87,12 @@ std::string sentence_of_errors(const Diagnosis& diagnosis) {
   const double before = search.base.heldout;
   const double after = search.augmented.heldout;
   const std::string instead = law_instead(search);
-  std::string subject = !diagnosis.verdict.doubtful.empty() || listed(diagnosis.verdict).empty() ? "The augmented model"
-                        : listed(diagnosis.verdict).size() == 1                                  ? "It"
-                                                                                                 : "Together they";
+  // Members of a set are one cause.
+  const std::vector<Named> names = listed(diagnosis.verdict);
+  const auto causes = std::ranges::count_if(names, [](const Named& named) { return !named.in_place_of; });
+  std::string subject = !diagnosis.verdict.doubtful.empty() || causes == 0 ? "The augmented model"
+                        : causes == 1                                      ? "It"
+                                                                           : "Together they";
   if (!instead.empty()) {
     subject = fmt::format("The augmented model, with {} in the place of {},", instead, search.base.what.model);
   }
@@ -168,8 +171,11 @@ std::vector<std::string> summary_of(const Diagnosis& diagnosis) {
     const Named& first = verdict.effects.front();
     add(summary, fmt::format("To explain {} away, unmodelled physics would have to explain {} of what stays and share "
                              "{} of its shape.",
-                             verdict.effects.size() == 1 ? "it" : "the first", percent(first.robustness),
-                             percent(first.robustness)));
+                             std::ranges::all_of(verdict.effects.begin() + 1, verdict.effects.end(),
+                                                 [](const Named& named) { return named.in_place_of.has_value(); })
+                                 ? "it"
+                                 : "the first",
+                             percent(first.robustness), percent(first.robustness)));
   }
   add(summary, "Next recording: " + diagnosis.next_experiment + ".");
   return summary;

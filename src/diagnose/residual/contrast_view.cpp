@@ -121,34 +121,27 @@ Stretch stretch_of(const Track& track, Part part) {
   return cycle(track);
 }
 
-// The one that the base model misses most, in the weights of the cost.
-std::size_t most_missed(std::span<const Track> tracks) {
-  std::size_t best = 0;
+// The track that the base model misses most, in the weights of the cost; of a contrast one of those whose own value has
+// its sign.
+const Track& most_missed(std::span<const Track> tracks, const Contrast* contrast) {
+  const auto agrees = [&](const Track& track) {
+    return contrast == nullptr || std::ranges::any_of(contrast->of_recordings, [&](const ContrastOfRecording& one) {
+             return one.recording == track.recording && one.value * contrast->value > 0.0;
+           });
+  };
+  const Track* best = nullptr;
   double most = -1.0;
-  for (std::size_t k = 0; k < tracks.size(); ++k) {
+  for (const Track& track : tracks) {
     double squares = 0.0;
-    for (std::size_t n = tracks[k].from; n < tracks[k].missing.size(); ++n) {
-      squares += tracks[k].weight * tracks[k].duration[n] * tracks[k].missing[n] * tracks[k].missing[n];
+    for (std::size_t n = track.from; n < track.missing.size(); ++n) {
+      squares += track.weight * track.duration[n] * track.missing[n] * track.missing[n];
     }
-    if (squares > most) {
+    if (squares > most && agrees(track)) {
       most = squares;
-      best = k;
+      best = &track;
     }
   }
-  return best;
-}
-
-std::size_t typical(std::span<const Track> tracks, const Contrast& contrast) {
-  const auto nearest = std::ranges::min_element(contrast.of_recordings, {}, [&](const ContrastOfRecording& one) {
-    return std::fabs(one.value - contrast.value);
-  });
-  if (nearest != contrast.of_recordings.end()) {
-    const auto at = std::ranges::find(tracks, nearest->recording, &Track::recording);
-    if (at != tracks.end()) {
-      return static_cast<std::size_t>(at - tracks.begin());
-    }
-  }
-  return most_missed(tracks);
+  return best == nullptr ? tracks.front() : *best;
 }
 
 }  // namespace
@@ -171,7 +164,7 @@ std::optional<ContrastView> view_of(const Contrast* contrast, std::span<const Re
   if (tracks.empty()) {
     return std::nullopt;
   }
-  const Track& track = tracks[contrast == nullptr ? most_missed(tracks) : typical(tracks, *contrast)];
+  const Track& track = most_missed(tracks, contrast);
   const Look look = contrast == nullptr ? Look{ForceOver::displacement, Part::cycle} : look_at(contrast->kind);
   const Stretch part = stretch_of(track, look.part);
   return ContrastView{track.recording, track.time[part.first], track.time[part.end - 1], look.over};
