@@ -184,6 +184,9 @@ std::vector<Rejected> rejected_of(const Diagnosis& diagnosis) {
 
 std::string experiment_after(const Diagnosis& diagnosis) {
   const Verdict& verdict = diagnosis.verdict;
+  if (mixed(diagnosis.belonging)) {
+    return "none yet: diagnose each group by itself, or record what was set between them as the drive";
+  }
   std::vector<std::string> candidates;
   std::vector<Named> rows = listed(verdict);
   if (verdict.answer == Answer::unattributed && rows.empty()) {

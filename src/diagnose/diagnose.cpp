@@ -233,13 +233,15 @@ struct Judgement {
   Search search;
   std::vector<std::string> surprising;
   std::vector<Contrast> contrasts;
+  std::optional<Belonging> belonging;
   Evidence evidence;
   Verdict verdict;
 };
 
-Judgement judged(Search found, const Workbench& bench, const Workbench& fine) {
+// `every` holds all recordings, judging ones too: which belong together is no matter of how well a fit predicts.
+Judgement judged(Search found, const Workbench& bench, const Workbench& fine, const Workbench& every) {
   std::map<const Fit*, std::vector<Estimate>> estimates;  // fits are asked for several effects
-  Judgement result{std::move(found), {}, {}, {}, {}};
+  Judgement result{std::move(found), {}, {}, {}, {}, {}};
   result.contrasts = contrasts(fine.split().fit, fine.residuals(result.search.base).of);
   const Circumstances known = {[&](const Fit& fit, const std::string& effect) {
                                  if (!estimates.contains(&fit)) {
@@ -252,6 +254,10 @@ Judgement judged(Search found, const Workbench& bench, const Workbench& fine) {
   result.evidence = evidence_of(result.search, fine, known);
   result.evidence.doubt_of_completeness = doubt_of_completeness(result.search, fine, result.surprising);
   result.evidence.doubt_of_data = doubt_of_velocity(bench.split().fit);
+  if (result.evidence.doubt_of_data.empty()) {
+    result.belonging = belonging_of(every, result.search.base, result.search.augmented);
+    result.evidence.doubt_of_data = mixed(result.belonging) ? sentence_of(*result.belonging) : std::string{};
+  }
   result.verdict = verdict_of(result.evidence);
   return result;
 }
@@ -259,7 +265,8 @@ Judgement judged(Search found, const Workbench& bench, const Workbench& fine) {
 // Where another damper law does as well without any effect, what is missing behind that one is looked for. It takes the
 // place of the one asked for where it predicts recordings left out better, effects and all; whether it does.
 bool try_better_law(Judgement& first, const Workbench& bench, const Workbench& quick, const Workbench& fine,
-                    const SearchOptions& searching, const SearchProgress& progress, std::vector<std::string>& notes) {
+                    const Workbench& every, const SearchOptions& searching, const SearchProgress& progress,
+                    std::vector<std::string>& notes) {
   const std::string law = better_law(first.evidence);
   if (law.empty()) {
     return false;
@@ -268,7 +275,7 @@ bool try_better_law(Judgement& first, const Workbench& bench, const Workbench& q
                                    [&](double share, const std::string& stage) {
                                      progress(0.9 + 0.04 * share, "behind " + law + ": " + stage);
                                    }),
-                            bench, fine);
+                            bench, fine, every);
   const std::vector<LeftOut> both = left_out(fine, {&first.search.augmented, &second.search.augmented});
   if (block_score(both[0].predicted, both[1].predicted, noise_of(fine)).mean <= 0.0) {
     return false;
@@ -362,7 +369,9 @@ Workbenches workbenches_of(const Campaign& campaign, const Split& split, const D
   Split some{thinned(split.fit, fine_samples), {}, {}, false};
   Workbenches result{Workbench(scale, split, layout, objective, options.seed, options.stopped),
                      Workbench(scale, std::move(fewer), layout, coarse, options.seed, options.stopped),
-                     Workbench(scale, std::move(some), layout, coarse, options.seed, options.stopped)};
+                     Workbench(scale, std::move(some), layout, coarse, options.seed, options.stopped),
+                     Workbench(scale, {thinned(campaign.recordings, fine_samples), {}, {}, false}, layout, coarse,
+                               options.seed, options.stopped)};
   result.quick.take_noise_of(result.whole);
   return result;
 }
@@ -404,14 +413,17 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const Split& split
   searching.candidates = candidates_of(options, diagnosis);
   searching.laws = comparable_laws();
   Judgement judgement =
-      judged(search(quick, fine, {options.model, {}, {}}, searching, progress), diagnosis.bench, fine);
+      judged(search(quick, fine, {options.model, {}, {}}, searching, progress), diagnosis.bench, fine, benches.every);
   const bool limited = judgement.search.limited;
-  if (!try_better_law(judgement, diagnosis.bench, quick, fine, searching, progress, diagnosis.notes) && limited) {
+  if (!try_better_law(judgement, diagnosis.bench, quick, fine, benches.every, searching, progress, diagnosis.notes) &&
+      limited) {
     searching.in_full = true;
-    judgement = judged(search(quick, fine, {options.model, {}, {}}, searching, progress), diagnosis.bench, fine);
+    judgement =
+        judged(search(quick, fine, {options.model, {}, {}}, searching, progress), diagnosis.bench, fine, benches.every);
   }
   diagnosis.search = std::move(judgement.search);
   diagnosis.surprises = std::move(judgement.surprising);
+  diagnosis.belonging = std::move(judgement.belonging);
   diagnosis.evidence = std::move(judgement.evidence);
   diagnosis.verdict = std::move(judgement.verdict);
   diagnosis.contrasts = std::move(judgement.contrasts);

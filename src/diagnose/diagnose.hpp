@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 
+#include "diagnose/groups.hpp"
 #include "diagnose/judge/verdict.hpp"
 #include "diagnose/residual/contrast_view.hpp"
 #include "diagnose/residual/drift.hpp"
@@ -35,6 +36,7 @@ struct Diagnosis {
 
   Workbench bench;
   Search search;
+  std::optional<Belonging> belonging;  // groups of the recordings, where some stand out
   Evidence evidence;
   Verdict verdict;
   double noise_floor = 0.0;          // of the force, NRMSE over the fitted recordings
@@ -80,12 +82,13 @@ std::map<std::string, int> base_laws(const std::string& model, const std::vector
 std::string without_outliers(Campaign& campaign);
 
 // What hypotheses are fitted on: the split itself, few recordings and samples to compare hypotheses, more of them for
-// what a search ends with. One box; nothing but `whole` sees the judging recordings. Where the laws of the base model
-// are the program's own choice, a note says so.
+// what a search ends with. One box; only `whole` and `every` see the judging recordings. Where the laws of the base
+// model are the program's own choice, a note says so.
 struct Workbenches {
   Workbench whole;
   Workbench quick;
   Workbench fine;
+  Workbench every;  // as fine, of all recordings
 };
 Workbenches workbenches_of(const Campaign& campaign, const Split& split, const DiagnoseOptions& options,
                            std::vector<std::string>& notes);

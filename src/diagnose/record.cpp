@@ -210,6 +210,7 @@ json diagnosis_json(const Diagnosis& diagnosis) {
             {"locations", locations_json(diagnosis.locations_left)}}},
           {"evidence", evidence_json(diagnosis.evidence)},
           {"drift", drift_json(diagnosis)},
+          {"groups", mixed(diagnosis.belonging) ? groups_json(*diagnosis.belonging) : json(nullptr)},
           {"next_experiment", diagnosis.next_experiment},
           {"notes", diagnosis.notes}};
 }

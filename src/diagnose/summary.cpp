@@ -157,6 +157,8 @@ std::vector<std::string> summary_of(const Diagnosis& diagnosis) {
                                                 "far as these recordings tell."
                                               : "Nothing but noise is left: the base model is complete for these "
                                                 "recordings.");
+  } else if (mixed(diagnosis.belonging)) {
+    add(summary, "T" + sentence_of(*diagnosis.belonging).substr(1) + ".");
   } else if (verdict.effects.empty()) {
     add(summary, "Something is missing, and no name is sure enough: " + verdict.reason + ".");
   }
