@@ -226,7 +226,11 @@ Evidence evidence_of(const Search& search, const Workbench& fine, const Circumst
     }
     std::ranges::stable_sort(one.contenders, [](const Contender& a, const Contender& b) { return a.share > b.share; });
     for (const Swap& swap : search.swaps) {
-      one.kept.push_back((swap.without[k] - swap.squares) / std::max(found.gain, 1e-300));
+      // A law that has the effect as a parameter of its own loses nothing without it, and one that runs away tells
+      // nothing.
+      if (!is_part_of(one.id, swap.model) && std::max(swap.without[k], swap.squares) < diverged_cost) {
+        one.kept.push_back((swap.without[k] - swap.squares) / std::max(found.gain, 1e-300));
+      }
     }
     const std::vector<ParameterInterval> intervals = known.intervals(search.augmented, one.id);
     one.parameters = static_cast<int>(intervals.size());

@@ -419,6 +419,14 @@ Search search(const Workbench& bench, const Workbench& fine, const Hypothesis& b
   }
   result.augmented = current.what == base ? result.base : fine.polished(current, screening_rounds);
   result.misfit = misfit_of(fine, result.augmented);
+  if (!std::isfinite(result.misfit.squares)) {
+    // It runs away on samples that the hypotheses were not compared on: no model of these recordings.
+    course.current = course.quick_base;
+    result.found.clear();
+    result.quick_augmented = course.current;
+    result.augmented = result.base;
+    result.misfit = result.base_misfit;
+  }
   for (Found& found : result.found) {
     if (found.without.what == base) {
       found.without = result.base;

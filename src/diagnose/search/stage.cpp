@@ -75,8 +75,12 @@ std::vector<Extension> law_candidates(const Workbench& bench, const Hypothesis& 
   std::vector<Extension> result;
   const int highest = highest_order(bench.split().fit);
   const Layout layout = bench.layout(what);
+  const std::vector<Parameter> cards = layout.model().parameters();
+  const std::size_t own = layout.model().law->parameters.size();
   for (const ParameterLaw& law : layout.laws()) {
-    if (static_cast<int>(law.drive_nodes.size()) <= highest) {
+    // Of an effect, what is a force, a damping or a stiffness may follow the field; a time or a place does not.
+    const bool may = law.parameter < own || cards[law.parameter].role != PhysicalRole::none;
+    if (may && static_cast<int>(law.drive_nodes.size()) <= highest) {
       result.push_back(law_extension({layout.names()[law.parameter]}));
     }
   }
