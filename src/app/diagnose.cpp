@@ -28,6 +28,7 @@ struct Options {
   std::string by_current;
   std::string by_frequency;
   std::vector<std::string> effects;
+  std::vector<std::string> laws;
   int most_effects = 5;
   bool json = false;
   std::string out;
@@ -107,6 +108,15 @@ void run(const Options& options) {
   diagnose_with.seed = options.common.seed;
   diagnose_with.most_effects = options.most_effects;
   diagnose_with.candidates = options.effects;
+  refuse_repeats("--laws", options.laws);
+  if (options.laws == std::vector<std::string>{"none"}) {
+    diagnose_with.laws.clear();
+  } else if (!options.laws.empty()) {
+    diagnose_with.laws = options.laws;
+    for (const std::string& law : options.laws) {
+      make_model(law, {});
+    }
+  }
   // Wrong names are told before any work.
   make_model(diagnose_with.model, {});
   refuse_repeats("--effects", options.effects);
@@ -232,6 +242,11 @@ void add_diagnose(CLI::App& program) {
                       "parameters that are polynomials in the drive, e.g. alpha:1,c0:1");
   command->add_option("--by-frequency", options->by_frequency, "parameters that are polynomials in frequency");
   command->add_option("--effects", options->effects, "effects to consider; default all, see `hysteron list effects`")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  command
+      ->add_option("--laws", options->laws,
+                   "damper laws that the base law is set against; `none`: it is taken for right")
       ->delimiter(',')
       ->allow_extra_args(false);
   command->add_option("--most-effects", options->most_effects, "effects the augmented model may have")

@@ -33,6 +33,8 @@ constexpr double surprise = 4.0;
 constexpr double above_white = 1.5;
 // Squares over those of the noise above which what is left is asked whether its size follows the motion.
 constexpr double above_floor = 1.5;
+// Two standard errors: the law asked for is given up for no less.
+constexpr double surely = 2.0;
 // Independent values for each parameter without which nothing left cannot be told from too little data.
 constexpr double values_per_parameter = 4.0;
 // Least share of the largest force that counts as noise there.
@@ -81,6 +83,10 @@ std::vector<std::string> surprises(const Workbench& bench, const Fit& fit) {
 }
 
 }  // namespace
+
+std::vector<std::string> comparable_laws() {
+  return {"bouc-wen", "modified-bouc-wen", "hyperbolic-tangent", "algebraic-hysteresis", "modified-dahl", "lugre"};
+}
 
 std::vector<Named> listed(const Verdict& verdict) {
   std::vector<Named> result = verdict.effects;
@@ -263,7 +269,8 @@ Judgement judged(Search found, const Workbench& bench, const Workbench& fine, co
 }
 
 // Where another damper law does as well without any effect, what is missing behind that one is looked for. It takes the
-// place of the one asked for where it predicts recordings left out better, effects and all; whether it does.
+// place of the one asked for where it surely predicts recordings left out better, effects and all; whether it does. A
+// law that does no better than the one asked for with an effect is no reason to doubt the one asked for.
 bool try_better_law(Judgement& first, const Workbench& bench, const Workbench& quick, const Workbench& fine,
                     const Workbench& every, const SearchOptions& searching, const SearchProgress& progress,
                     std::vector<std::string>& notes) {
@@ -277,10 +284,12 @@ bool try_better_law(Judgement& first, const Workbench& bench, const Workbench& q
                                    }),
                             bench, fine, every);
   const std::vector<LeftOut> both = left_out(fine, {&first.search.augmented, &second.search.augmented});
-  if (block_score(both[0].predicted, both[1].predicted, noise_of(fine)).mean <= 0.0) {
+  if (block_score(both[0].predicted, both[1].predicted, noise_of(fine)).z() < surely) {
     return false;
   }
   const std::string asked = first.search.base.what.model;
+  second.evidence.asked_for = asked;
+  second.verdict = verdict_of(second.evidence);
   // Of the misfit of the law asked for, part of which the other law takes.
   const Left before = first.evidence.base;
   const double left = std::clamp(second.evidence.base.excess() / std::max(before.excess(), 1e-300), 0.0, 1.0);
@@ -300,11 +309,6 @@ bool try_better_law(Judgement& first, const Workbench& bench, const Workbench& q
                   "named is missing behind {}",
                   law, asked, law));
   return true;
-}
-
-// Damper laws that may stand in for one another: those with hysteresis and few parameters.
-std::vector<std::string> comparable_laws() {
-  return {"bouc-wen", "modified-bouc-wen", "hyperbolic-tangent", "algebraic-hysteresis", "modified-dahl", "lugre"};
 }
 
 // What is reported is of every sample at the tolerance asked for, and of the judging recordings, which nothing before
@@ -411,7 +415,7 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const Split& split
   SearchOptions searching;
   searching.most_effects = options.most_effects;
   searching.candidates = candidates_of(options, diagnosis);
-  searching.laws = comparable_laws();
+  searching.laws = options.laws;
   Judgement judgement =
       judged(search(quick, fine, {options.model, {}, {}}, searching, progress), diagnosis.bench, fine, benches.every);
   const bool limited = judgement.search.limited;

@@ -15,6 +15,9 @@
 
 namespace hysteron {
 
+// Damper laws that may stand in for one another: those of the catalogue with hysteresis and few parameters.
+std::vector<std::string> comparable_laws();
+
 struct DiagnoseOptions {
   std::string model;
   LayoutOptions layout;  // laws of the base model; none given and a drive that varies: see base_laws
@@ -22,6 +25,7 @@ struct DiagnoseOptions {
   std::uint64_t seed = 1;
   int most_effects = 5;
   std::vector<std::string> candidates;  // empty: every effect of the catalogue
+  std::vector<std::string> laws = comparable_laws();  // that the base law is set against
   // Asked often while fitting; once true the fits end soon and the progress is told, which may throw.
   std::function<bool()> stopped = [] { return false; };
 };

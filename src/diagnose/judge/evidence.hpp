@@ -97,6 +97,7 @@ struct OtherLaw {
 
 struct Evidence {
   std::string model;
+  std::string asked_for;  // the law whose place `model` took, empty where it took none
   std::size_t recordings = 0;
   Left base;
   Left augmented;

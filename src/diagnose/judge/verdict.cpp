@@ -169,6 +169,11 @@ Verdict answer_of(const Evidence& evidence) {
     verdict.reason = evidence.doubt_of_completeness;
     return verdict;
   }
+  if (!evidence.asked_for.empty()) {
+    verdict.answer = Answer::unattributed;
+    verdict.reason = evidence.model + " describes what " + evidence.asked_for + " misses";
+    return verdict;
+  }
   verdict.answer = verdict.missing >= suggested_from ? Answer::unattributed : Answer::complete;
   if (verdict.answer == Answer::unattributed) {
     verdict.reason = evidence.candidates.empty() ? "no known effect explains the misfit"
