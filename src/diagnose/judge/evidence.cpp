@@ -26,9 +26,10 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Candidate, id, squares_without, gain, score, 
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Signature, id, what, unit, value, std_error, z, consistency, placebo_quantile,
                                    recordings, speaks_for, sign)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(OtherLaw, model, squares, has_what_was_found)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Evidence, model, asked_for, recordings, base, augmented, candidates, base_compared,
-                                   augmented_compared, further, richer_laws, augmented_over_base, other_laws,
-                                   signatures, doubt_of_completeness, doubt_of_data)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FirstLook, id, gain, refitted)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Evidence, model, asked_for, recordings, base, augmented, first_stage, candidates,
+                                   base_compared, augmented_compared, further, richer_laws, augmented_over_base,
+                                   other_laws, signatures, doubt_of_completeness, doubt_of_data)
 
 nlohmann::json evidence_json(const Evidence& evidence) { return evidence; }
 

@@ -95,14 +95,22 @@ struct OtherLaw {
   bool has_what_was_found = false;  // as parameters of its own, which the law asked for lacks
 };
 
+// A hypothesis of the first stage, behind the base model alone.
+struct FirstLook {
+  std::string id;
+  double gain = 0.0;      // squares that it takes off; to first order where it was not refitted
+  bool refitted = false;  // one of those that came near the best to first order
+};
+
 struct Evidence {
   std::string model;
   std::string asked_for;  // the law whose place `model` took, empty where it took none
   std::size_t recordings = 0;
   Left base;
   Left augmented;
-  std::vector<Candidate> candidates;  // strongest first
-  double base_compared = 0.0;         // squares of base and augmented model, as other laws were compared with them
+  std::vector<FirstLook> first_stage;  // best first
+  std::vector<Candidate> candidates;   // strongest first
+  double base_compared = 0.0;          // squares of base and augmented model, as other laws were compared with them
   double augmented_compared = 0.0;
   double further = 0.0;  // squares that the best further effect would take off, to first order
   int richer_laws = 0;

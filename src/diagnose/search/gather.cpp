@@ -175,6 +175,9 @@ Evidence evidence_of(const Search& search, const Workbench& fine, const Circumst
   result.further = search.further;
   result.richer_laws = static_cast<int>(search.richer.size());
 
+  for (const Tried& tried : search.first_stage) {
+    result.first_stage.push_back({name_of(tried.part), tried.gain, tried.fit.has_value()});
+  }
   result.signatures = signatures_of(known.contrasts);
 
   Looked looked;
