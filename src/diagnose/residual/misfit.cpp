@@ -49,10 +49,6 @@ bool structured(const Misfit& misfit) {
   return ratio > 0.3 || (ratio > 0.08 && misfit.predictable > 0.1);
 }
 
-bool noise_like(const Misfit& misfit) {
-  return !structured(misfit) && misfit.predictable < 0.03 && even(misfit.evenness);
-}
-
 double evidence(double before, double after, double more, double independent) {
   return independent * std::log(before / after) - more * std::log(independent);
 }

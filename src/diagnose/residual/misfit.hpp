@@ -26,8 +26,6 @@ Misfit misfit_of(const std::vector<Recording>& recordings, const Residuals& resi
 
 // Structure beyond what noise and its estimate explain.
 bool structured(const Misfit& misfit);
-// Nothing of it follows the motion, neither its values nor their size: noise, whatever its colour.
-bool noise_like(const Misfit& misfit);
 
 // Gain of the Bayesian information criterion from squares `before` to `after` for `more` parameters, by so many
 // independent values.

@@ -198,11 +198,15 @@ Evidence evidence_of(const Search& search, const Workbench& fine, const Circumst
   const std::vector<double> noise = noise_of(fine);
   const LeftOut& base = *looked.find(search.base);
   const LeftOut& augmented = *looked.find(search.augmented);
-  result.augmented_over_base = comparison(augmented, base, noise);
+  const auto series = std::ranges::find_if(
+      search.found, [&](const Found& found) { return fine.beside(search.base, found.part).has_value(); });
+  result.augmented_over_base = comparison(
+      augmented, series == search.found.end() ? base : left_out_beside(fine, search.base, series->part), noise);
 
   for (std::size_t k = 0; k < search.found.size(); ++k) {
     const Found& found = search.found[k];
-    const LeftOut& without = *looked.find(found.without);
+    const LeftOut without = fine.beside(found.without, found.part) ? left_out_beside(fine, found.without, found.part)
+                                                                   : *looked.find(found.without);
     Candidate one;
     one.id = found.part.effect;
     one.squares_without = without.squares;

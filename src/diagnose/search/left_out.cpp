@@ -126,6 +126,15 @@ std::vector<LeftOut> left_out(const Workbench& bench, const std::vector<const Fi
   return result;
 }
 
+LeftOut left_out_beside(const Workbench& bench, const Fit& fit, const Extension& part) {
+  LeftOut plain = left_out(bench, fit);
+  if (const std::optional<Fit> neutral = bench.beside(fit, part)) {
+    LeftOut other = left_out(bench, *neutral);
+    return other.squares < plain.squares ? other : plain;
+  }
+  return plain;
+}
+
 std::vector<double> noise_of(const Workbench& bench) {
   std::vector<double> result;
   for (std::size_t r = 0; r < bench.split().fit.size(); ++r) {

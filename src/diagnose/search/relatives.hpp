@@ -18,9 +18,6 @@ const Knowledge& knowledge_of(std::string_view effect);
 std::vector<std::string> relatives(const std::string& id);
 bool is_kin(const std::string& effect, const std::string& other);
 
-// Whether the effect is a force that depends on where the rod is.
-bool is_of_place(const std::string& effect);
-
 // Whether the effect does exactly nothing but in a part of the stroke.
 bool acts_in_a_part(const std::string& effect);
 

@@ -162,7 +162,8 @@ void grow(Course& course, const std::vector<Extension>& effects, int most_effect
       course.independent = std::max(course.independent, misfit_of(course.bench, *tried.front().fit).independent);
       for (Tried& one : tried) {
         if (one.fit) {
-          one = weighed(one.part, *one.fit, course.current, course.independent);
+          one = weighed(one.part, *one.fit, one.gain + squared(one.fit->cost), course.current.dimension(),
+                        course.independent);
         }
       }
       std::ranges::stable_sort(tried, better);
@@ -174,7 +175,9 @@ void grow(Course& course, const std::vector<Extension>& effects, int most_effect
         return false;
       }
       after = left_out(course.bench, *one.fit);
-      return worth(one, course.current, count, block_score(before.predicted, after->predicted, course.noise),
+      const bool is_series = !one.part.is_law() && in_series(one.part.effect);
+      const LeftOut without = is_series ? left_out_beside(course.bench, course.current, one.part) : before;
+      return worth(one, course.current, count, block_score(without.predicted, after->predicted, course.noise),
                    is_far(left));
     });
     if (chosen == tried.end()) {
@@ -212,9 +215,11 @@ Found taken_out(const Course& course, const Extension& part) {
       found.without = fit;
     }
   }
-  found.gain = squared(found.without.cost) - squared(course.current.cost);
+  const std::optional<Fit> neutral = course.bench.beside(found.without, part);
+  const double squares = squared(std::min(found.without.cost, neutral ? neutral->cost : found.without.cost));
+  found.gain = squares - squared(course.current.cost);
   found.evidence =
-      evidence(squared(found.without.cost), squared(course.current.cost),
+      evidence(squares, squared(course.current.cost),
                static_cast<double>(course.current.dimension()) - static_cast<double>(found.without.dimension()),
                course.independent);
   return found;
@@ -302,7 +307,7 @@ std::vector<Found> worth_their_place(Course& course) {
     for (const Extension& part : extensions_of(course.current.what)) {
       Found found = taken_out(course, part.is_law() ? law_extension({part.parameters.front()}) : part);
       const BlockScore score =
-          block_score(left_out(course.bench, found.without).predicted, with.predicted, course.noise);
+          block_score(left_out_beside(course.bench, found.without, part).predicted, with.predicted, course.noise);
       if (!worth_keeping(found.evidence, found.gain, squared(found.without.cost), score, far)) {
         course.current = found.without;
         dropped = true;
@@ -350,6 +355,38 @@ std::vector<Found> settled(Course& course, const std::vector<Extension>& candida
     if (!swapped) {
       return result;
     }
+  }
+}
+
+// A part that is worth its place on the samples that hypotheses are compared on and not on the finer ones, or the
+// weakest one where the model runs away there; the end where there is none.
+std::vector<Found>::const_iterator unconfirmed(const Workbench& fine, const Fit& augmented,
+                                               const std::vector<Found>& found) {
+  if (augmented.cost >= diverged_cost) {
+    return std::ranges::min_element(found, {}, &Found::gain);
+  }
+  if (found.empty()) {
+    return found.end();
+  }
+  const double with = left_out(fine, augmented).squares;
+  return std::ranges::find_if(found, [&](const Found& one) {
+    const double without = left_out_beside(fine, one.without, one.part).squares;
+    return without - with < least_gain_of_a_place * without;
+  });
+}
+
+// The settled model on the finer samples, less what these do not confirm.
+Fit confirmed(Course& course, const Workbench& fine, const Fit& fine_base, const std::vector<Extension>& candidates,
+              const SearchProgress& progress, std::vector<Found>& found) {
+  while (true) {
+    found = settled(course, candidates, progress);
+    progress(0.85, "fitting the augmented model to more samples");
+    Fit augmented = course.current.what == course.base ? fine_base : fine.polished(course.current, screening_rounds);
+    const auto idle = unconfirmed(fine, augmented, found);
+    if (idle == found.end()) {
+      return augmented;
+    }
+    course.current = idle->without;
   }
 }
 
@@ -406,10 +443,8 @@ Search search(const Workbench& bench, const Workbench& fine, const Hypothesis& b
     result.first_stage = course.stages.front();
   }
 
-  result.found = settled(course, effects, progress);
+  result.augmented = confirmed(course, fine, result.base, effects, progress, result.found);
   const Fit& current = course.current;
-
-  progress(0.85, "fitting the augmented model to more samples");
   result.independent = course.independent;
   result.quick_augmented = current;
   for (Found& found : result.found) {
@@ -417,16 +452,7 @@ Search search(const Workbench& bench, const Workbench& fine, const Hypothesis& b
       found.locality = locality_of(bench, current, found.without, found.part.effect);
     }
   }
-  result.augmented = current.what == base ? result.base : fine.polished(current, screening_rounds);
   result.misfit = misfit_of(fine, result.augmented);
-  if (!std::isfinite(result.misfit.squares)) {
-    // It runs away on samples that the hypotheses were not compared on: no model of these recordings.
-    course.current = course.quick_base;
-    result.found.clear();
-    result.quick_augmented = course.current;
-    result.augmented = result.base;
-    result.misfit = result.base_misfit;
-  }
   for (Found& found : result.found) {
     if (found.without.what == base) {
       found.without = result.base;

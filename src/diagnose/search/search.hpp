@@ -43,7 +43,7 @@ struct Search {
   // As the comparison saw them, on the quick workbench.
   Fit quick_base;
   Fit quick_augmented;
-  bool limited = false;  // few effects were looked for, as another law takes most of the misfit off
+  bool limited = false;            // few effects were looked for, as another law takes most of the misfit off
   double independent = 0.0;        // samples there
   double further = 0.0;            // squares that the best further extension would take off, to first order
   std::vector<Tried> first_stage;  // every extension of the base, best first

@@ -110,10 +110,11 @@ bool better(const Tried& a, const Tried& b) {
   return a.fit.has_value() != b.fit.has_value() ? a.fit.has_value() : a.evidence > b.evidence;
 }
 
-Tried weighed(const Extension& part, const Fit& fit, const Fit& before, double independent) {
-  return {part, squared(before.cost) - squared(fit.cost),
-          evidence(squared(before.cost), squared(fit.cost),
-                   static_cast<double>(fit.dimension()) - static_cast<double>(before.dimension()), independent),
+Tried weighed(const Extension& part, const Fit& fit, double squares_before, std::size_t dimension_before,
+              double independent) {
+  return {part, squares_before - squared(fit.cost),
+          evidence(squares_before, squared(fit.cost),
+                   static_cast<double>(fit.dimension()) - static_cast<double>(dimension_before), independent),
           fit};
 }
 
@@ -146,7 +147,9 @@ std::vector<Tried> stage(const Workbench& bench, const Fit& before, const std::v
   };
   parallel_for(scores.size(), bench.options().threads, [&](std::size_t k) {
     if (refit[k]) {
-      result[k] = weighed(scores[k].part, refitted(k), before, independent);
+      const std::optional<Fit> neutral = single.beside(before, scores[k].part);
+      const double squares = squared(std::min(before.cost, neutral ? neutral->cost : before.cost));
+      result[k] = weighed(scores[k].part, refitted(k), squares, before.dimension(), independent);
     } else {
       const double after = std::max(squared(before.cost) - scores[k].gain, 1e-12 * squared(before.cost));
       const double more =
@@ -165,7 +168,8 @@ std::vector<Tried> stage(const Workbench& bench, const Fit& before, const std::v
   best = bench.polished(best, fitting_rounds);
   for (std::size_t k = 0; k < best.size(); ++k) {
     if (best[k].cost < result[k].fit->cost) {
-      result[k] = weighed(result[k].part, best[k], before, independent);
+      const double squares = result[k].gain + squared(result[k].fit->cost);
+      result[k] = weighed(result[k].part, best[k], squares, before.dimension(), independent);
     }
   }
   std::ranges::stable_sort(result, better);

@@ -34,8 +34,10 @@ std::vector<Extension> law_candidates(const Workbench& bench, const Hypothesis& 
 // on them through the same curve.
 std::vector<Extension> joint_law_candidates(const Workbench& bench, const Hypothesis& what);
 
-// What `fit` gains on `before`; `independent` samples as in evidence().
-Tried weighed(const Extension& part, const Fit& fit, const Fit& before, double independent);
+// What `fit` gains on squares of NRMSE left before, by a fit of so many dimensions; `independent` samples as in
+// evidence().
+Tried weighed(const Extension& part, const Fit& fit, double squares_before, std::size_t dimension_before,
+              double independent);
 
 // All candidates behind `before`, the promising ones refitted: best first, those refitted before the others. Members of
 // `always` are refitted whatever their score. The base's parameters start from those of `before` and, where given, of

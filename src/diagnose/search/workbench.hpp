@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -65,6 +66,10 @@ class Workbench {
   // The fit with one effect more, which stands at its initial values: mostly where it does nothing. Nothing is refitted
   // and the costs are those of `fit`.
   [[nodiscard]] Fit with_neutral(const Fit& fit, const std::string& effect) const;
+  // For a part in series and a fit without any: the fit with the part at its neutral size, with its costs. Where a
+  // force balance is solved in every step, coarse motions are marched in another way; what that is worth is no gain of
+  // the part. Nothing for any other part.
+  [[nodiscard]] std::optional<Fit> beside(const Fit& fit, const Extension& part) const;
   // Several at once, in parallel; results in order.
   [[nodiscard]] std::vector<Fit> from_fit(const std::vector<Hypothesis>& what, const Fit& warm, int rounds,
                                           const Fit* also = nullptr) const;
