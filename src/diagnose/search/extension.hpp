@@ -17,6 +17,9 @@ struct Extension {
 inline Extension effect_extension(std::string id) { return {std::move(id), {}}; }
 inline Extension law_extension(std::vector<std::string> parameters) { return {{}, std::move(parameters)}; }
 
+// Whether the effect of this id shares its force with what is below and takes part of the motion; no id does not.
+bool in_series(const std::string& effect);
+
 // As printed and recorded: the effect's id, or "law:PARAMETER,...".
 std::string name_of(const Extension& extension);
 

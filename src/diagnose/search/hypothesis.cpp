@@ -3,7 +3,14 @@
 #include <algorithm>
 #include <iterator>
 
+#include "simulate/part.hpp"
+
 namespace hysteron {
+
+bool in_series(const std::string& effect) {
+  const Part* part = find_effect(effect);
+  return part != nullptr && part->in_series();
+}
 
 std::string name_of(const Extension& extension) {
   if (!extension.is_law()) {

@@ -119,11 +119,6 @@ struct Course {
 // By the noise of the force alone: what the noise of the motion makes of the model's force, another model need not.
 bool is_far(const Misfit& left) { return left.squares > far_from_noise * (left.floor - left.motion); }
 
-bool in_series(const std::string& effect) {
-  const Part* part = find_effect(effect);
-  return part != nullptr && part->in_series();
-}
-
 // Everything that may join the current model: effects, one order more for a parameter law, and where much is left, all
 // parameters that follow the drive by a richer curve.
 std::vector<Extension> open_to(const Course& course, const std::vector<Extension>& effects, const Misfit& left) {
@@ -175,7 +170,7 @@ void grow(Course& course, const std::vector<Extension>& effects, int most_effect
         return false;
       }
       after = left_out(course.bench, *one.fit);
-      const bool is_series = !one.part.is_law() && in_series(one.part.effect);
+      const bool is_series = in_series(one.part.effect);
       const LeftOut without = is_series ? left_out_beside(course.bench, course.current, one.part) : before;
       return worth(one, course.current, count, block_score(without.predicted, after->predicted, course.noise),
                    is_far(left));

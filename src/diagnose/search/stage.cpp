@@ -33,11 +33,6 @@ constexpr std::ptrdiff_t most_in_series = 2;
 // The highest order of a law in the drive where it varies within recordings.
 constexpr int most_order = 3;
 
-bool is_series(const std::string& id) {
-  const Part* part = find_effect(id);
-  return part != nullptr && part->in_series();
-}
-
 // The highest order of a law in the drive that the recordings can tell.
 int highest_order(const std::vector<Recording>& recordings) {
   std::set<long> levels;
@@ -121,8 +116,8 @@ Tried weighed(const Extension& part, const Fit& fit, double squares_before, std:
 std::vector<Tried> stage(const Workbench& bench, const Fit& before, const std::vector<Extension>& candidates,
                          double independent, const Fit* also, const std::vector<Extension>& always) {
   std::vector<Extension> open;
-  const auto in_series = std::ranges::count_if(before.what.effects, is_series);
-  const bool series_is_full = in_series >= most_in_series;
+  const auto elements = std::ranges::count_if(before.what.effects, in_series);
+  const bool series_is_full = elements >= most_in_series;
   const std::vector<std::string> names = make_model(before.what.model, before.what.effects).parameter_names();
   for (const Extension& candidate : candidates) {
     const bool has = !candidate.is_law() && contains(before.what, candidate);
@@ -130,13 +125,13 @@ std::vector<Tried> stage(const Workbench& bench, const Fit& before, const std::v
     const bool acts = std::ranges::all_of(candidate.parameters, [&](const std::string& parameter) {
       return std::ranges::find(names, parameter) != names.end();
     });
-    if (acts && !has && !(series_is_full && is_series(candidate.effect))) {
+    if (acts && !has && !(series_is_full && in_series(candidate.effect))) {
       open.push_back(candidate);
     }
   }
   const std::vector<Scored> scores =
-      scored(bench, before, open, also, in_series > 0 ? starts_behind_series : std::size_t{0});
-  const std::vector<bool> refit = chosen(scores, always, in_series > 0 ? refitted_behind_series : refitted_at_most);
+      scored(bench, before, open, also, elements > 0 ? starts_behind_series : std::size_t{0});
+  const std::vector<bool> refit = chosen(scores, always, elements > 0 ? refitted_behind_series : refitted_at_most);
   std::vector<Tried> result(scores.size());
   const Workbench single = bench.single_threaded();
   // Descents of one thread each, so that their order matters to nobody.
@@ -161,7 +156,7 @@ std::vector<Tried> stage(const Workbench& bench, const Fit& before, const std::v
   std::ranges::stable_sort(result, better);
   std::vector<Fit> best;
   for (const Tried& tried : result) {
-    if (tried.fit && best.size() < (in_series > 0 ? 1 : survivors)) {
+    if (tried.fit && best.size() < (elements > 0 ? 1 : survivors)) {
       best.push_back(*tried.fit);
     }
   }

@@ -171,11 +171,7 @@ Fit Workbench::with_neutral(const Fit& fit, const std::string& effect) const {
 }
 
 std::optional<Fit> Workbench::beside(const Fit& fit, const Extension& part) const {
-  const auto in_series = [](const std::string& effect) {
-    const Part* card = find_effect(effect);
-    return card != nullptr && card->in_series();
-  };
-  if (part.is_law() || !in_series(part.effect) || std::ranges::any_of(fit.what.effects, in_series)) {
+  if (!in_series(part.effect) || std::ranges::any_of(fit.what.effects, in_series)) {
     return std::nullopt;
   }
   return scored(with_neutral(fit, part.effect));
