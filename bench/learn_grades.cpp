@@ -38,7 +38,7 @@ using Vector = Eigen::VectorXd;
 using Matrix = Eigen::MatrixXd;
 
 constexpr int parts = 10;
-constexpr double ridge = 1.0;  // of standardised weights
+constexpr double ridge = 3.0;  // of standardised weights
 constexpr int iterations = 4000;
 // Names that a step of the probability rests on, at least.
 constexpr std::size_t least_of_a_step = 20;

@@ -20,9 +20,9 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Left, squares, floor, white, structure, predi
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Comparison, mean, std_error, agreement, clusters)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Contender, id, law, kin, share, refitted, squares, behind, holds_the_candidate,
                                    held_by_the_candidate, apart, ended_as, follows_drive, as_channels)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Candidate, id, squares_without, gain, score, at_first, gain_alone, contenders, kept,
-                                   parameters, on_bound, part_of_the_law, one_form, as_channels, locality_share,
-                                   locality_gain)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Candidate, id, squares_without, gain, score, at_first, gain_alone, gain_of_relative,
+                                   contenders, kept, parameters, on_bound, part_of_the_law, one_form, as_channels,
+                                   locality_share, locality_gain)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Signature, id, what, unit, value, std_error, z, consistency, placebo_quantile,
                                    recordings, speaks_for, sign)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(OtherLaw, model, squares, has_what_was_found)

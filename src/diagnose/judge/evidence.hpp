@@ -62,6 +62,7 @@ struct Candidate {
   Comparison score;                   // with it over without it
   Comparison at_first;                // alone behind the base, over the base
   double gain_alone = 0.0;            // alone behind the base
+  double gain_of_relative = 0.0;      // the largest of the related effects that the augmented model has too
   std::vector<Contender> contenders;  // best first
   std::vector<double> kept;           // share of its gain behind other laws
   int parameters = 1;

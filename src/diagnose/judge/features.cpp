@@ -12,8 +12,10 @@ namespace {
 constexpr double surely = 2.0;
 // A contender of less than this share of the gain was never near, whatever its score.
 constexpr double near = 0.5;
-// Where no other law comes near, nothing is known: half.
-constexpr double unknown_kept = 0.5;
+// Where no contrast can be taken, nothing is known: half.
+constexpr double unknown_contrast = 0.5;
+// A prediction that is better by this block score is hardly better.
+constexpr double least_prediction = 1e-3;
 
 double unit(double value) { return std::isfinite(value) ? std::clamp(value, 0.0, 1.0) : 0.0; }
 
@@ -71,13 +73,7 @@ std::vector<const Contender*> as_good(const Candidate& candidate) {
 }
 
 NameFeatures features_of(const Candidate& candidate, const Evidence& evidence) {
-  const Left& left = evidence.augmented;
-  const double floor = std::max(left.floor, 1e-300);
-  const double gain = std::max(candidate.gain, 0.0);
-  double kept = candidate.kept.empty() ? unknown_kept : 1.0;
-  for (const double share : candidate.kept) {
-    kept = std::min(kept, share);
-  }
+  const double gain = std::max(candidate.gain, 1e-300);
   double law = 0.0;
   const double all = std::max(evidence.base_compared - evidence.augmented_compared, 1e-300);
   for (const OtherLaw& other : evidence.other_laws) {
@@ -91,29 +87,17 @@ NameFeatures features_of(const Candidate& candidate, const Evidence& evidence) {
   const double inside =
       best_share(candidate, [](const Contender& row) { return row.kin && !(row.holds_the_candidate && !row.apart); });
   const std::optional<Speaking> contrast = speaking_for(candidate.id, evidence);
-  const double loudness = contrast ? contrast->z : 1.0;
   const double elsewhere = std::max(contrast_elsewhere(evidence), surely);
-  double strongest = 1e-300;
-  for (const Candidate& other : evidence.candidates) {
-    strongest = std::max(strongest, other.gain);
-  }
-  return {robustness_of(candidate, evidence),
-          std::log10(1.0 + gain / floor),
-          unit(gain / std::max(evidence.base.squares - floor, 1e-300)),
+  return {std::log10(1.0 + std::clamp(candidate.score.mean, 0.0, 1.0) / least_prediction),
+          unit(gain / std::max(evidence.base.excess(), 1e-300)),
           unit(1.0 - outside),
           unit(1.0 - inside),
-          unit(kept),
           unit(1.0 - law),
-          std::log1p(std::clamp(candidate.score.z(), 0.0, 30.0)),
-          candidate.score.agreement,
-          unit(left.floor / std::max(left.squares, 1e-300)),
-          unit(1.0 - chance(left.recurring, left.recurring_by_chance)),
+          unit(1.0 - chance(evidence.augmented.recurring, evidence.augmented.recurring_by_chance)),
           1.0 - static_cast<double>(candidate.on_bound) / std::max(candidate.parameters, 1),
-          std::log1p(std::clamp(loudness, 0.0, 30.0)),
-          contrast ? unit(loudness / std::max(loudness, elsewhere)) : unknown_kept,
-          unit(gain / strongest),
-          1.0 / static_cast<double>(std::max<std::size_t>(evidence.candidates.size(), 1)),
-          unit(candidate.gain_alone / std::max(gain, 1e-300))};
+          contrast ? unit(contrast->z / std::max(contrast->z, elsewhere)) : unknown_contrast,
+          unit(candidate.gain_alone / gain),
+          unit(1.0 - candidate.gain_of_relative / (candidate.gain_of_relative + gain))};
 }
 
 MissingFeatures features_of(const Evidence& evidence) {

@@ -16,28 +16,22 @@ struct Feature {
 };
 
 // Of a name.
-inline constexpr std::array<Feature, 17> name_features = {{
-    {"robustness",
-     "robustness value: what unmodelled physics would have to explain of the rest, and share of the shape"},
-    {"over_noise", "log10 of 1 + gain over the squares of the noise"},
+inline constexpr std::array<Feature, 10> name_features = {{
+    {"prediction", "log10 of 1 + a thousand block scores: how much better recordings left out in turn are predicted"},
     {"portion", "gain over what the base model leaves beyond the noise"},
     {"lead", "1 less the share of the gain that the best unrelated effect or law has in its place"},
     {"lead_in_family", "likewise the best related effect"},
-    {"kept", "least share of the gain that it keeps behind another damper law; a half where no other law comes near"},
     {"no_other_law", "1 less the share of what all effects take off that another damper law takes off without any"},
-    {"steadiness", "log of 1 + block score over its standard error, recordings left out in turn"},
-    {"agreement", "share of recordings that are predicted better with it"},
-    {"settled", "noise over what stays, in squares"},
     {"quiet", "1 less the share of what stays that follows the motion, beyond chance"},
     {"inside", "1 less the share of its parameters that sit on an end of their box"},
-    {"contrast",
-     "log of 1 + z of the signature contrast that speaks for it, in its sense; of 1 where none can be taken"},
     {"contrast_lead",
-     "that z over the largest of all that speak for nothing in the model; a half where none can be taken"},
-    {"beside_strongest", "gain over that of the strongest effect of the model"},
-    {"few", "1 over the number of effects in the model"},
+     "z of the signature contrast that speaks for it, in its sense, over the largest of all that speak for nothing in "
+     "the model; a half where none can be taken"},
     {"alone",
      "gain alone behind the base model over that in the augmented one: what only makes up for others has none"},
+    {"no_relative",
+     "1 less the gain of a related effect of the model over that and its own: what a form misses looks like a "
+     "relative"},
 }};
 using NameFeatures = std::array<double, name_features.size()>;
 NameFeatures features_of(const Candidate& candidate, const Evidence& evidence);

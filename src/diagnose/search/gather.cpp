@@ -253,6 +253,13 @@ Evidence evidence_of(const Search& search, const Workbench& fine, const Circumst
     }
     result.candidates.push_back(std::move(one));
   }
+  for (Candidate& one : result.candidates) {
+    for (const Candidate& other : result.candidates) {
+      if (is_kin(one.id, other.id)) {
+        one.gain_of_relative = std::max(one.gain_of_relative, other.gain);
+      }
+    }
+  }
   std::ranges::stable_sort(result.candidates, [](const Candidate& a, const Candidate& b) { return a.gain > b.gain; });
   for (const Fit& law : search.other_laws) {
     const bool has_found =
