@@ -11,6 +11,7 @@
 #include "core/error.hpp"
 #include "diagnose/account.hpp"
 #include "diagnose/residual/wander.hpp"
+#include "diagnose/search/left_out.hpp"
 #include "diagnose/search/of_fit.hpp"
 #include "diagnose/search/wording.hpp"
 #include "diagnose/signal/noise.hpp"

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <map>
 
+#include "diagnose/search/left_out.hpp"
+#include "diagnose/search/of_fit.hpp"
 #include "diagnose/search/of_fit.hpp"
 #include "diagnose/search/relatives.hpp"
 

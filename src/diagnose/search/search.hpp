@@ -2,36 +2,17 @@
 // dropped when they stop helping, set against every rival that explains as much, and tried behind other laws.
 #pragma once
 
-#include <functional>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "diagnose/residual/locality.hpp"
 #include "diagnose/residual/misfit.hpp"
-#include "diagnose/search/left_out.hpp"
+#include "diagnose/search/course.hpp"
+#include "diagnose/search/found.hpp"
+#include "diagnose/search/saturation.hpp"
 #include "diagnose/search/stage.hpp"
 #include "diagnose/search/swap.hpp"
 
 namespace hysteron {
-
-// A hypothesis with another extension in the place of one that was found.
-struct Rival {
-  Extension part;
-  double share = 0.0;      // of the gain of what was found
-  double evidence = 0.0;   // for what was found against the rival
-  std::optional<Fit> fit;  // where it was refitted; else the share is to first order
-};
-
-struct Found {
-  Extension part;
-  Fit without;        // the final hypothesis less this part, refitted
-  double gain = 0.0;  // squares without - squares with
-  double evidence = 0.0;
-  std::vector<Rival> rivals;               // best first
-  std::optional<Locality> locality = {};   // of an effect that acts in a part of the stroke
-  std::optional<std::string> by_law = {};  // the parameter whose richer law in the drive shows the effect
-};
 
 struct Search {
   Fit base;
@@ -51,9 +32,6 @@ struct Search {
   std::vector<Swap> swaps;         // behind these; `without` in the order of `found`
 };
 
-// share of all the work done, what is being done
-using SearchProgress = std::function<void(double share, const std::string& stage)>;
-
 struct SearchOptions {
   std::vector<std::string> candidates;  // effects to consider
   std::vector<std::string> laws;        // damper laws that may take the place of the base's
@@ -66,8 +44,5 @@ struct SearchOptions {
 // then fitted on `fine`, of the same box, and their costs and misfits are those there.
 Search search(const Workbench& quick, const Workbench& fine, const Hypothesis& base, const SearchOptions& options,
               const SearchProgress& progress);
-
-// The effect that a yield force is which rises ever less with the drive, whichever parameter law shows it.
-constexpr const char* saturation = "magnetic-saturation";
 
 }  // namespace hysteron

@@ -1,0 +1,31 @@
+// What a search found, with what was set in its place.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "diagnose/residual/locality.hpp"
+#include "diagnose/search/workbench.hpp"
+
+namespace hysteron {
+
+// A hypothesis with another extension in the place of one that was found.
+struct Rival {
+  Extension part;
+  double share = 0.0;      // of the gain of what was found
+  double evidence = 0.0;   // for what was found against the rival
+  std::optional<Fit> fit;  // where it was refitted; else the share is to first order
+};
+
+struct Found {
+  Extension part;
+  Fit without;        // the final hypothesis less this part, refitted
+  double gain = 0.0;  // squares without - squares with
+  double evidence = 0.0;
+  std::vector<Rival> rivals;               // best first
+  std::optional<Locality> locality = {};   // of an effect that acts in a part of the stroke
+  std::optional<std::string> by_law = {};  // the parameter whose richer law in the drive shows the effect
+};
+
+}  // namespace hysteron

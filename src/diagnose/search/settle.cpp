@@ -1,0 +1,238 @@
+#include "diagnose/search/settle.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "diagnose/search/left_out.hpp"
+#include "diagnose/search/of_fit.hpp"
+#include "diagnose/search/relatives.hpp"
+
+namespace hysteron {
+namespace {
+
+// Rivals set against an effect in its place: the best of all stages.
+constexpr std::size_t rival_count = 6;
+// A form that holds a simpler one as its limit is taken for it only above this.
+constexpr double wider_evidence = 3.0;
+// Times that a rival takes the place of an effect: two could go on taking each other's.
+constexpr int most_swaps = 3;
+
+// The effects that came closest at any stage.
+std::vector<Extension> closest(const std::vector<std::vector<Tried>>& stages, std::size_t count) {
+  std::vector<std::pair<double, Extension>> ranked;
+  for (const std::vector<Tried>& stage : stages) {
+    double best = 1e-300;
+    for (const Tried& tried : stage) {
+      best = std::max(best, tried.gain);
+    }
+    for (const Tried& tried : stage) {
+      const auto known = std::ranges::find(ranked, tried.part, &std::pair<double, Extension>::second);
+      if (known == ranked.end()) {
+        ranked.emplace_back(-tried.gain / best, tried.part);
+      } else {
+        known->first = std::min(known->first, -tried.gain / best);
+      }
+    }
+  }
+  std::ranges::stable_sort(ranked, {}, &std::pair<double, Extension>::first);
+  std::vector<Extension> result;
+  for (std::size_t k = 0; k < std::min(count, ranked.size()); ++k) {
+    result.push_back(ranked[k].second);
+  }
+  return result;
+}
+
+// What the current model loses without one of its parts, the rest refitted.
+Found taken_out(const Course& course, const Extension& part) {
+  const Hypothesis less = without(course.current.what, part);
+  Found found;
+  found.part = part;
+  found.without = less == course.base ? course.quick_base : course.bench.from_fit(less, course.current, fitting_rounds);
+  if (found.without.cost > course.quick_base.cost) {
+    // The base is among what is left: the descent from the fuller model went astray.
+    found.without = course.bench.from_fit(less, course.quick_base, fitting_rounds);
+  }
+  // Descents go astray; what was reached before with the same parts is no less true.
+  for (const Fit& fit : course.seen) {
+    if (same_parts(fit.what, less) && fit.cost < found.without.cost) {
+      found.without = fit;
+    }
+  }
+  const std::optional<Fit> neutral = course.bench.beside(found.without, part);
+  const double squares = squared(std::min(found.without.cost, neutral ? neutral->cost : found.without.cost));
+  found.gain = squares - squared(course.current.cost);
+  found.evidence =
+      evidence(squares, squared(course.current.cost),
+               static_cast<double>(course.current.dimension()) - static_cast<double>(found.without.dimension()),
+               course.independent);
+  return found;
+}
+
+// What is set in the place of a part: what came closest, and its relatives among the candidates. A rival is judged from
+// the best start it can have: the damper's parameters without the effect, and with it.
+std::vector<Tried> rivals_of(const Course& course, const Found& found, const std::vector<Extension>& candidates) {
+  std::vector<Extension> others;
+  for (const Extension& other : closest(course.stages, rival_count)) {
+    if (other != found.part && !contains(course.current.what, other)) {
+      others.push_back(other);
+    }
+  }
+  std::vector<Extension> kin;
+  if (!found.part.is_law()) {
+    for (const std::string& id : relatives(found.part.effect)) {
+      const Extension other = effect_extension(id);
+      if (std::ranges::find(candidates, other) != candidates.end() && !contains(course.current.what, other)) {
+        kin.push_back(other);
+        if (std::ranges::find(others, other) == others.end()) {
+          others.push_back(other);
+        }
+      }
+    }
+  }
+  std::vector<Tried> rivals = stage(course.bench, found.without, others, course.independent, &course.current, kin);
+  if (same_parts(found.without.what, course.base) && !course.stages.empty()) {
+    for (const Tried& tried : course.stages.front()) {
+      const auto again = std::ranges::find(rivals, tried.part, &Tried::part);
+      if (again == rivals.end()) {
+        rivals.push_back(tried);
+      } else if (tried.fit && (!again->fit || tried.fit->cost < again->fit->cost)) {
+        *again = tried;
+      }
+    }
+  }
+  std::erase_if(rivals, [&](const Tried& rival) { return rival.part == found.part; });
+  return rivals;
+}
+
+// Sets the part against its rivals. The fit with one in its place that does clearly better, if any.
+std::optional<Fit> contested(Course& course, Found& found, const std::vector<Extension>& candidates) {
+  std::optional<Fit> better;
+  for (const Tried& rival : rivals_of(course, found, candidates)) {
+    Rival row{rival.part, rival.gain / found.gain, 0.0, rival.fit};
+    if (!rival.fit) {
+      found.rivals.push_back(row);
+      continue;
+    }
+    course.seen.push_back(*rival.fit);
+    row.evidence =
+        evidence(squared(rival.fit->cost), squared(course.current.cost),
+                 static_cast<double>(course.current.dimension()) - static_cast<double>(rival.fit->dimension()),
+                 course.independent);
+    // A wider form must be worth its further parameters.
+    const bool wider = !rival.part.is_law() && !found.part.is_law() && is_limit(rival.part.effect, found.part.effect);
+    const double asked = wider ? wider_evidence : -least_evidence_of_a_place;
+    if (row.evidence < asked && (!better || rival.fit->cost < better->cost)) {
+      better = rival.fit;
+    }
+    found.rivals.push_back(std::move(row));
+  }
+  std::ranges::stable_sort(found.rivals, [](const Rival& a, const Rival& b) { return a.share > b.share; });
+  return better;
+}
+
+// A richer law taken out with all its orders, of which the highest may add little to the others; any other part as it
+// was.
+Found taken_out_wholly(const Course& course, const Extension& part, Found found) {
+  if (part.is_law() && part.parameters.size() > 1) {
+    found = taken_out(course, part);
+  }
+  return found;
+}
+
+// Every part of the current model taken out in turn, until none is found that stopped helping; such a one is dropped.
+std::vector<Found> worth_their_place(Course& course) {
+  std::vector<Found> result;
+  for (bool dropped = true; dropped;) {
+    dropped = false;
+    result.clear();
+    const LeftOut with = left_out(course.bench, course.current);
+    const bool far = is_far(misfit_of(course.bench, course.current));
+    for (const Extension& part : extensions_of(course.current.what)) {
+      Found found = taken_out(course, part.is_law() ? law_extension({part.parameters.front()}) : part);
+      const BlockScore score =
+          block_score(left_out_beside(course.bench, found.without, part).predicted, with.predicted, course.noise);
+      if (!worth_keeping(found.evidence, found.gain, squared(found.without.cost), score, far)) {
+        course.current = found.without;
+        dropped = true;
+        break;
+      }
+      result.push_back(taken_out_wholly(course, part, std::move(found)));
+    }
+  }
+  return result;
+}
+
+// Drops what stopped helping, sets each part against its rivals, and takes a rival that does clearly better; again
+// until nothing changes.
+std::vector<Found> settled(Course& course, const std::vector<Extension>& candidates, const SearchProgress& progress) {
+  for (const std::vector<Tried>& tried : course.stages) {
+    for (const Tried& one : tried) {
+      if (one.fit) {
+        course.seen.push_back(*one.fit);
+      }
+    }
+  }
+  while (true) {
+    std::vector<Found> result = worth_their_place(course);
+    bool swapped = false;
+    double done = 0.0;
+    double strongest = 0.0;
+    for (const Found& found : result) {
+      strongest = std::max(strongest, found.gain);
+    }
+    for (Found& found : result) {
+      if (found.gain < negligible * strongest) {
+        continue;  // too small beside the strongest to be told from what its form misses
+      }
+      progress(0.6 + 0.15 * done / static_cast<double>(result.size()),
+               "setting " + name_of(found.part) + " against its rivals");
+      done += 1.0;
+      const std::optional<Fit> replacement = contested(course, found, candidates);
+      if (replacement && course.swaps < most_swaps) {
+        ++course.swaps;
+        course.current = *replacement;
+        swapped = true;
+        break;
+      }
+    }
+    if (!swapped) {
+      return result;
+    }
+  }
+}
+
+// A part that is worth its place on the samples that hypotheses are compared on and not on the finer ones, or the
+// weakest one where the model runs away there; the end where there is none.
+std::vector<Found>::const_iterator unconfirmed(const Workbench& fine, const Fit& augmented,
+                                               const std::vector<Found>& found) {
+  if (augmented.cost >= diverged_cost) {
+    return std::ranges::min_element(found, {}, &Found::gain);
+  }
+  if (found.empty()) {
+    return found.end();
+  }
+  const double with = left_out(fine, augmented).squares;
+  return std::ranges::find_if(found, [&](const Found& one) {
+    const double without = left_out_beside(fine, one.without, one.part).squares;
+    return without - with < least_gain_of_a_place * without;
+  });
+}
+
+}  // namespace
+
+Fit confirmed(Course& course, const Workbench& fine, const Fit& fine_base, const std::vector<Extension>& candidates,
+              const SearchProgress& progress, std::vector<Found>& found) {
+  while (true) {
+    found = settled(course, candidates, progress);
+    progress(0.85, "fitting the augmented model to more samples");
+    Fit augmented = course.current.what == course.base ? fine_base : fine.polished(course.current, screening_rounds);
+    const auto idle = unconfirmed(fine, augmented, found);
+    if (idle == found.end()) {
+      return augmented;
+    }
+    course.current = idle->without;
+  }
+}
+
+}  // namespace hysteron
