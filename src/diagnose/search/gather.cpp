@@ -6,7 +6,6 @@
 
 #include "diagnose/search/left_out.hpp"
 #include "diagnose/search/of_fit.hpp"
-#include "diagnose/search/of_fit.hpp"
 #include "diagnose/search/relatives.hpp"
 
 namespace hysteron {
