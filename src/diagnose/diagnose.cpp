@@ -269,26 +269,47 @@ Judgement judged(Search found, const Workbench& bench, const Workbench& fine, co
   return result;
 }
 
-// Where another damper law does as well without any effect, what is missing behind that one is looked for. It takes the
-// place of the one asked for where it surely predicts recordings left out better, effects and all; whether it does. A
-// law that does no better than the one asked for with an effect is no reason to doubt the one asked for.
-bool try_better_law(Judgement& first, const Workbench& bench, const Workbench& quick, const Workbench& fine,
-                    const Workbench& every, const SearchOptions& searching, const SearchProgress& progress,
-                    std::vector<std::string>& notes) {
+// Recordings, and how they are searched.
+struct Searching {
+  const Workbench& bench;
+  const Workbench& quick;
+  const Workbench& fine;
+  const Workbench& every;
+  SearchOptions options;
+
+  [[nodiscard]] Judgement behind(const std::string& law, const SearchProgress& progress) const {
+    return judged(search(quick, fine, {law, {}, {}}, options, progress), bench, fine, every);
+  }
+};
+
+// Behind `asked`. Where another damper law does as well without any effect, what is missing behind that one is looked
+// for. It takes the place of the one asked for where it surely predicts recordings left out better, effects and all,
+// than the one asked for with all the effects that the recordings ask for: a law that does no better than that is no
+// reason to doubt it.
+Judgement behind_asked_or_better(Searching searching, const std::string& asked, const SearchProgress& progress,
+                                 std::vector<std::string>& notes) {
+  Judgement first = searching.behind(asked, progress);
   const std::string law = better_law(first.evidence);
-  if (law.empty()) {
-    return false;
+  std::optional<Judgement> other;
+  if (!law.empty()) {
+    other = searching.behind(law, [&](double share, const std::string& stage) {
+      progress(0.9 + 0.02 * share, "behind " + law + ": " + stage);
+    });
   }
-  Judgement second = judged(search(quick, fine, {law, {}, {}}, searching,
-                                   [&](double share, const std::string& stage) {
-                                     progress(0.9 + 0.04 * share, "behind " + law + ": " + stage);
-                                   }),
-                            bench, fine, every);
-  const std::vector<LeftOut> both = left_out(fine, {&first.search.augmented, &second.search.augmented});
-  if (block_score(both[0].predicted, both[1].predicted, noise_of(fine)).z() < surely) {
-    return false;
+  if (first.search.limited) {
+    searching.options.in_full = true;
+    first = searching.behind(asked, [&](double share, const std::string& stage) {
+      progress(0.92 + 0.02 * share, "behind " + asked + " again: " + stage);
+    });
   }
-  const std::string asked = first.search.base.what.model;
+  if (!other) {
+    return first;
+  }
+  Judgement& second = *other;
+  const std::vector<LeftOut> both = left_out(searching.fine, {&first.search.augmented, &second.search.augmented});
+  if (block_score(both[0].predicted, both[1].predicted, noise_of(searching.fine)).z() < surely) {
+    return first;
+  }
   second.evidence.asked_for = asked;
   second.verdict = verdict_of(second.evidence);
   // Of the misfit of the law asked for, part of which the other law takes.
@@ -300,16 +321,13 @@ bool try_better_law(Judgement& first, const Workbench& bench, const Workbench& q
       named.share_of_misfit *= left;
     }
   }
-  const Fit base = first.search.base;
-  const Misfit misfit = first.search.base_misfit;
-  first = std::move(second);
-  first.search.base = base;
-  first.search.base_misfit = misfit;
+  second.search.base = first.search.base;
+  second.search.base_misfit = first.search.base_misfit;
   notes.push_back(
       fmt::format("{} takes the place of {}, with which recordings left out are predicted worse: what is "
                   "named is missing behind {}",
                   law, asked, law));
-  return true;
+  return std::move(second);
 }
 
 // What is reported is of every sample at the tolerance asked for, and of the judging recordings, which nothing before
@@ -417,15 +435,8 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const Split& split
   searching.most_effects = options.most_effects;
   searching.candidates = candidates_of(options, diagnosis);
   searching.laws = options.laws;
-  Judgement judgement =
-      judged(search(quick, fine, {options.model, {}, {}}, searching, progress), diagnosis.bench, fine, benches.every);
-  const bool limited = judgement.search.limited;
-  if (!try_better_law(judgement, diagnosis.bench, quick, fine, benches.every, searching, progress, diagnosis.notes) &&
-      limited) {
-    searching.in_full = true;
-    judgement =
-        judged(search(quick, fine, {options.model, {}, {}}, searching, progress), diagnosis.bench, fine, benches.every);
-  }
+  Judgement judgement = behind_asked_or_better({diagnosis.bench, quick, fine, benches.every, searching}, options.model,
+                                               progress, diagnosis.notes);
   diagnosis.search = std::move(judgement.search);
   diagnosis.surprises = std::move(judgement.surprising);
   diagnosis.belonging = std::move(judgement.belonging);
