@@ -20,12 +20,14 @@ struct Degradation {
       {"d", "d", "1/J", "relative loss of force per work done", 0.0, 2.0e-3, 0.0, Scale::linear, {-1, -1, 0}},
   };
   static constexpr std::string_view kin[] = {"self-heating", "stiction"};
+  static constexpr std::string_view part_of[] = {"baber-noori"};
   static constexpr Knowledge knowledge = {
       .family = families::slow_loss,
       .in_words = "a degradation with the work done",
       .shows = "the force falls with the work done and does not come back after a pause",
       .experiment = "the first recording again at the end of the campaign, cold",
       .kin = kin,
+      .part_of = part_of,
   };
 
   template <class T>

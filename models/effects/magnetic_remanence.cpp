@@ -26,6 +26,7 @@ struct MagneticRemanence {
   };
   static constexpr Need needs[] = {Need::drive, Need::changing_drive};
   static constexpr std::string_view kin[] = {"coil-lag", "magnetic-saturation"};
+  static constexpr std::string_view part_of[] = {"preisach"};
   static constexpr Knowledge knowledge = {
       .family = families::drive_path,
       .in_words = "magnetic remanence",
@@ -34,6 +35,7 @@ struct MagneticRemanence {
       .experiment = "a current staircase up and down at constant velocity",
       .needs = needs,
       .kin = kin,
+      .part_of = part_of,
   };
 
   template <class T>

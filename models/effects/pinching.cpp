@@ -23,6 +23,7 @@ struct Pinching {
       {"q", "q", "1", "sharpness of its borders: 2 is a bell, more a flat bottom", 1.2, 8.0, 2.0, Scale::logarithmic},
   };
   static constexpr std::string_view kin[] = {"cubic-stiffness"};
+  static constexpr std::string_view part_of[] = {"baber-noori"};
   static constexpr Knowledge knowledge = {
       .family = families::place,
       .in_words = "pinching around mid-stroke",
@@ -30,6 +31,7 @@ struct Pinching {
       .experiment = "small strokes inside a large one, at two amplitudes",
       .acts = Acts::by_place,
       .kin = kin,
+      .part_of = part_of,
   };
 
   template <class T>

@@ -20,12 +20,14 @@ struct SeriesDashpot {
       {"e", "1/c1", "m/(N s)", "speed of the series dashpot per force", 0.0, 3.0e-4, 0.0, Scale::linear, {-1, 0, 1}},
   };
   static constexpr std::string_view kin[] = {"compliance"};
+  static constexpr std::string_view part_of[] = {"modified-bouc-wen"};
   static constexpr Knowledge knowledge = {
       .family = families::series,
       .in_words = "a series dashpot (roll-off at low speed)",
       .shows = "the force rolls off at low speed and relaxes while the rod is held",
       .experiment = "slow triangles from 1 to 20 mm/s, and a hold after a fast stroke to see the force relax",
       .kin = kin,
+      .part_of = part_of,
   };
 
   template <class T>

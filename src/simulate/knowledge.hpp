@@ -73,6 +73,7 @@ struct Knowledge {
   std::span<const Limit> holds = {};               // effects that it is at a limit of its own
   std::span<const Limit> limit_of = {};            // effects that are this one at a limit of theirs
   std::span<const BoxLimit> ends_as = {};          // effects that it is at an end of its own box
+  std::span<const std::string_view> part_of = {};  // damper laws that have it as a part of their own
   std::span<const KindredParameter> kindred = {};  // parameters of its own that stand for others
 };
 

@@ -58,7 +58,7 @@ Evidence plain() {
   one.contenders = {contender("sensor-delay", 0.3, 10.0, true), contender("quadratic-damping", 0.1, 12.0)};
   one.kept = {1.0, 0.9};
   evidence.candidates = {one};
-  evidence.other_laws = {{"lugre", 19.0 * floor_squares, false}};
+  evidence.other_laws = {{"lugre", 19.0 * floor_squares, false, {}}};
   evidence.signatures = {
       {"acceleration", "force with acceleration", "kg", 8.0, 0.1, 12.0, 1.0, 1.0, 6, {"inertia"}, {0}}};
   return evidence;
@@ -161,6 +161,16 @@ TEST(Features, AContrastCountsInTheSenseOfTheEffectOnly) {
       std::ranges::find(name_features, std::string_view("contrast_lead"), &Feature::name) - name_features.begin());
   EXPECT_EQ(against[at], 0.0);
   EXPECT_EQ(with[at], 1.0);
+}
+
+TEST(Features, ALawThatHasTheEffectAsAPartOfItsOwnIsNoDoubtOfIt) {
+  Evidence evidence = plain();
+  const auto at = static_cast<std::size_t>(
+      std::ranges::find(name_features, std::string_view("no_other_law"), &Feature::name) - name_features.begin());
+  evidence.other_laws = {{"modified-bouc-wen", evidence.augmented_compared, false, {}}};
+  EXPECT_EQ(features_of(evidence.candidates[0], evidence)[at], 0.0);
+  evidence.other_laws[0].has = {evidence.candidates[0].id};
+  EXPECT_EQ(features_of(evidence.candidates[0], evidence)[at], 1.0);
 }
 
 TEST(AsGood, WhatIsNoWorseWithinTwoStandardErrors) {
@@ -295,7 +305,7 @@ TEST(Evidence, AVerdictFollowsFromTheRecordedNumbers) {
 TEST(BetterLaw, OneThatDoesAsWellWithoutEffects) {
   Evidence evidence = plain();
   EXPECT_EQ(better_law(evidence), "");
-  evidence.other_laws = {{"lugre", 1.2 * floor_squares, false}, {"modified-dahl", 1.1 * floor_squares, true}};
+  evidence.other_laws = {{"lugre", 1.2 * floor_squares, false, {}}, {"modified-dahl", 1.1 * floor_squares, true, {}}};
   EXPECT_EQ(better_law(evidence), "lugre") << "what has the effect as its own parameter says the same in other words";
 }
 

@@ -25,7 +25,7 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Candidate, id, squares_without, gain, score, 
                                    locality_share, locality_gain)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Signature, id, what, unit, value, std_error, z, consistency, placebo_quantile,
                                    recordings, speaks_for, sign)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(OtherLaw, model, squares, has_what_was_found)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(OtherLaw, model, squares, has_what_was_found, has)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FirstLook, id, gain, refitted)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Evidence, model, asked_for, recordings, base, augmented, first_stage, candidates,
                                    base_compared, augmented_compared, further, richer_laws, augmented_over_base,

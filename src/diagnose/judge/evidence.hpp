@@ -93,7 +93,8 @@ struct Signature {
 struct OtherLaw {
   std::string model;
   double squares = 0.0;
-  bool has_what_was_found = false;  // as parameters of its own, which the law asked for lacks
+  bool has_what_was_found = false;  // as parts of its own, which the law asked for lacks
+  std::vector<std::string> has;     // of the candidates, those that are parts of its own
 };
 
 // A hypothesis of the first stage, behind the base model alone.

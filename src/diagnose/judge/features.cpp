@@ -77,7 +77,8 @@ NameFeatures features_of(const Candidate& candidate, const Evidence& evidence) {
   double law = 0.0;
   const double all = std::max(evidence.base_compared - evidence.augmented_compared, 1e-300);
   for (const OtherLaw& other : evidence.other_laws) {
-    if (!other.has_what_was_found) {
+    // A law that has the candidate as a part of its own speaks for it.
+    if (std::ranges::find(other.has, candidate.id) == other.has.end()) {
       law = std::max(law, (evidence.base_compared - other.squares) / all);
     }
   }

@@ -21,7 +21,9 @@ inline constexpr std::array<Feature, 10> name_features = {{
     {"portion", "gain over what the base model leaves beyond the noise"},
     {"lead", "1 less the share of the gain that the best unrelated effect or law has in its place"},
     {"lead_in_family", "likewise the best related effect"},
-    {"no_other_law", "1 less the share of what all effects take off that another damper law takes off without any"},
+    {"no_other_law",
+     "1 less the share of what all effects take off that another damper law, without it as a part of its own, takes "
+     "off without any"},
     {"quiet", "1 less the share of what stays that follows the motion, beyond chance"},
     {"inside", "1 less the share of its parameters that sit on an end of their box"},
     {"contrast_lead",

@@ -64,8 +64,9 @@ void append(std::vector<Named>& list, const std::vector<Named>& rows) {
   }
 }
 
-// Of the base model's misfit beyond the noise: what stays, and of what the augmented model takes off the part of effects
-// that are neither named nor suggested. Effects may explain the same, so that their own shares part it in proportion.
+// Of the base model's misfit beyond the noise: what stays, and of what the augmented model takes off the part of
+// effects that are neither named nor suggested. Effects may explain the same, so that their own shares part it in
+// proportion.
 double unknown_share(const Verdict& verdict, const Evidence& evidence) {
   if (verdict.answer == Answer::complete) {
     return 0.0;

@@ -263,12 +263,16 @@ Evidence evidence_of(const Search& search, const Workbench& fine, const Circumst
   }
   std::ranges::stable_sort(result.candidates, [](const Candidate& a, const Candidate& b) { return a.gain > b.gain; });
   for (const Fit& law : search.other_laws) {
-    const bool has_found =
-        !result.candidates.empty() && std::ranges::all_of(result.candidates, [&](const Candidate& candidate) {
-          return candidate.gain < trace * result.candidates.front().gain ||
-                 (is_part_of(candidate.id, law.what.model) && !is_part_of(candidate.id, result.model));
-        });
-    result.other_laws.push_back({law.what.model, squared(law.cost), has_found});
+    OtherLaw row{law.what.model, squared(law.cost), !result.candidates.empty(), {}};
+    for (const Candidate& candidate : result.candidates) {
+      const bool has = is_part_of(candidate.id, row.model) && !is_part_of(candidate.id, result.model);
+      if (has) {
+        row.has.push_back(candidate.id);
+      }
+      row.has_what_was_found =
+          row.has_what_was_found && (has || candidate.gain < trace * result.candidates.front().gain);
+    }
+    result.other_laws.push_back(std::move(row));
   }
   return result;
 }

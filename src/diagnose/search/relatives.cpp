@@ -95,6 +95,9 @@ const BoxLimit* box_limit(const std::string& effect, const std::string& other) {
 }
 
 bool is_part_of(const std::string& effect, const std::string& law) {
+  if (names(knowledge_of(effect).part_of, law)) {
+    return true;
+  }
   const Part* part = find_effect(effect);
   const Part* model = find_model(law);
   if (part == nullptr || model == nullptr || part->parameters.size() != 1) {
