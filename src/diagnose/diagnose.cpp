@@ -284,8 +284,8 @@ struct Searching {
 
 // Behind `asked`. Where another damper law does as well without any effect, what is missing behind that one is looked
 // for. It takes the place of the one asked for where it surely predicts recordings left out better, effects and all,
-// than the one asked for with all the effects that the recordings ask for: a law that does no better than that is no
-// reason to doubt it.
+// than the one asked for with all the effects that the recordings ask for (with two of them where these leave twice the
+// squares of the other): a law that does no better than that is no reason to doubt it.
 Judgement behind_asked_or_better(Searching searching, const std::string& asked, const SearchProgress& progress,
                                  std::vector<std::string>& notes) {
   Judgement first = searching.behind(asked, progress);
@@ -296,7 +296,9 @@ Judgement behind_asked_or_better(Searching searching, const std::string& asked, 
       progress(0.9 + 0.02 * share, "behind " + law + ": " + stage);
     });
   }
-  if (first.search.limited) {
+  const bool beaten =
+      other && squared(first.search.augmented.cost) > comparable * squared(other->search.augmented.cost);
+  if (first.search.limited && !beaten) {
     searching.options.in_full = true;
     first = searching.behind(asked, [&](double share, const std::string& stage) {
       progress(0.92 + 0.02 * share, "behind " + asked + " again: " + stage);

@@ -55,10 +55,13 @@ std::vector<Named> named(std::size_t index, const Evidence& evidence) {
   return result;
 }
 
-void append(std::vector<Named>& list, const std::vector<Named>& rows) {
+// One effect may be a member of two sets: it is listed once, where it is surer.
+void append(std::vector<Named>& list, const std::vector<Named>& rows, const std::vector<Named>& surer) {
+  const auto listed = [](const std::vector<Named>& in, const Named& row) {
+    return std::ranges::find(in, row.id, &Named::id) != in.end();
+  };
   for (const Named& row : rows) {
-    // One effect may be a member of two sets: it is listed once.
-    if (std::ranges::find(list, row.id, &Named::id) == list.end()) {
+    if (!listed(list, row) && !listed(surer, row)) {
       list.push_back(row);
     }
   }
@@ -146,6 +149,7 @@ Verdict answer_of(const Evidence& evidence) {
   verdict.remaining_structure = structured(evidence.augmented);
   verdict.missing = missing_table().probability(features_of(evidence));
   bool alone = false;
+  std::vector<std::vector<Named>> suggested;
   for (std::size_t k = 0; k < evidence.candidates.size(); ++k) {
     const std::vector<Named> rows = named(k, evidence);
     const Grade grade = rows.front().grade;
@@ -153,8 +157,15 @@ Verdict answer_of(const Evidence& evidence) {
       verdict.doubtful.push_back(rows.front());
       continue;
     }
-    append(grade == Grade::suggested ? verdict.suggestions : verdict.effects, rows);
-    alone = alone || (grade != Grade::suggested && rows.size() == 1);
+    if (grade == Grade::suggested) {
+      suggested.push_back(rows);
+      continue;
+    }
+    append(verdict.effects, rows, {});
+    alone = alone || rows.size() == 1;
+  }
+  for (const std::vector<Named>& rows : suggested) {
+    append(verdict.suggestions, rows, verdict.effects);
   }
   if (!evidence.doubt_of_data.empty()) {
     verdict.answer = Answer::unattributed;
@@ -175,7 +186,9 @@ Verdict answer_of(const Evidence& evidence) {
     verdict.reason = evidence.model + " describes what " + evidence.asked_for + " misses";
     return verdict;
   }
-  verdict.answer = verdict.missing >= suggested_from ? Answer::unattributed : Answer::complete;
+  // Where an effect is more likely there than not, so is something.
+  verdict.answer =
+      verdict.missing >= suggested_from || !verdict.suggestions.empty() ? Answer::unattributed : Answer::complete;
   if (verdict.answer == Answer::unattributed) {
     verdict.reason = evidence.candidates.empty() ? "no known effect explains the misfit"
                                                  : "no effect explains enough of the misfit to be named";

@@ -10,8 +10,6 @@ namespace {
 
 constexpr int adding_rounds = 4;
 constexpr int comparing_rounds = 6;
-// A law that leaves so many times the squares of the one asked for says nothing of what is missing behind it.
-constexpr double comparable = 2.0;
 
 Swap swapped(const Workbench& bench, const Fit& law, const std::vector<std::string>& effects) {
   Fit full = law;

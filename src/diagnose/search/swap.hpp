@@ -10,6 +10,9 @@
 namespace hysteron {
 
 // Another law with the effects of the augmented model.
+// A law that leaves so many times the squares of another says nothing of what is missing behind it.
+constexpr double comparable = 2.0;
+
 struct Swap {
   std::string model;
   double squares_alone = 0.0;   // of NRMSE, without effects
