@@ -7,6 +7,7 @@
 // a lagged velocity and holds for any motion.
 // Source: Kwok, Ha, Nguyen, Li, Samali, Sens. Actuators A 132 (2006)
 // 441-451, doi 10.1016/j.sna.2006.03.015.
+#include "models/cards.hpp"
 #include "simulate/compile.hpp"
 
 namespace hysteron {
@@ -21,32 +22,14 @@ struct AlgebraicHysteresis {
                                                    "z = tanh((v + v_h tanh((x - x0) / x_s)) / v_y)"};
   static constexpr int states = 0;
   static constexpr Parameter parameters[] = {
-      as_yield_force({"alpha", "alpha", "N", "yield force", 0.0, 3.0e3, 5.0e2, Scale::linear, {1, 0, 0}, true}),
-      as_damping({"c0", "c", "N s/m", "viscous damping", 0.0, 2.0e4, 5.0e2, Scale::linear, {1, 0, -1}, true}),
-      as_stiffness({"k0", "k", "N/m", "stiffness", -2.0e4, 1.0e5, 0.0, Scale::linear, {1, -1, 0}, true}),
-      as_offset_force({"f0", "f0", "N", "offset force", -1.5e3, 1.5e3, 0.0, Scale::linear, {1, 0, 0}, true}),
-      {"v_y", "1/beta", "m/s", "yield speed", 1.0e-3, 1.0, 3.0e-2, Scale::logarithmic, {0, 0, 1}},
-      {"v_h",
-       "delta/beta",
-       "m/s",
-       "half width of the loop: velocity at zero force",
-       0.0,
-       1.5e-1,
-       1.0e-2,
-       Scale::linear,
-       {0, 0, 1}},
-      {"x0", "x0", "m", "centre of the motion", -1.0e-2, 1.0e-2, 0.0, Scale::linear, {0, 1, 0, 1}},
-      {"x_s",
-       "x_s",
-       "m",
-       "displacement over which the sign of x - x0 is rounded",
-       1.0e-5,
-       5.0e-3,
-       5.0e-4,
-       Scale::logarithmic,
-       {0, 1, 0},
-       false,
-       true},
+      {.name = "alpha", .unit = "N", .meaning = "yield force", .box = {0, 3e3}, .initial = 500, .linear = true, .role = PhysicalRole::yield_force},
+      {.name = "c0", .symbol = "c", .unit = "N s/m", .meaning = "viscous damping", .box = {0, 2e4}, .initial = 500, .linear = true, .role = PhysicalRole::damping},
+      {.name = "k0", .symbol = "k", .unit = "N/m", .meaning = "stiffness", .box = {-2e4, 1e5}, .initial = 0, .linear = true, .role = PhysicalRole::stiffness},
+      cards::f0,
+      {.name = "v_y", .symbol = "1/beta", .unit = "m/s", .meaning = "yield speed", .box = {1e-3, 1}, .initial = 0.03, .scale = Scale::logarithmic},
+      {.name = "v_h", .symbol = "delta/beta", .unit = "m/s", .meaning = "half width of the loop: velocity at zero force", .box = {0, 0.15}, .initial = 0.01},
+      {.name = "x0", .unit = "m", .meaning = "centre of the motion", .box = {-0.01, 0.01}, .initial = 0, .place = 1},
+      {.name = "x_s", .unit = "m", .meaning = "displacement over which the sign of x - x0 is rounded", .box = {1e-5, 5e-3}, .initial = 5e-4, .scale = Scale::logarithmic, .fixed = true},
   };
 
   template <class T>

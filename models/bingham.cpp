@@ -2,6 +2,7 @@
 //   F = fc sgn(v) + c0 v + f0
 // with sgn(v) replaced by tanh(v / v_s), v_s = 1 mm/s, so that the force is a function of velocity at rest too.
 // Source: Stanway, Sproston, Stevens 1987, doi 10.1016/0304-3886(87)90056-8.
+#include "models/cards.hpp"
 #include "simulate/compile.hpp"
 
 namespace hysteron {
@@ -15,20 +16,10 @@ struct Bingham {
   static constexpr std::string_view equations[] = {"F = fc tanh(v / v_s) + c0 v + f0"};
   static constexpr int states = 0;
   static constexpr Parameter parameters[] = {
-      as_yield_force({"fc", "f_c", "N", "yield force", 0.0, 3.0e3, 5.0e2, Scale::linear, {1, 0, 0}, true}),
-      as_damping({"c0", "c0", "N s/m", "viscous damping", 0.0, 2.0e4, 5.0e2, Scale::linear, {1, 0, -1}, true}),
-      as_offset_force({"f0", "f0", "N", "offset force", -1.5e3, 1.5e3, 0.0, Scale::linear, {1, 0, 0}, true}),
-      {"v_s",
-       "v_s",
-       "m/s",
-       "speed at which the sign function is rounded",
-       1.0e-4,
-       1.0e-1,
-       1.0e-3,
-       Scale::logarithmic,
-       {0, 0, 1},
-       false,
-       true},
+      {.name = "fc", .symbol = "f_c", .unit = "N", .meaning = "yield force", .box = {0, 3e3}, .initial = 500, .linear = true, .role = PhysicalRole::yield_force},
+      cards::c0,
+      cards::f0,
+      cards::v_s,
   };
 
   template <class T>

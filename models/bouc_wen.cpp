@@ -6,6 +6,7 @@
 //   Z = (A / (beta + gamma))^(1/n), alpha = alpha0 Z, x_y = Z / A, share = beta / (beta + gamma);
 // a displacement offset x0 of k0 (x - x0) is f0 = -k0 x0.
 // Source: Wen, J. Eng. Mech. Div. 102 (1976) 249-263, doi 10.1061/JMCEA3.0002106.
+#include "models/cards.hpp"
 #include "simulate/compile.hpp"
 
 namespace hysteron {
@@ -20,23 +21,13 @@ struct BoucWen {
                                                    "z' = (v - |z|^n (share |v| sgn(z) + (1 - share) v)) / x_y"};
   static constexpr int states = 1;
   static constexpr Parameter parameters[] = {
-      as_yield_force({"alpha",
-                      "alpha",
-                      "N",
-                      "yield force: force of the saturated hysteresis",
-                      0.0,
-                      3.0e3,
-                      5.0e2,
-                      Scale::linear,
-                      {1, 0, 0},
-                      true}),
-      as_damping({"c0", "c0", "N s/m", "viscous damping", 0.0, 2.0e4, 5.0e2, Scale::linear, {1, 0, -1}, true}),
-      as_stiffness({"k0", "k0", "N/m", "stiffness", -2.0e4, 1.0e5, 0.0, Scale::linear, {1, -1, 0}, true}),
-      as_offset_force({"f0", "f0", "N", "offset force, -k0 x0", -1.5e3, 1.5e3, 0.0, Scale::linear, {1, 0, 0}, true}),
-      {"x_y", "x_y", "m", "yield displacement", 5.0e-5, 2.5e-2, 1.0e-3, Scale::logarithmic, {0, 1, 0}},
-      {"share", "beta/(beta+gamma)", "1", "share of the |v| z term: loop shape, 0.5 gives straight unloading", 0.1, 1.5,
-       0.5},
-      {"n", "n", "1", "sharpness of the knee", 1.0, 4.0, 1.5},
+      {.name = "alpha", .unit = "N", .meaning = "yield force: force of the saturated hysteresis", .box = {0, 3e3}, .initial = 500, .linear = true, .role = PhysicalRole::yield_force},
+      cards::c0,
+      cards::k0,
+      {.name = "f0", .unit = "N", .meaning = "offset force, -k0 x0", .box = {-1.5e3, 1.5e3}, .initial = 0, .linear = true, .role = PhysicalRole::offset_force},
+      {.name = "x_y", .unit = "m", .meaning = "yield displacement", .box = {5e-5, 0.025}, .initial = 1e-3, .scale = Scale::logarithmic},
+      {.name = "share", .symbol = "beta/(beta+gamma)", .unit = "1", .meaning = "share of the |v| z term: loop shape, 0.5 gives straight unloading", .box = {0.1, 1.5}, .initial = 0.5},
+      {.name = "n", .unit = "1", .meaning = "sharpness of the knee", .box = {1, 4}, .initial = 1.5},
   };
 
   template <class T>

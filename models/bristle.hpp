@@ -12,13 +12,10 @@ namespace hysteron {
 // At speed the length alone would need steps far shorter than any sampling.
 inline constexpr double bristle_time = 5e-4;  // s
 
-inline constexpr Parameter bristle_length = {
-    "x_b", "x_b", "m", "length over which the contact bends", 1.0e-7, 2.0e-4, 2.0e-5, Scale::logarithmic, {0, 1, 0}};
+inline constexpr Parameter bristle_length = {.name = "x_b", .unit = "m", .meaning = "length over which the contact bends", .box = {1e-7, 2e-4}, .initial = 2e-5, .scale = Scale::logarithmic};
 
 // At its lower end the film changes nothing.
-inline constexpr Parameter film_speed = {"v_t",    "v_t",  "m/s",  "speed below which the friction is less than full",
-                                         1.0e-5,   2.0e-2, 1.0e-4, Scale::logarithmic,
-                                         {0, 0, 1}};
+inline constexpr Parameter film_speed = {.name = "v_t", .unit = "m/s", .meaning = "speed below which the friction is less than full", .box = {1e-5, 0.02}, .initial = 1e-4, .scale = Scale::logarithmic};
 
 template <class T>
 T bristle_rate(const T& length, const T& v, const T& z) {

@@ -6,6 +6,7 @@
 // The branch |G| <= fc of the source is u = 0. States: deflection e of the series spring, deflection d of the Kelvin
 // element; both start at 0.
 // Source: Gamota, Filisko, J. Rheol. 35 (1991) 399-425, doi 10.1122/1.550221.
+#include "models/cards.hpp"
 #include "simulate/compile.hpp"
 
 namespace hysteron {
@@ -19,15 +20,12 @@ struct ExtendedBingham {
                                                    "d' = (k2 e - k1 d) / c1"};
   static constexpr int states = 2;
   static constexpr Parameter parameters[] = {
-      as_yield_force({"fc", "f_c", "N", "yield force", 0.0, 3.0e3, 5.0e2, Scale::linear, {1, 0, 0}}),
-      as_damping({"c0", "c0", "N s/m", "post-yield damping", 5.0e1, 2.0e4, 5.0e2, Scale::logarithmic, {1, 0, -1}}),
-      as_damping(
-          {"c1", "c1", "N s/m", "damping of the Kelvin element", 5.0e1, 1.0e5, 2.0e3, Scale::logarithmic, {1, 0, -1}}),
-      as_stiffness(
-          {"k1", "k1", "N/m", "stiffness of the Kelvin element", 1.0e3, 1.0e6, 1.0e5, Scale::logarithmic, {1, -1, 0}}),
-      as_stiffness(
-          {"k2", "k2", "N/m", "stiffness of the series spring", 1.0e4, 1.0e6, 3.0e5, Scale::logarithmic, {1, -1, 0}}),
-      as_offset_force({"f0", "f0", "N", "offset force", -1.5e3, 1.5e3, 0.0, Scale::linear, {1, 0, 0}, true}),
+      {.name = "fc", .symbol = "f_c", .unit = "N", .meaning = "yield force", .box = {0, 3e3}, .initial = 500, .role = PhysicalRole::yield_force},
+      {.name = "c0", .unit = "N s/m", .meaning = "post-yield damping", .box = {50, 2e4}, .initial = 500, .scale = Scale::logarithmic, .role = PhysicalRole::damping},
+      {.name = "c1", .unit = "N s/m", .meaning = "damping of the Kelvin element", .box = {50, 1e5}, .initial = 2e3, .scale = Scale::logarithmic, .role = PhysicalRole::damping},
+      {.name = "k1", .unit = "N/m", .meaning = "stiffness of the Kelvin element", .box = {1e3, 1e6}, .initial = 1e5, .scale = Scale::logarithmic, .role = PhysicalRole::stiffness},
+      {.name = "k2", .unit = "N/m", .meaning = "stiffness of the series spring", .box = {1e4, 1e6}, .initial = 3e5, .scale = Scale::logarithmic, .role = PhysicalRole::stiffness},
+      cards::f0,
   };
 
   template <class T>

@@ -5,6 +5,7 @@
 // meaning, so the branch is carried by the lagged velocity h instead: for a sine of frequency w both open the loop by
 // the same shift of velocity at the reversals when tan(w tau) = delta / (beta v_max). Source: Kwok, Ha, Nguyen, Li,
 // Samali, Sens. Actuators A 132 (2006) 441-451, doi 10.1016/j.sna.2006.03.015.
+#include "models/cards.hpp"
 #include "simulate/compile.hpp"
 
 namespace hysteron {
@@ -18,12 +19,12 @@ struct HyperbolicTangent {
   static constexpr std::string_view equations[] = {"F = alpha tanh(h / v_y) + c0 v + k0 x + f0", "h' = (v - h) / tau"};
   static constexpr int states = 1;
   static constexpr Parameter parameters[] = {
-      as_yield_force({"alpha", "alpha", "N", "yield force", 0.0, 3.0e3, 5.0e2, Scale::linear, {1, 0, 0}, true}),
-      as_damping({"c0", "c0", "N s/m", "viscous damping", 0.0, 2.0e4, 5.0e2, Scale::linear, {1, 0, -1}, true}),
-      as_stiffness({"k0", "k0", "N/m", "stiffness", -2.0e4, 1.0e5, 0.0, Scale::linear, {1, -1, 0}, true}),
-      as_offset_force({"f0", "f0", "N", "offset force", -1.5e3, 1.5e3, 0.0, Scale::linear, {1, 0, 0}, true}),
-      {"v_y", "v_y", "m/s", "yield speed", 1.0e-3, 1.0, 3.0e-2, Scale::logarithmic, {0, 0, 1}},
-      {"tau", "tau", "s", "lag that opens the loop", 5.0e-4, 1.0e-1, 5.0e-3, Scale::logarithmic, {0, 1, -1}},
+      {.name = "alpha", .unit = "N", .meaning = "yield force", .box = {0, 3e3}, .initial = 500, .linear = true, .role = PhysicalRole::yield_force},
+      cards::c0,
+      cards::k0,
+      cards::f0,
+      {.name = "v_y", .unit = "m/s", .meaning = "yield speed", .box = {1e-3, 1}, .initial = 0.03, .scale = Scale::logarithmic},
+      {.name = "tau", .unit = "s", .meaning = "lag that opens the loop", .box = {5e-4, 0.1}, .initial = 5e-3, .scale = Scale::logarithmic},
   };
 
   template <class T>

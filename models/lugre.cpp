@@ -6,6 +6,7 @@
 // c1 = sigma1, c0 = sigma2, and z = sigma0 z0 / Fc is dimensionless. At steady velocity F = Fc g(v) sgn(v) + c0 v.
 // Source: Canudas de Wit, Olsson, Astrom, Lischinsky, IEEE Trans. Autom. Control 40 (1995) 419-425,
 // doi 10.1109/9.376053.
+#include "models/cards.hpp"
 #include "simulate/compile.hpp"
 
 namespace hysteron {
@@ -20,23 +21,14 @@ struct LuGre {
       "F = alpha z + c1 u + c0 v + k0 x + f0", "u = v - |v| z / (1 + (ratio - 1) exp(-(v / v_st)^2))", "z' = u / x_y"};
   static constexpr int states = 1;
   static constexpr Parameter parameters[] = {
-      as_yield_force({"alpha", "F_c", "N", "Coulomb force", 0.0, 3.0e3, 5.0e2, Scale::linear, {1, 0, 0}, true}),
-      as_damping({"c0", "sigma_2", "N s/m", "viscous damping", 0.0, 2.0e4, 5.0e2, Scale::linear, {1, 0, -1}, true}),
-      as_damping(
-          {"c1", "sigma_1", "N s/m", "damping of the bristles", 0.0, 2.0e4, 1.0e2, Scale::linear, {1, 0, -1}, true}),
-      as_stiffness({"k0", "k0", "N/m", "stiffness", -2.0e4, 1.0e5, 0.0, Scale::linear, {1, -1, 0}, true}),
-      as_offset_force({"f0", "f0", "N", "offset force", -1.5e3, 1.5e3, 0.0, Scale::linear, {1, 0, 0}, true}),
-      {"x_y",
-       "x_y",
-       "m",
-       "bristle deflection at the Coulomb force, F_c / sigma_0",
-       5.0e-5,
-       2.5e-2,
-       1.0e-3,
-       Scale::logarithmic,
-       {0, 1, 0}},
-      {"ratio", "F_s/F_c", "1", "ratio of static to Coulomb force", 1.0, 3.0, 1.0},
-      {"v_st", "v_s", "m/s", "Stribeck speed", 1.0e-3, 1.0e-1, 1.0e-2, Scale::logarithmic, {0, 0, 1}},
+      {.name = "alpha", .symbol = "F_c", .unit = "N", .meaning = "Coulomb force", .box = {0, 3e3}, .initial = 500, .linear = true, .role = PhysicalRole::yield_force},
+      {.name = "c0", .symbol = "sigma_2", .unit = "N s/m", .meaning = "viscous damping", .box = {0, 2e4}, .initial = 500, .linear = true, .role = PhysicalRole::damping},
+      {.name = "c1", .symbol = "sigma_1", .unit = "N s/m", .meaning = "damping of the bristles", .box = {0, 2e4}, .initial = 100, .linear = true, .role = PhysicalRole::damping},
+      cards::k0,
+      cards::f0,
+      {.name = "x_y", .unit = "m", .meaning = "bristle deflection at the Coulomb force, F_c / sigma_0", .box = {5e-5, 0.025}, .initial = 1e-3, .scale = Scale::logarithmic},
+      {.name = "ratio", .symbol = "F_s/F_c", .unit = "1", .meaning = "ratio of static to Coulomb force", .box = {1, 3}, .initial = 1},
+      {.name = "v_st", .symbol = "v_s", .unit = "m/s", .meaning = "Stribeck speed", .box = {1e-3, 0.1}, .initial = 0.01, .scale = Scale::logarithmic},
   };
 
   template <class T>

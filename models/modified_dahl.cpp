@@ -3,6 +3,7 @@
 //   z' = (v - |v| z) / x_y
 // that is z' = sigma v (1 - z sgn(v)) with x_y = 1 / sigma; |z| <= 1.
 // Source: Zhou, Qu, Earthquake Eng. Eng. Vib. 22 (2002) 144-150, after Dahl 1968.
+#include "models/cards.hpp"
 #include "simulate/compile.hpp"
 
 namespace hysteron {
@@ -15,20 +16,11 @@ struct ModifiedDahl {
   static constexpr std::string_view equations[] = {"F = c0 v + k0 x + alpha z + f0", "z' = (v - |v| z) / x_y"};
   static constexpr int states = 1;
   static constexpr Parameter parameters[] = {
-      as_yield_force({"alpha",
-                      "F_d",
-                      "N",
-                      "Coulomb force scaled by the field",
-                      0.0,
-                      3.0e3,
-                      5.0e2,
-                      Scale::linear,
-                      {1, 0, 0},
-                      true}),
-      as_damping({"c0", "c0", "N s/m", "viscous damping", 0.0, 2.0e4, 5.0e2, Scale::linear, {1, 0, -1}, true}),
-      as_stiffness({"k0", "k0", "N/m", "stiffness", -2.0e4, 1.0e5, 0.0, Scale::linear, {1, -1, 0}, true}),
-      as_offset_force({"f0", "f0", "N", "offset force", -1.5e3, 1.5e3, 0.0, Scale::linear, {1, 0, 0}, true}),
-      {"x_y", "x_y", "m", "presliding displacement, 1 / sigma", 5.0e-5, 2.5e-2, 1.0e-3, Scale::logarithmic, {0, 1, 0}},
+      {.name = "alpha", .symbol = "F_d", .unit = "N", .meaning = "Coulomb force scaled by the field", .box = {0, 3e3}, .initial = 500, .linear = true, .role = PhysicalRole::yield_force},
+      cards::c0,
+      cards::k0,
+      cards::f0,
+      {.name = "x_y", .unit = "m", .meaning = "presliding displacement, 1 / sigma", .box = {5e-5, 0.025}, .initial = 1e-3, .scale = Scale::logarithmic},
   };
 
   template <class T>

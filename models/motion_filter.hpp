@@ -8,6 +8,10 @@
 
 namespace hysteron {
 
+// tau, and the a_s of the smooth sign tanh(a / a_s).
+inline constexpr Parameter acceleration_lag = {.name = "tau", .unit = "s", .meaning = "time constant of the acceleration estimate", .box = {5e-4, 0.02}, .initial = 2e-3, .scale = Scale::logarithmic, .fixed = true};
+inline constexpr Parameter acceleration_rounding = {.name = "a_s", .unit = "m/s^2", .meaning = "acceleration at which its sign is rounded", .box = {0.01, 5}, .initial = 0.2, .scale = Scale::logarithmic, .fixed = true};
+
 // Error for a sine of frequency w: a lag of tau. `age` is the time since the march began, which is not the start of the
 // recording where a period is marched beforehand (Input::age); zero at its very start, where h says nothing yet.
 template <class T>

@@ -4,6 +4,7 @@
 // written as F = c0 v + fy clamp(v / v_y, -1, 1) + f0, which is continuous by construction.
 // Source: Stanway, Sproston, El-Wahed 1996, doi 10.1088/0964-1726/5/4/011; Wereley, Pang, Kamath 1998,
 // doi 10.1177/1045389X9800900810.
+#include "models/cards.hpp"
 #include "simulate/compile.hpp"
 
 namespace hysteron {
@@ -18,10 +19,10 @@ struct NonlinearBiviscous {
                                                    "pre-yield damping c_pr = c0 + fy / v_y"};
   static constexpr int states = 0;
   static constexpr Parameter parameters[] = {
-      as_yield_force({"fy", "f_y", "N", "yield force", 0.0, 3.0e3, 5.0e2, Scale::linear, {1, 0, 0}, true}),
-      as_damping({"c0", "c_po", "N s/m", "post-yield damping", 0.0, 2.0e4, 5.0e2, Scale::linear, {1, 0, -1}, true}),
-      as_offset_force({"f0", "f0", "N", "offset force", -1.5e3, 1.5e3, 0.0, Scale::linear, {1, 0, 0}, true}),
-      {"v_y", "v_y", "m/s", "yield speed", 1.0e-3, 2.5e-1, 3.0e-2, Scale::logarithmic, {0, 0, 1}},
+      {.name = "fy", .symbol = "f_y", .unit = "N", .meaning = "yield force", .box = {0, 3e3}, .initial = 500, .linear = true, .role = PhysicalRole::yield_force},
+      {.name = "c0", .symbol = "c_po", .unit = "N s/m", .meaning = "post-yield damping", .box = {0, 2e4}, .initial = 500, .linear = true, .role = PhysicalRole::damping},
+      cards::f0,
+      {.name = "v_y", .unit = "m/s", .meaning = "yield speed", .box = {1e-3, 0.25}, .initial = 0.03, .scale = Scale::logarithmic},
   };
 
   template <class T>

@@ -12,7 +12,7 @@ namespace hysteron {
 namespace {
 
 constexpr Parameter coefficient(std::string_view name, std::string_view meaning, double initial) {
-  return {name, name, "N", meaning, -1.0e4, 1.0e4, initial, Scale::linear, {1, 0, 0}, true};
+  return {.name = name, .unit = "N", .meaning = meaning, .box = {-1e4, 1e4}, .initial = initial, .linear = true};
 }
 
 struct PolynomialHysteresis {
@@ -26,53 +26,23 @@ struct PolynomialHysteresis {
   static constexpr int states = 1;
   static constexpr int terms = 7;
   static constexpr Parameter parameters[] = {
-      coefficient("rise_0", "rising velocity, constant term", 0.0),
-      coefficient("rise_1", "rising velocity, coefficient of r", 5.0e2),
-      coefficient("rise_2", "rising velocity, coefficient of r^2", 0.0),
-      coefficient("rise_3", "rising velocity, coefficient of r^3", 0.0),
-      coefficient("rise_4", "rising velocity, coefficient of r^4", 0.0),
-      coefficient("rise_5", "rising velocity, coefficient of r^5", 0.0),
-      coefficient("rise_6", "rising velocity, coefficient of r^6", 0.0),
-      coefficient("fall_0", "falling velocity, constant term", 0.0),
-      coefficient("fall_1", "falling velocity, coefficient of r", 5.0e2),
-      coefficient("fall_2", "falling velocity, coefficient of r^2", 0.0),
-      coefficient("fall_3", "falling velocity, coefficient of r^3", 0.0),
-      coefficient("fall_4", "falling velocity, coefficient of r^4", 0.0),
-      coefficient("fall_5", "falling velocity, coefficient of r^5", 0.0),
-      coefficient("fall_6", "falling velocity, coefficient of r^6", 0.0),
-      {"v_ref",
-       "v_ref",
-       "m/s",
-       "speed that normalises the velocity",
-       1.0e-1,
-       1.0,
-       3.0e-1,
-       Scale::logarithmic,
-       {0, 0, 1},
-       false,
-       true},
-      {"tau",
-       "tau",
-       "s",
-       "time constant of the acceleration estimate",
-       5.0e-4,
-       2.0e-2,
-       2.0e-3,
-       Scale::logarithmic,
-       {0, 1, -1},
-       false,
-       true},
-      {"a_s",
-       "a_s",
-       "m/s^2",
-       "acceleration at which its sign is rounded",
-       1.0e-2,
-       5.0,
-       2.0e-1,
-       Scale::logarithmic,
-       {0, -1, 2},
-       false,
-       true},
+      coefficient("rise_0", "rising velocity, constant term", 0),
+      coefficient("rise_1", "rising velocity, coefficient of r", 500),
+      coefficient("rise_2", "rising velocity, coefficient of r^2", 0),
+      coefficient("rise_3", "rising velocity, coefficient of r^3", 0),
+      coefficient("rise_4", "rising velocity, coefficient of r^4", 0),
+      coefficient("rise_5", "rising velocity, coefficient of r^5", 0),
+      coefficient("rise_6", "rising velocity, coefficient of r^6", 0),
+      coefficient("fall_0", "falling velocity, constant term", 0),
+      coefficient("fall_1", "falling velocity, coefficient of r", 500),
+      coefficient("fall_2", "falling velocity, coefficient of r^2", 0),
+      coefficient("fall_3", "falling velocity, coefficient of r^3", 0),
+      coefficient("fall_4", "falling velocity, coefficient of r^4", 0),
+      coefficient("fall_5", "falling velocity, coefficient of r^5", 0),
+      coefficient("fall_6", "falling velocity, coefficient of r^6", 0),
+      {.name = "v_ref", .unit = "m/s", .meaning = "speed that normalises the velocity", .box = {0.1, 1}, .initial = 0.3, .scale = Scale::logarithmic, .fixed = true},
+      acceleration_lag,
+      acceleration_rounding,
   };
 
   template <class T>

@@ -11,6 +11,7 @@
 // equations; plays begin at 0, the demagnetised state. At a constant drive this is `bingham`.
 // Source: Han, Choi, Wereley, J. Intell. Mater. Syst. Struct. 18 (2007) 973-981; Preisach operator: Mayergoyz,
 // Mathematical Models of Hysteresis, Springer 1991.
+#include "models/cards.hpp"
 #include "simulate/compile.hpp"
 
 namespace hysteron {
@@ -29,34 +30,14 @@ struct Preisach {
       "b_j' = (max(i - r_j - b_j, 0) + min(i + r_j - b_j, 0)) / tau, r_j = j R / 4, j = 1 .. 4"};
   static constexpr int states = 4;
   static constexpr Parameter parameters[] = {
-      as_yield_force(
-          {"f_y", "f_y", "N", "yield force without field", 0.0, 3.0e3, 1.0e2, Scale::linear, {1, 0, 0}, true}),
-      {"f_i",
-       "f_i",
-       "N/A",
-       "growth of the yield force with the field",
-       0.0,
-       6.0e3,
-       5.0e2,
-       Scale::linear,
-       {1, 0, 0},
-       true},
-      as_damping({"c0", "c0", "N s/m", "viscous damping", 0.0, 2.0e4, 5.0e2, Scale::linear, {1, 0, -1}, true}),
-      as_offset_force({"f0", "f0", "N", "offset force", -1.5e3, 1.5e3, 0.0, Scale::linear, {1, 0, 0}, true}),
-      {"R", "R", "A", "half width of the widest relay", 1.0e-2, 5.0e-1, 1.0e-1, Scale::logarithmic},
-      {"d", "d", "1", "decay of the density with the width of the relays", 0.0, 8.0, 1.0},
-      {"v_s",
-       "v_s",
-       "m/s",
-       "speed at which the sign function is rounded",
-       1.0e-4,
-       1.0e-1,
-       1.0e-3,
-       Scale::logarithmic,
-       {0, 0, 1},
-       false,
-       true},
-      {"tau", "tau", "s", "time constant of the plays", 5.0e-4, 2.0e-2, 2.0e-3, Scale::logarithmic, {}, false, true},
+      {.name = "f_y", .unit = "N", .meaning = "yield force without field", .box = {0, 3e3}, .initial = 100, .linear = true, .role = PhysicalRole::yield_force},
+      {.name = "f_i", .unit = "N/A", .meaning = "growth of the yield force with the field", .box = {0, 6e3}, .initial = 500, .linear = true},
+      cards::c0,
+      cards::f0,
+      {.name = "R", .unit = "A", .meaning = "half width of the widest relay", .box = {0.01, 0.5}, .initial = 0.1, .scale = Scale::logarithmic},
+      {.name = "d", .unit = "1", .meaning = "decay of the density with the width of the relays", .box = {0, 8}, .initial = 1},
+      cards::v_s,
+      {.name = "tau", .unit = "s", .meaning = "time constant of the plays", .box = {5e-4, 0.02}, .initial = 2e-3, .scale = Scale::logarithmic, .fixed = true},
   };
 
   template <class T>

@@ -14,6 +14,7 @@
 // Source: Yang, Spencer, Carlson, Sain, Eng. Struct. 24 (2002) 309-323, doi 10.1016/S0141-0296(01)00097-9.
 #include <numbers>
 
+#include "models/cards.hpp"
 #include "simulate/compile.hpp"
 
 namespace hysteron {
@@ -31,53 +32,15 @@ struct QuasiStaticFlow {
       "G_p = 8 eta A_p u / (pi (R2^4 - R1^4 - (R2^2 - R1^2)^2 / ln(R2 / R1)))"};
   static constexpr int states = 0;
   static constexpr Parameter parameters[] = {
-      {"tau_y",
-       "tau_y",
-       "Pa",
-       "yield stress of the fluid in the field",
-       1.0e2,
-       6.0e4,
-       1.0e4,
-       Scale::logarithmic,
-       {1, 0, 0}},
-      {"eta", "eta", "Pa s", "plastic viscosity", 1.0e-2, 3.0, 1.0e-1, Scale::logarithmic, {1, 0, -1}},
-      as_offset_force({"f0", "f0", "N", "offset force", -1.5e3, 1.5e3, 0.0, Scale::linear, {1, 0, 0}, true}),
-      {"A_p",
-       "A_p",
-       "m^2",
-       "piston area that displaces fluid",
-       1.0e-4,
-       1.0e-2,
-       8.0e-4,
-       Scale::logarithmic,
-       {},
-       false,
-       true},
-      {"R", "R", "m", "mean radius of the gap", 5.0e-3, 1.0e-1, 1.5e-2, Scale::logarithmic, {}, false, true},
-      {"h", "h", "m", "height of the gap", 3.0e-4, 2.5e-3, 7.0e-4, Scale::logarithmic, {}, false, true},
-      {"L_a",
-       "L_a",
-       "m",
-       "length of the gap in the field",
-       2.0e-3,
-       2.0e-1,
-       2.0e-2,
-       Scale::logarithmic,
-       {},
-       false,
-       true},
-      {"L_p", "L_p", "m", "length of the gap without field", 0.0, 2.0e-1, 2.0e-2, Scale::linear, {}, false, true},
-      {"v_s",
-       "v_s",
-       "m/s",
-       "speed at which the change of sign is rounded",
-       1.0e-4,
-       1.0e-1,
-       1.0e-3,
-       Scale::logarithmic,
-       {0, 0, 1},
-       false,
-       true},
+      {.name = "tau_y", .unit = "Pa", .meaning = "yield stress of the fluid in the field", .box = {100, 6e4}, .initial = 1e4, .scale = Scale::logarithmic, .dimension = {.force = 1}},
+      {.name = "eta", .unit = "Pa s", .meaning = "plastic viscosity", .box = {0.01, 3}, .initial = 0.1, .scale = Scale::logarithmic, .dimension = {.force = 1, .velocity = -1}},
+      cards::f0,
+      {.name = "A_p", .unit = "m^2", .meaning = "piston area that displaces fluid", .box = {1e-4, 0.01}, .initial = 8e-4, .scale = Scale::logarithmic, .fixed = true},
+      {.name = "R", .unit = "m", .meaning = "mean radius of the gap", .box = {5e-3, 0.1}, .initial = 0.015, .scale = Scale::logarithmic, .fixed = true},
+      {.name = "h", .unit = "m", .meaning = "height of the gap", .box = {3e-4, 2.5e-3}, .initial = 7e-4, .scale = Scale::logarithmic, .fixed = true},
+      {.name = "L_a", .unit = "m", .meaning = "length of the gap in the field", .box = {2e-3, 0.2}, .initial = 0.02, .scale = Scale::logarithmic, .fixed = true},
+      {.name = "L_p", .unit = "m", .meaning = "length of the gap without field", .box = {0, 0.2}, .initial = 0.02, .fixed = true},
+      {.name = "v_s", .unit = "m/s", .meaning = "speed at which the change of sign is rounded", .box = {1e-4, 0.1}, .initial = 1e-3, .scale = Scale::logarithmic, .fixed = true},
   };
 
   // Pressure gradient over that at which the whole gap would be plug, for the dimensionless flow q and the gap k = h /

@@ -1,6 +1,7 @@
 // Kelvin-Voigt: spring and dashpot in parallel.
 //   F = c0 v + k0 x + f0
 // Source: standard; the linear reference every damper model is compared with.
+#include "models/cards.hpp"
 #include "simulate/compile.hpp"
 
 namespace hysteron {
@@ -13,18 +14,9 @@ struct Viscous {
   static constexpr std::string_view equations[] = {"F = c0 v + k0 x + f0"};
   static constexpr int states = 0;
   static constexpr Parameter parameters[] = {
-      as_damping({"c0", "c0", "N s/m", "viscous damping", 0.0, 2.0e4, 1.0e3, Scale::linear, {1, 0, -1}, true}),
-      as_stiffness({"k0", "k0", "N/m", "stiffness", -2.0e4, 1.0e5, 0.0, Scale::linear, {1, -1, 0}, true}),
-      as_offset_force({"f0",
-                       "f0",
-                       "N",
-                       "force at rest in the middle of the motion",
-                       -1.5e3,
-                       1.5e3,
-                       0.0,
-                       Scale::linear,
-                       {1, 0, 0},
-                       true}),
+      {.name = "c0", .unit = "N s/m", .meaning = "viscous damping", .box = {0, 2e4}, .initial = 1e3, .linear = true, .role = PhysicalRole::damping},
+      cards::k0,
+      {.name = "f0", .unit = "N", .meaning = "force at rest in the middle of the motion", .box = {-1.5e3, 1.5e3}, .initial = 0, .linear = true, .role = PhysicalRole::offset_force},
   };
 
   template <class T>

@@ -16,9 +16,9 @@ struct CubicDamper {
   static constexpr std::string_view equations[] = {"F = c0 v + c3 v^3 + f0"};
   static constexpr int states = 0;
   static constexpr Parameter parameters[] = {
-      as_damping({"c0", "c0", "N s/m", "damping", 0.0, 2.0e4, 5.0e2, Scale::linear, {1, 0, -1}, true}),
-      {"c3", "c3", "N s^3/m^3", "cubic damping", -1.0e5, 1.0e5, 0.0, Scale::linear, {1, 0, -3}, true},
-      as_offset_force({"f0", "f0", "N", "offset force", -1.5e3, 1.5e3, 0.0, Scale::linear, {1, 0, 0}, true}),
+      {.name = "c0", .unit = "N s/m", .meaning = "damping", .box = {0, 2e4}, .initial = 500, .linear = true, .role = PhysicalRole::damping},
+      {.name = "c3", .unit = "N s^3/m^3", .meaning = "cubic damping", .box = {-1e5, 1e5}, .initial = 0, .linear = true},
+      {.name = "f0", .unit = "N", .meaning = "offset force", .box = {-1.5e3, 1.5e3}, .initial = 0, .linear = true, .role = PhysicalRole::offset_force},
   };
   template <class T>
   static T force(const std::array<T, 3>& p, const std::array<T, 0>& /*s*/, const Input<T>& in, const T& /*below*/) {
@@ -35,7 +35,7 @@ struct CubicDamping {
   static constexpr std::string_view equations[] = {"F <- F + d3 v^3"};
   static constexpr int states = 0;
   static constexpr Parameter parameters[] = {
-      {"d3", "d3", "N s^3/m^3", "cubic damping", 0.0, 1.0e5, 0.0, Scale::linear, {1, 0, -3}, true},
+      {.name = "d3", .unit = "N s^3/m^3", .meaning = "cubic damping", .box = {0, 1e5}, .initial = 0, .linear = true},
   };
   // A diagnosis sets these in the place of cubic damping, and cubic damping in theirs.
   static constexpr std::string_view kin[] = {"quadratic-damping", "viscous-damping"};

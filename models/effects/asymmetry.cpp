@@ -2,6 +2,7 @@
 //   F <- F (1 + e tanh(v / v_s)),   v_s = 1 mm/s
 // It acts on all of the force below, so e is not linear together with the forces of the law.
 // Source: standard; the passive damper literature writes separate coefficients for compression and rebound.
+#include "models/cards.hpp"
 #include "simulate/compile.hpp"
 
 namespace hysteron {
@@ -14,18 +15,8 @@ struct Asymmetry {
   static constexpr std::string_view equations[] = {"F <- F (1 + e tanh(v / v_s))"};
   static constexpr int states = 0;
   static constexpr Parameter parameters[] = {
-      {"e", "e", "1", "relative difference of either direction from the mean", -0.8, 0.8, 0.0, Scale::linear, {}},
-      {"v_s",
-       "v_s",
-       "m/s",
-       "speed at which the sign function is rounded",
-       1.0e-4,
-       1.0e-1,
-       1.0e-3,
-       Scale::logarithmic,
-       {0, 0, 1},
-       false,
-       true},
+      {.name = "e", .unit = "1", .meaning = "relative difference of either direction from the mean", .box = {-0.8, 0.8}, .initial = 0},
+      cards::v_s,
   };
   static constexpr std::string_view kin[] = {"cavitation"};
   static constexpr Knowledge knowledge = {

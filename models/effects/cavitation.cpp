@@ -26,19 +26,10 @@ struct Cavitation {
   // Limits of 0.96, 0.85, 0.7 and 0.45 of the peak force, to either side.
   static constexpr double starts[] = {0.052, -0.052, 0.059, -0.059, 0.071, -0.071, 0.11, -0.11};
   static constexpr Parameter parameters[] = {
-      {"kappa",
-       "kappa",
-       "1/N",
-       "inverse of the limiting force; its sign is opposite to that of the limited force",
-       -1.0e-2,
-       1.0e-2,
-       0.0,
-       Scale::linear,
-       {-1, 0, 0}},
-      {"w", "w", "1", "viscous part of the limiting force; above 1 the void is smaller than the rod leaves it", 1.0e-2,
-       1.0e2, 1.0e-1, Scale::logarithmic},
-      {"q", "q", "1/s", "rate at which fluid flows into the void", 0.0, 1.0e2, 0.0, Scale::linear, {0, -1, 1}},
-      {"s_r", "s_r", "m", "length over which the dwell ends", 2.0e-5, 2.0e-3, 2.0e-4, Scale::logarithmic, {0, 1, 0}},
+      {.name = "kappa", .unit = "1/N", .meaning = "inverse of the limiting force; its sign is opposite to that of the limited force", .box = {-0.01, 0.01}, .initial = 0},
+      {.name = "w", .unit = "1", .meaning = "viscous part of the limiting force; above 1 the void is smaller than the rod leaves it", .box = {0.01, 100}, .initial = 0.1, .scale = Scale::logarithmic},
+      {.name = "q", .unit = "1/s", .meaning = "rate at which fluid flows into the void", .box = {0, 100}, .initial = 0},
+      {.name = "s_r", .unit = "m", .meaning = "length over which the dwell ends", .box = {2e-5, 2e-3}, .initial = 2e-4, .scale = Scale::logarithmic},
   };
   static constexpr std::string_view kin[] = {"asymmetry"};
   static constexpr Knowledge knowledge = {

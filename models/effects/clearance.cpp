@@ -18,30 +18,10 @@ struct Clearance {
   static constexpr int states = 1;
   static constexpr bool is_series = true;
   static constexpr Parameter parameters[] = {
-      {"gap", "g", "m", "full width of the play", 0.0, 5.0e-3, 0.0, Scale::linear, {0, 1, 0}},
-      {"C_c", "1/k_c", "m/N", "compliance of the closed contact", 0.0, 1.0e-6, 0.0, Scale::linear, {-1, 1, 0}},
-      {"f_c",
-       "f_c",
-       "N",
-       "force at which the contact bears",
-       2.0,
-       1.0e2,
-       1.0e1,
-       Scale::logarithmic,
-       {1, 0, 0},
-       false,
-       true},
-      {"tau",
-       "tau",
-       "s",
-       "relaxation time of the contact damping",
-       2.0e-4,
-       5.0e-3,
-       5.0e-4,
-       Scale::logarithmic,
-       {},
-       false,
-       true},
+      {.name = "gap", .symbol = "g", .unit = "m", .meaning = "full width of the play", .box = {0, 5e-3}, .initial = 0},
+      {.name = "C_c", .symbol = "1/k_c", .unit = "m/N", .meaning = "compliance of the closed contact", .box = {0, 1e-6}, .initial = 0},
+      {.name = "f_c", .unit = "N", .meaning = "force at which the contact bears", .box = {2, 100}, .initial = 10, .scale = Scale::logarithmic, .fixed = true},
+      {.name = "tau", .unit = "s", .meaning = "relaxation time of the contact damping", .box = {2e-4, 5e-3}, .initial = 5e-4, .scale = Scale::logarithmic, .fixed = true},
   };
   static constexpr std::string_view kin[] = {"compliance", "entrapped-gas"};
   static constexpr Limit holds[] = {{"compliance", "gap"}};

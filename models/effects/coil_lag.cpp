@@ -21,9 +21,8 @@ struct CoilLag {
   static constexpr int states = 0;
   static constexpr bool has_excite = true;
   static constexpr Parameter parameters[] = {
-      {"tau", "tau", "s", "time constant of the rising current", 0.0, 5.0e-1, 0.0, Scale::linear, {}},
-      {"r", "r", "1", "time constant of the falling current over that of the rising", 0.5, 3.0, 1.0,
-       Scale::logarithmic},
+      {.name = "tau", .unit = "s", .meaning = "time constant of the rising current", .box = {0, 0.5}, .initial = 0, .dimension = {}},
+      {.name = "r", .unit = "1", .meaning = "time constant of the falling current over that of the rising", .box = {0.5, 3}, .initial = 1, .scale = Scale::logarithmic},
   };
   static constexpr Need needs[] = {Need::drive, Need::changing_drive};
   static constexpr std::string_view kin[] = {"magnetic-remanence", "magnetic-saturation"};

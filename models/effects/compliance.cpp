@@ -15,18 +15,8 @@ struct Compliance {
   static constexpr int states = 1;
   static constexpr bool is_series = true;
   static constexpr Parameter parameters[] = {
-      {"C", "1/k_s", "m/N", "compliance of the series spring", 0.0, 1.0e-5, 0.0, Scale::linear, {-1, 1, 0}},
-      {"tau",
-       "tau",
-       "s",
-       "relaxation time of the spring's own damping",
-       2.0e-4,
-       5.0e-3,
-       5.0e-4,
-       Scale::logarithmic,
-       {},
-       false,
-       true},
+      {.name = "C", .symbol = "1/k_s", .unit = "m/N", .meaning = "compliance of the series spring", .box = {0, 1e-5}, .initial = 0},
+      {.name = "tau", .unit = "s", .meaning = "relaxation time of the spring's own damping", .box = {2e-4, 5e-3}, .initial = 5e-4, .scale = Scale::logarithmic, .fixed = true},
   };
   static constexpr std::string_view kin[] = {"clearance", "entrapped-gas", "series-dashpot"};
   static constexpr KindredParameter kindred[] = {{"C", "clearance", "C_c", 1.0}, {"C", "entrapped-gas", "C_c", 1.0}};

@@ -17,7 +17,7 @@ struct CoulombFriction {
                                                    "z' = (v - |v| z) / (x_b + |v| t_b)"};
   static constexpr int states = 1;
   static constexpr Parameter parameters[] = {
-      as_yield_force({"fc", "f_c", "N", "friction force", 0.0, 1.0e3, 0.0, Scale::linear, {1, 0, 0}, true}),
+      {.name = "fc", .symbol = "f_c", .unit = "N", .meaning = "friction force", .box = {0, 1e3}, .initial = 0, .linear = true, .role = PhysicalRole::yield_force},
       bristle_length,
       film_speed,
   };

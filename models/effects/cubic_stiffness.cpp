@@ -13,7 +13,7 @@ struct CubicStiffness {
   static constexpr std::string_view equations[] = {"F <- F + k3 x^3"};
   static constexpr int states = 0;
   static constexpr Parameter parameters[] = {
-      {"k3", "k3", "N/m^3", "cubic stiffness", -1.0e8, 1.0e8, 0.0, Scale::linear, {1, -3, 0}, true},
+      {.name = "k3", .unit = "N/m^3", .meaning = "cubic stiffness", .box = {-1e8, 1e8}, .initial = 0, .linear = true},
   };
   static constexpr std::string_view kin[] = {"linear-stiffness", "gas-spring", "end-stop", "pinching"};
   static constexpr Knowledge knowledge = {

@@ -17,7 +17,7 @@ struct Degradation {
   static constexpr int states = 1;
   static constexpr bool has_loaded_rate = true;
   static constexpr Parameter parameters[] = {
-      {"d", "d", "1/J", "relative loss of force per work done", 0.0, 2.0e-3, 0.0, Scale::linear, {-1, -1, 0}},
+      {.name = "d", .unit = "1/J", .meaning = "relative loss of force per work done", .box = {0, 2e-3}, .initial = 0},
   };
   static constexpr std::string_view kin[] = {"self-heating", "stiction"};
   static constexpr std::string_view part_of[] = {"baber-noori"};

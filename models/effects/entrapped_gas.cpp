@@ -18,28 +18,10 @@ struct EntrappedGas {
   static constexpr int states = 1;
   static constexpr bool is_series = true;
   static constexpr Parameter parameters[] = {
-      {"d_a", "d_a", "m", "travel that compresses the gas", 0.0, 5.0e-3, 0.0, Scale::linear, {0, 1, 0}},
-      {"f_a", "f_a", "N", "force at which the gas is compressed", 3.0e1, 1.0e3, 2.0e2, Scale::logarithmic, {1, 0, 0}},
-      {"C_c",
-       "C_c",
-       "m/N",
-       "compliance of the compressed gas, fluid and mounts",
-       0.0,
-       1.0e-6,
-       0.0,
-       Scale::linear,
-       {-1, 1, 0}},
-      {"tau",
-       "tau",
-       "s",
-       "relaxation time of the gas spring",
-       2.0e-4,
-       5.0e-3,
-       5.0e-4,
-       Scale::logarithmic,
-       {},
-       false,
-       true},
+      {.name = "d_a", .unit = "m", .meaning = "travel that compresses the gas", .box = {0, 5e-3}, .initial = 0},
+      {.name = "f_a", .unit = "N", .meaning = "force at which the gas is compressed", .box = {30, 1e3}, .initial = 200, .scale = Scale::logarithmic},
+      {.name = "C_c", .unit = "m/N", .meaning = "compliance of the compressed gas, fluid and mounts", .box = {0, 1e-6}, .initial = 0},
+      {.name = "tau", .unit = "s", .meaning = "relaxation time of the gas spring", .box = {2e-4, 5e-3}, .initial = 5e-4, .scale = Scale::logarithmic, .fixed = true},
   };
   static constexpr std::string_view kin[] = {"compliance", "clearance"};
   static constexpr Limit holds[] = {{"compliance", "d_a"}};

@@ -13,7 +13,7 @@ struct ForceDrift {
   static constexpr std::string_view equations[] = {"F <- F + r t"};
   static constexpr int states = 0;
   static constexpr Parameter parameters[] = {
-      {"r", "r", "N/s", "drift of the force", -1.0e2, 1.0e2, 0.0, Scale::linear, {1, -1, 1}, true},
+      {.name = "r", .unit = "N/s", .meaning = "drift of the force", .box = {-100, 100}, .initial = 0, .linear = true},
   };
   static constexpr Knowledge knowledge = {
       .family = families::force_channel,

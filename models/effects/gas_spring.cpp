@@ -16,17 +16,9 @@ struct GasSpring {
   static constexpr std::string_view equations[] = {"F <- F + f_g (1 - g x)^(-kappa)"};
   static constexpr int states = 0;
   static constexpr Parameter parameters[] = {
-      {"f_g", "f_g", "N", "gas force at x = 0", -1.0e3, 1.0e3, 0.0, Scale::linear, {1, 0, 0}, true},
-      {"g",
-       "A/V0",
-       "1/m",
-       "swept fraction of the gas volume per length",
-       -3.8e1,
-       3.8e1,
-       4.0,
-       Scale::linear,
-       {0, -1, 0}},
-      {"kappa", "kappa", "1", "polytropic exponent", 1.0, 1.67, 1.2},
+      {.name = "f_g", .unit = "N", .meaning = "gas force at x = 0", .box = {-1e3, 1e3}, .initial = 0, .linear = true},
+      {.name = "g", .symbol = "A/V0", .unit = "1/m", .meaning = "swept fraction of the gas volume per length", .box = {-38, 38}, .initial = 4},
+      {.name = "kappa", .unit = "1", .meaning = "polytropic exponent", .box = {1, 1.67}, .initial = 1.2},
   };
   static constexpr std::string_view kin[] = {"offset-force", "linear-stiffness", "cubic-stiffness", "end-stop"};
   // A large gas force with hardly any gas swept is a spring.

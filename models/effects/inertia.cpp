@@ -14,7 +14,7 @@ struct Inertia {
   static constexpr std::string_view equations[] = {"F <- F + m a"};
   static constexpr int states = 0;
   static constexpr Parameter parameters[] = {
-      as_mass({"m", "m", "kg", "effective mass", 0.0, 1.0e2, 0.0, Scale::linear, {1, 1, -2}, true}),
+      {.name = "m", .unit = "kg", .meaning = "effective mass", .box = {0, 100}, .initial = 0, .linear = true, .role = PhysicalRole::mass},
   };
   static constexpr std::string_view kin[] = {"sensor-delay", "velocity-lag"};
   static constexpr Knowledge knowledge = {

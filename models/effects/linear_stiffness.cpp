@@ -13,7 +13,7 @@ struct LinearStiffness {
   static constexpr std::string_view equations[] = {"F <- F + k x"};
   static constexpr int states = 0;
   static constexpr Parameter parameters[] = {
-      as_stiffness({"k", "k", "N/m", "stiffness", -2.0e4, 1.0e5, 0.0, Scale::linear, {1, -1, 0}, true}),
+      {.name = "k", .unit = "N/m", .meaning = "stiffness", .box = {-2e4, 1e5}, .initial = 0, .linear = true, .role = PhysicalRole::stiffness},
   };
   static constexpr std::string_view kin[] = {"gas-spring", "cubic-stiffness", "end-stop"};
   static constexpr Knowledge knowledge = {

@@ -20,9 +20,9 @@ struct MagneticRemanence {
   static constexpr int states = 0;
   static constexpr bool has_excite = true;
   static constexpr Parameter parameters[] = {
-      {"rho", "rho", "1", "share of the drive that remains behind", 0.0, 1.0, 0.0, Scale::linear, {}},
-      {"w", "w", "A", "half width of the play", 1.0e-2, 2.0, 2.0e-1, Scale::logarithmic, {}},
-      {"s", "s", "1", "field over current before the recording", 0.0, 1.0, 1.0, Scale::linear, {}},
+      {.name = "rho", .unit = "1", .meaning = "share of the drive that remains behind", .box = {0, 1}, .initial = 0},
+      {.name = "w", .unit = "A", .meaning = "half width of the play", .box = {0.01, 2}, .initial = 0.2, .scale = Scale::logarithmic},
+      {.name = "s", .unit = "1", .meaning = "field over current before the recording", .box = {0, 1}, .initial = 1},
   };
   static constexpr Need needs[] = {Need::drive, Need::changing_drive};
   static constexpr std::string_view kin[] = {"coil-lag", "magnetic-saturation"};

@@ -16,15 +16,7 @@ struct MagneticSaturation {
   static constexpr int states = 0;
   static constexpr bool has_excite = true;
   static constexpr Parameter parameters[] = {
-      {"sigma",
-       "1/i_s^2",
-       "1/A^2",
-       "inverse square of the drive at which the circuit saturates",
-       0.0,
-       2.5e1,
-       0.0,
-       Scale::linear,
-       {}},
+      {.name = "sigma", .symbol = "1/i_s^2", .unit = "1/A^2", .meaning = "inverse square of the drive at which the circuit saturates", .box = {0, 25}, .initial = 0},
   };
   // At two levels it is another slope of the force with the drive.
   static constexpr Need needs[] = {Need::drive, Need::three_drive_levels};

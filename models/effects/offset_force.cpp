@@ -13,7 +13,7 @@ struct OffsetForce {
   static constexpr std::string_view equations[] = {"F <- F + f0"};
   static constexpr int states = 0;
   static constexpr Parameter parameters[] = {
-      as_offset_force({"f0", "f0", "N", "offset force", -1.5e3, 1.5e3, 0.0, Scale::linear, {1, 0, 0}, true}),
+      {.name = "f0", .unit = "N", .meaning = "offset force", .box = {-1.5e3, 1.5e3}, .initial = 0, .linear = true, .role = PhysicalRole::offset_force},
   };
   static constexpr std::string_view kin[] = {"gas-spring"};
   static constexpr Knowledge knowledge = {

@@ -17,10 +17,10 @@ struct Pinching {
   static constexpr std::string_view equations[] = {"F <- F (1 - p exp(-|(x - x_p) / w|^q))"};
   static constexpr int states = 0;
   static constexpr Parameter parameters[] = {
-      {"p", "p", "1", "relative loss of force in the middle", -0.5, 0.95, 0.0, Scale::linear, {}},
-      {"x_p", "x_p", "m", "middle of the weak range", -1.5e-2, 1.5e-2, 0.0, Scale::linear, {0, 1, 0, 1}},
-      {"w", "w", "m", "half width of the weak range", 5.0e-4, 1.5e-2, 4.0e-3, Scale::logarithmic, {0, 1, 0}},
-      {"q", "q", "1", "sharpness of its borders: 2 is a bell, more a flat bottom", 1.2, 8.0, 2.0, Scale::logarithmic},
+      {.name = "p", .unit = "1", .meaning = "relative loss of force in the middle", .box = {-0.5, 0.95}, .initial = 0},
+      {.name = "x_p", .unit = "m", .meaning = "middle of the weak range", .box = {-0.015, 0.015}, .initial = 0, .place = 1},
+      {.name = "w", .unit = "m", .meaning = "half width of the weak range", .box = {5e-4, 0.015}, .initial = 4e-3, .scale = Scale::logarithmic},
+      {.name = "q", .unit = "1", .meaning = "sharpness of its borders: 2 is a bell, more a flat bottom", .box = {1.2, 8}, .initial = 2, .scale = Scale::logarithmic},
   };
   static constexpr std::string_view kin[] = {"cubic-stiffness"};
   static constexpr std::string_view part_of[] = {"baber-noori"};

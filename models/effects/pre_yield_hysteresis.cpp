@@ -15,9 +15,8 @@ struct PreYieldHysteresis {
   static constexpr std::string_view equations[] = {"F <- F + f_h z", "z' = (v - |v| z) / x_y"};
   static constexpr int states = 1;
   static constexpr Parameter parameters[] = {
-      as_yield_force(
-          {"f_h", "f_h", "N", "force of the saturated element", 0.0, 2.0e3, 0.0, Scale::linear, {1, 0, 0}, true}),
-      {"x_y", "x_y", "m", "its yield displacement", 1.0e-3, 2.5e-2, 5.0e-3, Scale::logarithmic, {0, 1, 0}},
+      {.name = "f_h", .unit = "N", .meaning = "force of the saturated element", .box = {0, 2e3}, .initial = 0, .linear = true, .role = PhysicalRole::yield_force},
+      {.name = "x_y", .unit = "m", .meaning = "its yield displacement", .box = {1e-3, 0.025}, .initial = 5e-3, .scale = Scale::logarithmic},
   };
   static constexpr std::string_view kin[] = {"coulomb-friction", "seal-friction"};
   static constexpr Knowledge knowledge = {

@@ -15,7 +15,7 @@ struct QuadraticDamping {
   static constexpr std::string_view equations[] = {"F <- F + d2 v |v|"};
   static constexpr int states = 0;
   static constexpr Parameter parameters[] = {
-      {"d2", "d2", "N s^2/m^2", "quadratic damping", 0.0, 2.0e4, 0.0, Scale::linear, {1, 0, -2}, true},
+      {.name = "d2", .unit = "N s^2/m^2", .meaning = "quadratic damping", .box = {0, 2e4}, .initial = 0, .linear = true},
   };
   static constexpr std::string_view kin[] = {"viscous-damping", "shear-thinning"};
   static constexpr Knowledge knowledge = {

@@ -18,18 +18,9 @@ struct SealFriction {
                                                    "z' = (v - |v| z) / (x_b + |v| t_b)"};
   static constexpr int states = 1;
   static constexpr Parameter parameters[] = {
-      as_yield_force({"fc", "f_c", "N", "Coulomb friction", 0.0, 1.0e3, 0.0, Scale::linear, {1, 0, 0}, true}),
-      {"fb",
-       "f_s - f_c",
-       "N",
-       "excess of static over Coulomb friction",
-       0.0,
-       1.0e3,
-       0.0,
-       Scale::linear,
-       {1, 0, 0},
-       true},
-      {"v_st", "v_st", "m/s", "Stribeck speed", 3.0e-3, 1.0e-1, 1.5e-2, Scale::logarithmic, {0, 0, 1}},
+      {.name = "fc", .symbol = "f_c", .unit = "N", .meaning = "Coulomb friction", .box = {0, 1e3}, .initial = 0, .linear = true, .role = PhysicalRole::yield_force},
+      {.name = "fb", .symbol = "f_s - f_c", .unit = "N", .meaning = "excess of static over Coulomb friction", .box = {0, 1e3}, .initial = 0, .linear = true},
+      {.name = "v_st", .unit = "m/s", .meaning = "Stribeck speed", .box = {3e-3, 0.1}, .initial = 0.015, .scale = Scale::logarithmic},
       bristle_length,
       film_speed,
   };

@@ -18,10 +18,10 @@ struct SelfHeating {
   static constexpr int states = 1;
   static constexpr bool has_loaded_rate = true;
   static constexpr Parameter parameters[] = {
-      {"b", "b", "1/J", "relative loss of viscosity per stored heat", 0.0, 2.0e-3, 0.0, Scale::linear, {-1, -1, 0}},
-      {"tau", "tau", "s", "thermal time constant", 1.0, 2.0e3, 6.0e1, Scale::logarithmic, {}},
-      {"y", "y", "1", "loss of the other forces over that of the viscosity", 0.0, 1.0, 0.7},
-      as_damping({"c_h", "c_h", "N s/m", "damping that thins", 0.0, 2.0e4, 0.0, Scale::linear, {1, 0, -1}}),
+      {.name = "b", .unit = "1/J", .meaning = "relative loss of viscosity per stored heat", .box = {0, 2e-3}, .initial = 0},
+      {.name = "tau", .unit = "s", .meaning = "thermal time constant", .box = {1, 2e3}, .initial = 60, .scale = Scale::logarithmic, .dimension = {}},
+      {.name = "y", .unit = "1", .meaning = "loss of the other forces over that of the viscosity", .box = {0, 1}, .initial = 0.7},
+      {.name = "c_h", .unit = "N s/m", .meaning = "damping that thins", .box = {0, 2e4}, .initial = 0, .role = PhysicalRole::damping},
   };
   static constexpr std::string_view kin[] = {"degradation", "stiction"};
   static constexpr Knowledge knowledge = {

@@ -19,7 +19,7 @@ struct SensorDelay {
   static constexpr bool has_drive = true;
   static constexpr bool has_recall = true;
   static constexpr Parameter parameters[] = {
-      {"lag", "lag", "s", "delay of the force channel", -2.0e-2, 2.0e-2, 0.0, Scale::linear, {0, 1, -1}},
+      {.name = "lag", .unit = "s", .meaning = "delay of the force channel", .box = {-0.02, 0.02}, .initial = 0},
   };
   static constexpr std::string_view kin[] = {"inertia", "velocity-lag"};
   static constexpr Knowledge knowledge = {

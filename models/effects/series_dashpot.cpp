@@ -17,7 +17,7 @@ struct SeriesDashpot {
   static constexpr int states = 1;
   static constexpr bool is_series = true;
   static constexpr Parameter parameters[] = {
-      {"e", "1/c1", "m/(N s)", "speed of the series dashpot per force", 0.0, 3.0e-4, 0.0, Scale::linear, {-1, 0, 1}},
+      {.name = "e", .symbol = "1/c1", .unit = "m/(N s)", .meaning = "speed of the series dashpot per force", .box = {0, 3e-4}, .initial = 0},
   };
   static constexpr std::string_view kin[] = {"compliance"};
   static constexpr std::string_view part_of[] = {"modified-bouc-wen"};

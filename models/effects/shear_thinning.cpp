@@ -15,9 +15,9 @@ struct ShearThinning {
   static constexpr std::string_view equations[] = {"F <- F - c_t v (1 - (1 + (v / v_c)^2)^((m - 1) / 2))"};
   static constexpr int states = 0;
   static constexpr Parameter parameters[] = {
-      as_damping({"c_t", "c_t", "N s/m", "damping that thins out", 0.0, 2.0e4, 0.0, Scale::linear, {1, 0, -1}, true}),
-      {"v_c", "v_c", "m/s", "speed at which thinning sets in", 5.0e-3, 1.0, 5.0e-2, Scale::logarithmic, {0, 0, 1}},
-      {"m", "m", "1", "flow index: 1 is Newtonian", 0.0, 0.9, 0.5, Scale::linear, {}},
+      {.name = "c_t", .unit = "N s/m", .meaning = "damping that thins out", .box = {0, 2e4}, .initial = 0, .linear = true, .role = PhysicalRole::damping},
+      {.name = "v_c", .unit = "m/s", .meaning = "speed at which thinning sets in", .box = {5e-3, 1}, .initial = 0.05, .scale = Scale::logarithmic},
+      {.name = "m", .unit = "1", .meaning = "flow index: 1 is Newtonian", .box = {0, 0.9}, .initial = 0.5},
   };
   static constexpr std::string_view kin[] = {"viscous-damping", "quadratic-damping", "coulomb-friction"};
   static constexpr Limit holds[] = {{"coulomb-friction", "m"}};

@@ -14,8 +14,8 @@ struct Stiction {
   static constexpr std::string_view equations[] = {"F <- F (1 + a exp(-s / L))", "s' = |v|"};
   static constexpr int states = 1;
   static constexpr Parameter parameters[] = {
-      {"a", "a", "1", "relative excess of the force at the start", -0.5, 2.0, 0.0, Scale::linear, {}},
-      {"L", "L", "m", "distance over which it fades", 1.0e-3, 1.0, 5.0e-2, Scale::logarithmic, {0, 1, 0}},
+      {.name = "a", .unit = "1", .meaning = "relative excess of the force at the start", .box = {-0.5, 2}, .initial = 0},
+      {.name = "L", .unit = "m", .meaning = "distance over which it fades", .box = {1e-3, 1}, .initial = 0.05, .scale = Scale::logarithmic},
   };
   static constexpr std::string_view kin[] = {"self-heating", "degradation"};
   static constexpr Knowledge knowledge = {

@@ -16,15 +16,7 @@ struct VelocityLag {
   static constexpr int states = 0;
   static constexpr bool has_drive = true;
   static constexpr Parameter parameters[] = {
-      {"lag",
-       "lag",
-       "s",
-       "lag of the recorded velocity behind the one that acts",
-       -2.0e-2,
-       2.0e-2,
-       0.0,
-       Scale::linear,
-       {0, 1, -1}},
+      {.name = "lag", .unit = "s", .meaning = "lag of the recorded velocity behind the one that acts", .box = {-0.02, 0.02}, .initial = 0},
   };
   static constexpr Need needs[] = {Need::lagging_velocity};
   static constexpr std::string_view kin[] = {"inertia", "sensor-delay"};

@@ -13,7 +13,7 @@ struct ViscousDamping {
   static constexpr std::string_view equations[] = {"F <- F + c v"};
   static constexpr int states = 0;
   static constexpr Parameter parameters[] = {
-      as_damping({"c", "c", "N s/m", "viscous damping", 0.0, 2.0e4, 0.0, Scale::linear, {1, 0, -1}, true}),
+      {.name = "c", .unit = "N s/m", .meaning = "viscous damping", .box = {0, 2e4}, .initial = 0, .linear = true, .role = PhysicalRole::damping},
   };
   static constexpr std::string_view kin[] = {"quadratic-damping", "shear-thinning"};
   static constexpr Knowledge knowledge = {

@@ -71,7 +71,7 @@ json role_json(PhysicalRole role) {
 json card_json(const Parameter& card) {
   return {{"name", card.name},       {"symbol", card.symbol},
           {"unit", card.unit},       {"meaning", card.meaning},
-          {"lower", card.lower},     {"upper", card.upper},
+          {"lower", card.box.lower}, {"upper", card.box.upper},
           {"default", card.initial}, {"scale", card.scale == Scale::linear ? "linear" : "log"},
           {"fixed", card.fixed},     {"role", role_json(card.role)}};
 }
@@ -165,8 +165,8 @@ void describe_part(const Part& part, const std::string& kind, bool as_json) {
   fmt::print("\nSource: {}\n\n", part.reference);
   std::vector<std::vector<std::string>> rows;
   for (const Parameter& card : part.parameters) {
-    rows.push_back({std::string(card.name), std::string(card.unit), fmt::format("{:g}", card.lower),
-                    fmt::format("{:g}", card.upper),
+    rows.push_back({std::string(card.name), std::string(card.unit), fmt::format("{:g}", card.box.lower),
+                    fmt::format("{:g}", card.box.upper),
                     card.fixed ? fmt::format("fixed at {:g}", card.initial) : fmt::format("{:g}", card.initial),
                     std::string(card.meaning)});
   }

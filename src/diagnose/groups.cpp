@@ -74,7 +74,7 @@ std::vector<Quadratic> quadratics_of(const Workbench& bench, const Fit& fit, con
     Eigen::MatrixXd slopes(rows, static_cast<Eigen::Index>(handles.size()));
     for (std::size_t h = 0; h < handles.size(); ++h) {
       const Parameter& card = fit.layout->cards()[handles[h].parameter];
-      const double step = handles[h].factor ? part_of_the_box : part_of_the_box * (card.upper - card.lower);
+      const double step = handles[h].factor ? part_of_the_box : part_of_the_box * (card.box.upper - card.box.lower);
       const Residual there = bench.residual(moved(fit, handles[h], step), recordings[r]);
       for (Eigen::Index n = 0; n < rows; ++n) {
         const auto k = static_cast<std::size_t>(n);

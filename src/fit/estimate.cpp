@@ -174,8 +174,8 @@ void estimate(Identification& result, const Objective& objective, const std::vec
         estimate.unit += "/Hz";
       }
       estimate.meaning = std::string(card.meaning);
-      estimate.lower = card.lower;
-      estimate.upper = card.upper;
+      estimate.lower = card.box.lower;
+      estimate.upper = card.box.upper;
       estimate.at_bound = bound;
       estimate.identifiable = !law_open;
       const auto row = static_cast<Eigen::Index>(t);

@@ -159,20 +159,20 @@ Layout::Layout(CompositeModel model, const DataScale& scale, const LayoutOptions
                           std::pow(scale.velocity / 0.3, card.dimension.velocity);
     // Held times and speeds round off the equations and stay; a held force is one of the device.
     if (!card.fixed || card.dimension.force != 0.0) {
-      card.lower *= factor;
-      card.upper *= factor;
+      card.box.lower *= factor;
+      card.box.upper *= factor;
       card.initial *= factor;
-      const double shift = card.dimension.place * scale.middle;
-      card.lower += shift;
-      card.upper += shift;
+      const double shift = card.place * scale.middle;
+      card.box.lower += shift;
+      card.box.upper += shift;
       card.initial += shift;
     }
     if (const auto own = options.bounds.find(names_[j]); own != options.bounds.end()) {
-      card.lower = own->second.first;
-      card.upper = own->second.second;
-      card.initial = std::clamp(card.initial, card.lower, card.upper);
+      card.box.lower = own->second.first;
+      card.box.upper = own->second.second;
+      card.initial = std::clamp(card.initial, card.box.lower, card.box.upper);
       card.fixed = false;
-      if (card.scale == Scale::logarithmic && card.lower <= 0.0) {
+      if (card.scale == Scale::logarithmic && card.box.lower <= 0.0) {
         card.scale = Scale::linear;
       }
     }
@@ -203,7 +203,8 @@ Layout::Layout(CompositeModel model, const DataScale& scale, const LayoutOptions
                      nodes(scale.frequency_low, scale.frequency_high, frequency_order), coordinates_.size()};
     const std::size_t count = law.drive_nodes.size() * law.frequency_nodes.size();
     for (std::size_t node = 0; node < count; ++node) {
-      coordinates_.push_back({j, node, card.scale, card.lower, card.upper, card.linear && card.scale == Scale::linear});
+      coordinates_.push_back(
+          {j, node, card.scale, card.box.lower, card.box.upper, card.linear && card.scale == Scale::linear});
     }
     laws_.push_back(std::move(law));
   }

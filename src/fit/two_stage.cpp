@@ -44,15 +44,16 @@ double law_value(const ParameterLaw& law, const std::vector<double>& nodes, cons
 }
 
 double sigma_of(const ConditionValue& value, const Parameter& card) {
-  return value.std_error ? std::max(*value.std_error, 0.01 * std::fabs(value.value)) : card.upper - card.lower;
+  return value.std_error ? std::max(*value.std_error, 0.01 * std::fabs(value.value)) : card.box.upper - card.box.lower;
 }
 
 // Distance between two values as a share of the box.
 double box_share(const Parameter& card, double a, double b) {
   if (card.scale == Scale::logarithmic) {
-    return (std::log(std::max(a, card.lower)) - std::log(std::max(b, card.lower))) / std::log(card.upper / card.lower);
+    return (std::log(std::max(a, card.box.lower)) - std::log(std::max(b, card.box.lower))) /
+           std::log(card.box.upper / card.box.lower);
   }
-  return (a - b) / (card.upper - card.lower);
+  return (a - b) / (card.box.upper - card.box.lower);
 }
 
 // The fit of a condition with some parameters held.
@@ -81,7 +82,7 @@ std::vector<double> law_through(const ParameterLaw& law, const Parameter& card,
   const Eigen::VectorXd nodes = matrix.completeOrthogonalDecomposition().solve(right);
   std::vector<double> result;
   for (const double node : nodes) {
-    result.push_back(std::clamp(node, card.lower, card.upper));
+    result.push_back(std::clamp(node, card.box.lower, card.box.upper));
   }
   return result;
 }
@@ -123,7 +124,7 @@ TwoStage fit_two_stage(const Campaign& campaign, const Layout& layout, const std
     for (std::size_t l = 0; l < laws.size(); ++l) {
       const std::string& name = layout.names()[laws[l].parameter];
       const Parameter& card = cards[laws[l].parameter];
-      held.bounds[name] = {card.lower, card.upper};
+      held.bounds[name] = {card.box.lower, card.box.upper};
       held.fix.erase(name);
       if (!nodes[l].empty()) {
         held.fix[name] = law_value(laws[l], nodes[l], condition);

@@ -1,7 +1,7 @@
 // A part: a damper law or a physical effect. Both have the same shape, so that augmenting a model is putting a part
 // behind it. A part is a struct with
 //   id, title, reference, equations       text
-//   parameters                            its card
+//   parameters                            its card (simulate/parameter.hpp)
 //   states                                number of own state variables
 //   template <class T> force(p, s, in, below) -> T      force so far (0 for a law's incoming force) -> force
 //   template <class T> rate(p, s, in)      -> array<T, states>   time derivatives of its states (if states > 0)
@@ -33,56 +33,9 @@
 
 #include "scalar/math.hpp"
 #include "simulate/command.hpp"
+#include "simulate/parameter.hpp"
 
 namespace hysteron {
-
-enum class Scale { linear, logarithmic };
-
-// How a bound grows with the device: bounds are stated for the reference device (1 kN, 25 mm, 0.3 m/s) and multiplied
-// by (peak force / 1 kN)^force (half stroke / 25 mm)^length (peak speed / 0.3 m/s)^velocity.
-struct Dimension {
-  double force = 0.0;
-  double length = 0.0;
-  double velocity = 0.0;
-  double place = 0.0;  // a place in the stroke: the bounds move with this times the middle of the recorded motion
-};
-
-// What a parameter does in its part, where the diagnosis asks for it. A yield force and a damping follow a drive that
-// varies; a law with an offset force, a damping, a stiffness or a mass that enters the force linearly has what an
-// effect of that one role would add.
-enum class PhysicalRole {
-  none,          // anything else
-  yield_force,   // at which a hysteresis or dry friction yields, never negative
-  offset_force,  // constant
-  damping,       // of a dashpot, in parallel or in series
-  stiffness,     // of a spring, likewise
-  mass
-};
-
-struct Parameter {
-  std::string_view name;
-  std::string_view symbol;
-  std::string_view unit;
-  std::string_view meaning;
-  double lower;
-  double upper;
-  double initial;
-  Scale scale = Scale::linear;
-  Dimension dimension = {};
-  bool linear = false;  // the force is affine in it
-  bool fixed = false;   // held at `initial` unless the user frees it
-  PhysicalRole role = PhysicalRole::none;
-};
-
-constexpr Parameter in_role(PhysicalRole role, Parameter parameter) {
-  parameter.role = role;
-  return parameter;
-}
-constexpr Parameter as_yield_force(const Parameter& p) { return in_role(PhysicalRole::yield_force, p); }
-constexpr Parameter as_offset_force(const Parameter& p) { return in_role(PhysicalRole::offset_force, p); }
-constexpr Parameter as_damping(const Parameter& p) { return in_role(PhysicalRole::damping, p); }
-constexpr Parameter as_stiffness(const Parameter& p) { return in_role(PhysicalRole::stiffness, p); }
-constexpr Parameter as_mass(const Parameter& p) { return in_role(PhysicalRole::mass, p); }
 
 // What a part sees at an instant.
 template <class T>

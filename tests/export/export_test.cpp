@@ -51,8 +51,8 @@ ExportedModel model_of(const Case& of, std::uint64_t seed = 5) {
   for (std::size_t k = 0; k < cards.size(); ++k) {
     const Parameter& card = cards[k];
     const double u = 0.15 + 0.7 * stream.uniform(seed, static_cast<std::uint32_t>(k));
-    double value = card.scale == Scale::logarithmic ? card.lower * std::pow(card.upper / card.lower, u)
-                                                    : card.lower + u * (card.upper - card.lower);
+    double value = card.scale == Scale::logarithmic ? card.box.lower * std::pow(card.box.upper / card.box.lower, u)
+                                                    : card.box.lower + u * (card.box.upper - card.box.lower);
     if (card.fixed) {
       value = card.initial;
     } else if (card.name == "lag") {
@@ -497,7 +497,7 @@ struct Unrecordable {
   static constexpr std::string_view reference = "x";
   static constexpr std::string_view equations[] = {"x"};
   static constexpr int states = 1;
-  static constexpr Parameter parameters[] = {{"c", "c", "1", "x", 0.0, 1.0, 0.5}};
+  static constexpr Parameter parameters[] = {{.name = "c", .unit = "1", .meaning = "x", .box = {0, 1}, .initial = 0.5}};
   template <class T>
   static std::array<T, 1> rate(const std::array<T, 1>& p, const std::array<T, 1>& s, const Input<T>& in) {
     return {p[0] * (in.v - s[0])};

@@ -67,7 +67,7 @@ TEST_P(EveryModel, FindsItselfAgain) {
   std::size_t free = 0;
   for (const Parameter& card : part.parameters) {
     if (!card.fixed) {
-      options.layout.bounds[std::string(card.name)] = {card.lower, card.upper};
+      options.layout.bounds[std::string(card.name)] = {card.box.lower, card.box.upper};
       ++free;
     }
   }

@@ -47,8 +47,8 @@ TEST(LawThrough, NodesStayInTheBox) {
   const ParameterLaw law{0, {0.0, 1.0}, {1.0}, 0};
   const std::vector<ConditionValue> values{{10.0, 1.0}, {500.0, 1.0}};
   const std::vector<double> nodes = law_through(law, force_card, at_drives({0.2, 0.3}), values);
-  EXPECT_EQ(nodes.at(0), force_card.lower);
-  EXPECT_EQ(nodes.at(1), force_card.upper);
+  EXPECT_EQ(nodes.at(0), force_card.box.lower);
+  EXPECT_EQ(nodes.at(1), force_card.box.upper);
 }
 
 struct Made {

@@ -53,7 +53,8 @@ Series ramp(double speed, double rate, double duration) {
 
 // Position in the box at share u of the side, 0 .. 1.
 double at_share(const Parameter& p, double u) {
-  return p.scale == Scale::logarithmic ? p.lower * std::pow(p.upper / p.lower, u) : p.lower + u * (p.upper - p.lower);
+  return p.scale == Scale::logarithmic ? p.box.lower * std::pow(p.box.upper / p.box.lower, u)
+                                       : p.box.lower + u * (p.box.upper - p.box.lower);
 }
 
 Vector draw(const CompositeModel& model, std::uint64_t seed, double margin, bool fixed_too) {
@@ -140,11 +141,11 @@ TEST_P(Contract, CardIsComplete) {
     EXPECT_FALSE(p.symbol.empty()) << name;
     EXPECT_FALSE(p.unit.empty()) << name;
     EXPECT_FALSE(p.meaning.empty()) << name;
-    EXPECT_LT(p.lower, p.upper) << name;
-    EXPECT_GE(p.initial, p.lower) << name;
-    EXPECT_LE(p.initial, p.upper) << name;
+    EXPECT_LT(p.box.lower, p.box.upper) << name;
+    EXPECT_GE(p.initial, p.box.lower) << name;
+    EXPECT_LE(p.initial, p.box.upper) << name;
     if (p.scale == Scale::logarithmic) {
-      EXPECT_GT(p.lower, 0.0) << name;
+      EXPECT_GT(p.box.lower, 0.0) << name;
     }
     const auto same = std::ranges::count_if(part.parameters, [&](const Parameter& o) { return o.name == p.name; });
     EXPECT_EQ(same, 1) << name;
@@ -225,7 +226,7 @@ TEST_P(Contract, DerivativeIsThatOfTheForce) {
       for (std::size_t n = 0; n < samples; ++n) {
         exact[n] = force[n].d[j - first].lane(3);
       }
-      const double range = card[j].scale == Scale::logarithmic ? p[j] : card[j].upper - card[j].lower;
+      const double range = card[j].scale == Scale::logarithmic ? p[j] : card[j].box.upper - card[j].box.lower;
       double best = 1e300;
       for (const double share : {1e-3, 1e-4, 1e-5, 1e-6}) {
         const double h = share * range;
@@ -286,7 +287,7 @@ TEST_P(Contract, LinearFlagsHold) {
     if (!card[j].linear) {
       continue;
     }
-    const double step = 0.1 * (card[j].upper - card[j].lower);
+    const double step = 0.1 * (card[j].box.upper - card[j].box.lower);
     Vector once = p;
     Vector twice = p;
     once[j] += step;

@@ -57,8 +57,8 @@ Vector draw(const CompositeModel& model, std::uint64_t seed) {
   for (const Parameter& card : model.parameters()) {
     const double u = stream.uniform(3, j++);
     p.push_back(card.fixed                         ? card.initial
-                : card.scale == Scale::logarithmic ? card.lower * std::pow(card.upper / card.lower, u)
-                                                   : card.lower + u * (card.upper - card.lower));
+                : card.scale == Scale::logarithmic ? card.box.lower * std::pow(card.box.upper / card.box.lower, u)
+                                                   : card.box.lower + u * (card.box.upper - card.box.lower));
   }
   return p;
 }
@@ -190,7 +190,7 @@ TEST(Series, VanishesInTheLimit) {
       const Vector law = simulate(bare, finer, p);
       const Vector tail = with(model, {});
       p.insert(p.end(), tail.begin() + static_cast<std::ptrdiff_t>(p.size()), tail.end());
-      const double upper = model.effects[0]->parameters[0].upper;
+      const double upper = model.effects[0]->parameters[0].box.upper;
       for (const double size : {0.0, 1e-8 * upper}) {
         p[bare.parameter_count()] = size;
         EXPECT_LT(distance(simulate(model, motion, p), law), 1e-4 * peak(law)) << id << " " << seed << " " << size;
@@ -302,7 +302,7 @@ TEST(Series, AReversalWithinRoundingOfASampleIsPassed) {
   for (const std::string& id : elements) {
     const CompositeModel model = make_model("bouc-wen", {id});
     Vector p = with(model, {{"alpha", 2000.0}, {"x_y", 1e-25}});
-    p[model.law->parameters.size()] = model.effects[0]->parameters[0].upper;
+    p[model.law->parameters.size()] = model.effects[0]->parameters[0].box.upper;
     EXPECT_EQ(simulate(model, motion, p).size(), motion.time.size()) << id;
   }
 }
@@ -326,7 +326,7 @@ TEST(Effects, SizeActsAtFirstOrderWhereItVanishes) {
     std::vector<LaneDual> dual(p.begin(), p.end());
     std::vector<LaneDual> state(16), force(motion.time.size());
     const Parameter& card = effect->parameters[0];
-    dual[size].d[0] = Lanes(card.upper - card.lower);
+    dual[size].d[0] = Lanes(card.box.upper - card.box.lower);
     model.march<LaneDual>(motion, dual.data(), 0, 0, motion.time.size(), state.data(), force.data());
     double change = 0.0;
     double scale = 0.0;

@@ -65,9 +65,9 @@ Vector draw(const Part& part, std::uint64_t seed, std::uint64_t index) {
     if (card.fixed) {
       p.push_back(card.initial);
     } else if (card.scale == Scale::logarithmic) {
-      p.push_back(card.lower * std::pow(card.upper / card.lower, u));
+      p.push_back(card.box.lower * std::pow(card.box.upper / card.box.lower, u));
     } else {
-      p.push_back(card.lower + (card.upper - card.lower) * u);
+      p.push_back(card.box.lower + (card.box.upper - card.box.lower) * u);
     }
   }
   return p;
@@ -112,7 +112,8 @@ struct Relaxation {
   static constexpr std::string_view reference = "";
   static constexpr std::string_view equations[] = {"F = s", "s' = lambda (v - s)"};
   static constexpr int states = 1;
-  static constexpr Parameter parameters[] = {{"lambda", "lambda", "1/s", "rate", 1.0, 1e3, 10.0}};
+  static constexpr Parameter parameters[] = {
+      {.name = "lambda", .unit = "1/s", .meaning = "rate", .box = {1, 1e3}, .initial = 10}};
 
   template <class T>
   static std::array<T, 1> rate(const std::array<T, 1>& p, const std::array<T, 1>& s, const Input<T>& in) {

@@ -440,7 +440,7 @@ std::vector<Sensitivity> Workbench::sensitivities(const Fit& fit, const Residual
   for (const ParameterLaw& law : fit.layout->laws()) {
     const std::string& name = fit.layout->names()[law.parameter];
     // Of what may be zero no relative change can be told.
-    if (name.find('.') != std::string::npos || fit.layout->cards()[law.parameter].lower < 0.0) {
+    if (name.find('.') != std::string::npos || fit.layout->cards()[law.parameter].box.lower < 0.0) {
       continue;
     }
     Fit moved = fit;
