@@ -12,6 +12,7 @@
 // Source: Baber,
 // Noori, J. Eng. Mech. 111 (1985) 1010-1026, doi 10.1061/(ASCE)0733-9399(1985)111:8(1010); pinching function in the
 // form of Foliente, J. Struct. Eng. 121 (1995) 1013-1022, doi 10.1061/(ASCE)0733-9445(1995)121:6(1013).
+#include "models/bouc_wen.hpp"
 #include "models/cards.hpp"
 #include "simulate/compile.hpp"
 
@@ -52,40 +53,38 @@ struct BaberNoori {
   };
 
   template <class T>
-  static std::array<T, 2> rate(const std::array<T, 16>& p, const std::array<T, 2>& s, const Input<T>& in) {
-    const auto& [alpha, c0, k0, f0, x_y, share, n, delta_nu, delta_eta, zeta_s, q, onset, psi, delta_psi, lambda,
-                 limit] = p;
-    const T& z = s[0];
-    const T energy = limit * (T(1.0) - exp(-max(s[1], T(0.0)) / limit));
-    const T nu = T(1.0) + delta_nu * energy;
-    const T eta = T(1.0) + delta_eta * energy;
-    const T severity = zeta_s * (T(1.0) - exp(-onset * energy));
-    const T width = (psi + delta_psi * energy) * (lambda + severity);
-    const T forward = select(in.v < T(0.0), -z, z);
-    const T distance = (forward - q * pow(nu, T(-1.0) / n)) / width;
-    const T pinching = T(1.0) - severity * exp(-distance * distance);
-    const T grip = nu * power_law(abs(z), n);
-    const T against = share * select(z < T(0.0), -abs(in.v), abs(in.v)) + (T(1.0) - share) * in.v;
-    return {pinching * (in.v - grip * against) / (eta * x_y), z * in.v};
+  static std::array<T, 2> rate(const std::array<T, 16>& card, const std::array<T, 2>& s, const Input<T>& in) {
+    const auto& [alpha, c0, k0, f0, x_y, share, n, delta_nu, delta_eta, zeta_s, q, p, psi, delta_psi, lambda, E] = card;
+    const auto& [z, e] = s;
+    const T D = E * (T(1.0) - exp(-max(e, T(0.0)) / E));
+    const T nu = T(1.0) + delta_nu * D;
+    const T eta = T(1.0) + delta_eta * D;
+    const T zeta_1 = zeta_s * (T(1.0) - exp(-p * D));
+    const T zeta_2 = (psi + delta_psi * D) * (lambda + zeta_1);
+    const T forward = select(in.v < T(0.0), -z, z);  // z sgn(v)
+    const T distance = (forward - q * pow(nu, T(-1.0) / n)) / zeta_2;
+    const T h = T(1.0) - zeta_1 * exp(-distance * distance);
+    return {h * (in.v - nu * power_law(abs(z), n) * against(share, z, in.v)) / (eta * x_y), z * in.v};
   }
   // |z'| <= (1 + steepest) |v| / x_y; |dh / dz| <= sqrt(2 / e) zeta_1 / zeta_2; the coupling of z and e by the
   // geometric mean of its two derivatives.
   template <class T>
-  static T stiffness(const std::array<T, 16>& p, double speed) {
-    const auto& [alpha, c0, k0, f0, x_y, share, n, delta_nu, delta_eta, zeta_s, q, onset, psi, delta_psi, lambda,
-                 limit] = p;
-    const T steepest = max(T(1.0), abs(T(1.0) - T(2.0) * share));
-    const T weakest = T(1.0) + delta_nu * limit;
+  static T stiffness(const std::array<T, 16>& card, double speed) {
+    const auto& [alpha, c0, k0, f0, x_y, share, n, delta_nu, delta_eta, zeta_s, q, p, psi, delta_psi, lambda, E] = card;
+    const T steep = steepest(share);
+    const T weakest = T(1.0) + delta_nu * E;
     const T slope = T(0.86) * zeta_s / ((lambda + zeta_s) * psi);
-    const T whole = T(1.0) + steepest;
-    const T own = n * pow(weakest, T(1.0) / n) * steepest + slope * whole;
+    const T whole = T(1.0) + steep;
+    const T own = n * pow(weakest, T(1.0) / n) * steep + slope * whole;
     const T by_energy =
-        steepest * delta_nu + whole * (delta_eta + slope * q * delta_nu + zeta_s * (T(1.75) * onset + delta_psi / psi));
+        steep * delta_nu + whole * (delta_eta + slope * q * delta_nu + zeta_s * (T(1.75) * p + delta_psi / psi));
     return T(speed) * (own / x_y + sqrt(by_energy / x_y));
   }
   template <class T>
-  static T force(const std::array<T, 16>& p, const std::array<T, 2>& s, const Input<T>& in, const T& /*below*/) {
-    return p[1] * in.v + p[2] * in.x + p[0] * s[0] + p[3];
+  static T force(const std::array<T, 16>& card, const std::array<T, 2>& s, const Input<T>& in, const T& /*below*/) {
+    const auto& [alpha, c0, k0, f0, x_y, share, n, delta_nu, delta_eta, zeta_s, q, p, psi, delta_psi, lambda, E] = card;
+    const auto& [z, e] = s;
+    return c0 * in.v + k0 * in.x + alpha * z + f0;
   }
 };
 

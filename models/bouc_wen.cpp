@@ -6,6 +6,8 @@
 //   Z = (A / (beta + gamma))^(1/n), alpha = alpha0 Z, x_y = Z / A, share = beta / (beta + gamma);
 // a displacement offset x0 of k0 (x - x0) is f0 = -k0 x0.
 // Source: Wen, J. Eng. Mech. Div. 102 (1976) 249-263, doi 10.1061/JMCEA3.0002106.
+#include "models/bouc_wen.hpp"
+
 #include "models/cards.hpp"
 #include "simulate/compile.hpp"
 
@@ -32,23 +34,21 @@ struct BoucWen {
 
   template <class T>
   static std::array<T, 1> rate(const std::array<T, 7>& p, const std::array<T, 1>& s, const Input<T>& in) {
-    const T& x_y = p[4];
-    const T& share = p[5];
-    const T& n = p[6];
-    const T& z = s[0];
-    const T grip = power_law(abs(z), n);
-    const T against = share * select(z < T(0.0), -abs(in.v), abs(in.v)) + (T(1.0) - share) * in.v;
-    return {(in.v - grip * against) * (T(1.0) / x_y)};
+    const auto& [alpha, c0, k0, f0, x_y, share, n] = p;
+    const auto& [z] = s;
+    return {(in.v - power_law(abs(z), n) * against(share, z, in.v)) * (T(1.0) / x_y)};
   }
   static constexpr int settles = 0;
   template <class T>
   static T stiffness(const std::array<T, 7>& p, double speed) {
-    const T steepest = max(T(1.0), abs(T(1.0) - T(2.0) * p[5]));
-    return T(speed) * p[6] * steepest / p[4];
+    const auto& [alpha, c0, k0, f0, x_y, share, n] = p;
+    return T(speed) * n * steepest(share) / x_y;
   }
   template <class T>
   static T force(const std::array<T, 7>& p, const std::array<T, 1>& s, const Input<T>& in, const T& /*below*/) {
-    return p[1] * in.v + p[2] * in.x + p[0] * s[0] + p[3];
+    const auto& [alpha, c0, k0, f0, x_y, share, n] = p;
+    const auto& [z] = s;
+    return c0 * in.v + k0 * in.x + alpha * z + f0;
   }
 };
 

@@ -33,22 +33,28 @@ struct LuGre {
 
   template <class T>
   static T bristle_speed(const std::array<T, 8>& p, const T& z, const T& v) {
-    const T relative = v / p[7];
-    const T stribeck = T(1.0) + (p[6] - T(1.0)) * exp(-relative * relative);
-    return v - abs(v) * z / stribeck;
+    const auto& [alpha, c0, c1, k0, f0, x_y, ratio, v_st] = p;
+    const T relative = v / v_st;
+    const T g = T(1.0) + (ratio - T(1.0)) * exp(-relative * relative);
+    return v - abs(v) * z / g;
   }
   template <class T>
   static std::array<T, 1> rate(const std::array<T, 8>& p, const std::array<T, 1>& s, const Input<T>& in) {
-    return {bristle_speed(p, s[0], in.v) / p[5]};
+    const auto& [alpha, c0, c1, k0, f0, x_y, ratio, v_st] = p;
+    const auto& [z] = s;
+    return {bristle_speed(p, z, in.v) / x_y};
   }
   template <class T>
   static T stiffness(const std::array<T, 8>& p, double speed) {
+    const auto& [alpha, c0, c1, k0, f0, x_y, ratio, v_st] = p;
     // Three times the bound: the Stribeck curve changes within a step that is only just stable.
-    return T(3.0) * T(speed) / (p[5] * min(p[6], T(1.0)));
+    return T(3.0) * T(speed) / (x_y * min(ratio, T(1.0)));
   }
   template <class T>
   static T force(const std::array<T, 8>& p, const std::array<T, 1>& s, const Input<T>& in, const T& /*below*/) {
-    return p[0] * s[0] + p[2] * bristle_speed(p, s[0], in.v) + p[1] * in.v + p[3] * in.x + p[4];
+    const auto& [alpha, c0, c1, k0, f0, x_y, ratio, v_st] = p;
+    const auto& [z] = s;
+    return alpha * z + c1 * bristle_speed(p, z, in.v) + c0 * in.v + k0 * in.x + f0;
   }
 };
 

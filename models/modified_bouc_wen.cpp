@@ -7,6 +7,7 @@
 // of the source, where gamma multiplies |u| z, share = gamma / (beta + gamma). k0 < 0 lets e grow without bound, so the
 // identification box starts at zero. Source: Spencer, Dyke, Sain, Carlson, J. Eng. Mech. 123 (1997) 230-238,
 // doi 10.1061/(ASCE)0733-9399(1997)123:3(230).
+#include "models/bouc_wen.hpp"
 #include "simulate/compile.hpp"
 
 namespace hysteron {
@@ -35,16 +36,16 @@ struct ModifiedBoucWen {
 
   template <class T>
   static T slip(const std::array<T, 9>& p, const std::array<T, 2>& s, const T& v) {
-    return (p[2] * v - p[3] * s[0] - p[0] * s[1]) * (T(1.0) / (p[1] + p[2]));
+    const auto& [alpha, c0, c1, k0, k1, x_y, share, n, x0] = p;
+    const auto& [e, z] = s;
+    return (c1 * v - k0 * e - alpha * z) * (T(1.0) / (c0 + c1));
   }
   template <class T>
   static std::array<T, 2> rate(const std::array<T, 9>& p, const std::array<T, 2>& s, const Input<T>& in) {
+    const auto& [alpha, c0, c1, k0, k1, x_y, share, n, x0] = p;
+    const auto& [e, z] = s;
     const T u = slip(p, s, in.v);
-    const T& z = s[1];
-    const T& share = p[6];
-    const T grip = power_law(abs(z), p[7]);
-    const T against = share * select(z < T(0.0), -abs(u), abs(u)) + (T(1.0) - share) * u;
-    return {u, (u - grip * against) * (T(1.0) / p[5])};
+    return {u, (u - power_law(abs(z), n) * against(share, z, u)) * (T(1.0) / x_y)};
   }
   static constexpr int settles = 1;
   template <class T>
@@ -53,7 +54,8 @@ struct ModifiedBoucWen {
   }
   template <class T>
   static T slack(const std::array<T, 9>& p) {
-    return abs(p[3]) / (p[1] + p[2]);
+    const auto& [alpha, c0, c1, k0, k1, x_y, share, n, x0] = p;
+    return abs(k0) / (c0 + c1);
   }
   template <class T>
   static T stiffness(const std::array<T, 9>& p, double speed) {
@@ -65,18 +67,21 @@ struct ModifiedBoucWen {
   template <class T>
   static T stiffness_near(const std::array<T, 9>& p, const std::array<T, 2>& s, const T& v, double speed,
                           double change) {
-    const T near = min(T(speed), abs(slip(p, s, v)) + p[2] / (p[1] + p[2]) * T(change));
-    return select(p[3] < T(0.0), stiffness(p, speed), stiffness_of_slip(p, near));
+    const auto& [alpha, c0, c1, k0, k1, x_y, share, n, x0] = p;
+    const T near = min(T(speed), abs(slip(p, s, v)) + c1 / (c0 + c1) * T(change));
+    return select(k0 < T(0.0), stiffness(p, speed), stiffness_of_slip(p, near));
   }
   template <class T>
   static T stiffness_of_slip(const std::array<T, 9>& p, const T& u) {
-    const T steepest = max(T(1.0), abs(T(1.0) - T(2.0) * p[6]));
-    const T series = p[1] + p[2];
-    return (abs(p[3]) + abs(p[0]) * (T(1.0) + steepest) / p[5]) / series + u * p[7] * steepest / p[5];
+    const auto& [alpha, c0, c1, k0, k1, x_y, share, n, x0] = p;
+    const T steep = steepest(share);
+    const T series = c0 + c1;
+    return (abs(k0) + abs(alpha) * (T(1.0) + steep) / x_y) / series + u * n * steep / x_y;
   }
   template <class T>
   static T force(const std::array<T, 9>& p, const std::array<T, 2>& s, const Input<T>& in, const T& /*below*/) {
-    return p[2] * (in.v - slip(p, s, in.v)) + p[4] * (in.x - p[8]);
+    const auto& [alpha, c0, c1, k0, k1, x_y, share, n, x0] = p;
+    return c1 * (in.v - slip(p, s, in.v)) + k1 * (in.x - x0);
   }
 };
 

@@ -25,16 +25,21 @@ struct ModifiedDahl {
 
   template <class T>
   static std::array<T, 1> rate(const std::array<T, 5>& p, const std::array<T, 1>& s, const Input<T>& in) {
-    return {(in.v - abs(in.v) * s[0]) / p[4]};
+    const auto& [alpha, c0, k0, f0, x_y] = p;
+    const auto& [z] = s;
+    return {(in.v - abs(in.v) * z) / x_y};
   }
   static constexpr int settles = 0;
   template <class T>
   static T stiffness(const std::array<T, 5>& p, double speed) {
-    return T(speed) / p[4];
+    const auto& [alpha, c0, k0, f0, x_y] = p;
+    return T(speed) / x_y;
   }
   template <class T>
   static T force(const std::array<T, 5>& p, const std::array<T, 1>& s, const Input<T>& in, const T& /*below*/) {
-    return p[1] * in.v + p[2] * in.x + p[0] * s[0] + p[3];
+    const auto& [alpha, c0, k0, f0, x_y] = p;
+    const auto& [z] = s;
+    return c0 * in.v + k0 * in.x + alpha * z + f0;
   }
 };
 
