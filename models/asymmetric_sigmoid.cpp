@@ -38,19 +38,23 @@ struct AsymmetricSigmoid {
 
   template <class T>
   static std::array<T, 1> rate(const std::array<T, 9>& p, const std::array<T, 1>& s, const Input<T>& in) {
-    return {(in.v - s[0]) / p[7]};
+    const auto& [f_t, c_c, c_e, f_d, v_t, v_h, v_d, tau, a_s] = p;
+    const auto& [h] = s;
+    return {(in.v - h) / tau};
   }
   template <class T>
   static T stiffness(const std::array<T, 9>& p, double /*speed*/) {
+    const auto& [f_t, c_c, c_e, f_d, v_t, v_h, v_d, tau, a_s] = p;
     // Four times the bound: the branch function multiplies the error of the lagged velocity by up to 1 / (tau a_s).
-    return T(4.0) / p[7];
+    return T(4.0) / tau;
   }
   template <class T>
   static T force(const std::array<T, 9>& p, const std::array<T, 1>& s, const Input<T>& in, const T& /*below*/) {
     const auto& [f_t, c_c, c_e, f_d, v_t, v_h, v_d, tau, a_s] = p;
-    const T branch = tanh(acceleration(in.v, s[0], tau, in.age) / a_s);
+    const auto& [h] = s;
+    const T b = tanh(acceleration(in.v, h, tau, in.age) / a_s);
     const T slope = c_c * max(in.v, T(0.0)) + c_e * max(-in.v, T(0.0));
-    return tanh((in.v - v_d - v_h * branch) / v_t) * (f_t + slope) + f_d;
+    return tanh((in.v - v_d - v_h * b) / v_t) * (f_t + slope) + f_d;
   }
 };
 

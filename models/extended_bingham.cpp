@@ -31,10 +31,11 @@ struct ExtendedBingham {
   template <class T>
   static std::array<T, 2> rate(const std::array<T, 6>& p, const std::array<T, 2>& s, const Input<T>& in) {
     const auto& [fc, c0, c1, k1, k2, f0] = p;
-    const T carried = k2 * s[0];
-    const T excess = max(carried - fc, T(0.0)) + min(carried + fc, T(0.0));
-    const T kelvin = (carried - k1 * s[1]) / c1;
-    return {in.v - kelvin - excess / c0, kelvin};
+    const auto& [e, d] = s;
+    const T G = k2 * e;
+    const T excess = max(G - fc, T(0.0)) + min(G + fc, T(0.0));  // sgn(G) max(|G| - fc, 0)
+    const T d_rate = (G - k1 * d) / c1;
+    return {in.v - d_rate - excess / c0, d_rate};
   }
   template <class T>
   static T stiffness(const std::array<T, 6>& p, double /*speed*/) {
@@ -43,7 +44,9 @@ struct ExtendedBingham {
   }
   template <class T>
   static T force(const std::array<T, 6>& p, const std::array<T, 2>& s, const Input<T>& /*in*/, const T& /*below*/) {
-    return p[4] * s[0] + p[5];
+    const auto& [fc, c0, c1, k1, k2, f0] = p;
+    const auto& [e, d] = s;
+    return k2 * e + f0;
   }
 };
 

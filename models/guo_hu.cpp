@@ -49,19 +49,23 @@ struct GuoHu {
 
   template <class T>
   static std::array<T, 1> rate(const std::array<T, 7>& p, const std::array<T, 1>& s, const Input<T>& in) {
-    return {(in.v - s[0]) / p[5]};
+    const auto& [f_y, c0, f0, v_y, v_h, tau, a_s] = p;
+    const auto& [h] = s;
+    return {(in.v - h) / tau};
   }
   template <class T>
   static T stiffness(const std::array<T, 7>& p, double /*speed*/) {
+    const auto& [f_y, c0, f0, v_y, v_h, tau, a_s] = p;
     // Four times the bound: the acceleration is the lagged velocity's error over tau.
-    return T(4.0) / p[5];
+    return T(4.0) / tau;
   }
   template <class T>
   static T force(const std::array<T, 7>& p, const std::array<T, 1>& s, const Input<T>& in, const T& /*below*/) {
     const auto& [f_y, c0, f0, v_y, v_h, tau, a_s] = p;
-    const T branch = tanh(acceleration(in.v, s[0], tau, in.age) / a_s);
+    const auto& [h] = s;
+    const T b = tanh(acceleration(in.v, h, tau, in.age) / a_s);
     constexpr double two_over_pi = 0.63661977236758134308;
-    return f0 + c0 * in.v + T(two_over_pi) * f_y * arc_tangent((in.v - v_h * branch) / v_y);
+    return f0 + c0 * in.v + T(two_over_pi) * f_y * arc_tangent((in.v - v_h * b) / v_y);
   }
 };
 

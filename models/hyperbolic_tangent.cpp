@@ -29,16 +29,20 @@ struct HyperbolicTangent {
 
   template <class T>
   static std::array<T, 1> rate(const std::array<T, 6>& p, const std::array<T, 1>& s, const Input<T>& in) {
-    return {(in.v - s[0]) * (T(1.0) / p[5])};
+    const auto& [alpha, c0, k0, f0, v_y, tau] = p;
+    const auto& [h] = s;
+    return {(in.v - h) * (T(1.0) / tau)};
   }
   template <class T>
   static T stiffness(const std::array<T, 6>& p, double /*speed*/) {
-    return T(1.0) / p[5];
+    const auto& [alpha, c0, k0, f0, v_y, tau] = p;
+    return T(1.0) / tau;
   }
   template <class T>
   static T force(const std::array<T, 6>& p, const std::array<T, 1>& s, const Input<T>& in, const T& /*below*/) {
     const auto& [alpha, c0, k0, f0, v_y, tau] = p;
-    return alpha * tanh(s[0] / v_y) + c0 * in.v + k0 * in.x + f0;
+    const auto& [h] = s;
+    return alpha * tanh(h / v_y) + c0 * in.v + k0 * in.x + f0;
   }
 };
 

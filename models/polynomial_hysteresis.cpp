@@ -45,26 +45,40 @@ struct PolynomialHysteresis {
       acceleration_rounding,
   };
 
+  // The card by name.
+  template <class T>
+  struct Named {
+    std::span<const T, terms> rise;
+    std::span<const T, terms> fall;
+    const T& v_ref;
+    const T& tau;
+    const T& a_s;
+    explicit Named(const std::array<T, 17>& p)
+        : rise(p.data(), terms), fall(p.data() + terms, terms), v_ref(p[14]), tau(p[15]), a_s(p[16]) {}
+  };
   template <class T>
   static std::array<T, 1> rate(const std::array<T, 17>& p, const std::array<T, 1>& s, const Input<T>& in) {
-    return {(in.v - s[0]) / p[15]};
+    const auto& [h] = s;
+    return {(in.v - h) / Named(p).tau};
   }
   template <class T>
   static T stiffness(const std::array<T, 17>& p, double /*speed*/) {
     // Four times the bound: the acceleration is the lagged velocity's error over tau.
-    return T(4.0) / p[15];
+    return T(4.0) / Named(p).tau;
   }
   template <class T>
   static T force(const std::array<T, 17>& p, const std::array<T, 1>& s, const Input<T>& in, const T& /*below*/) {
-    const T r = in.v / p[14];
-    T rise = p[terms - 1];
-    T fall = p[2 * terms - 1];
+    const Named own(p);
+    const auto& [h] = s;
+    const T r = in.v / own.v_ref;
+    T rise = own.rise.back();
+    T fall = own.fall.back();
     for (std::size_t i = terms - 1; i-- > 0;) {
-      rise = rise * r + p[i];
-      fall = fall * r + p[terms + i];
+      rise = rise * r + own.rise[i];
+      fall = fall * r + own.fall[i];
     }
-    const T rising = T(0.5) + T(0.5) * tanh(acceleration(in.v, s[0], p[15], in.age) / p[16]);
-    return rising * rise + (T(1.0) - rising) * fall;
+    const T w = T(0.5) + T(0.5) * tanh(acceleration(in.v, h, own.tau, in.age) / own.a_s);
+    return w * rise + (T(1.0) - w) * fall;
   }
 };
 

@@ -40,30 +40,35 @@ struct Preisach {
       {.name = "tau", .unit = "s", .meaning = "time constant of the plays", .box = {5e-4, 0.02}, .initial = 2e-3, .scale = Scale::logarithmic, .fixed = true},
   };
 
+  // b' of a play of half width r.
+  template <class T>
+  static T pull(const T& r, const T& i, const T& b, const T& tau) {
+    const T ahead = i - b;
+    return (max(ahead - r, T(0.0)) + min(ahead + r, T(0.0))) / tau;
+  }
   template <class T>
   static std::array<T, 4> rate(const std::array<T, 8>& p, const std::array<T, 4>& s, const Input<T>& in) {
-    std::array<T, 4> result;
-    repeat<4>([&](auto j) __attribute__((always_inline)) {
-      const T half_width = T(0.25 * (j + 1)) * p[4];
-      const T ahead = in.drive - s[j];
-      result[j] = (max(ahead - half_width, T(0.0)) + min(ahead + half_width, T(0.0))) / p[7];
-    });
-    return result;
+    const auto& [f_y, f_i, c0, f0, R, d, v_s, tau] = p;
+    const auto& [b_1, b_2, b_3, b_4] = s;
+    const T& i = in.drive;
+    return {pull(T(0.25) * R, i, b_1, tau), pull(T(0.5) * R, i, b_2, tau), pull(T(0.75) * R, i, b_3, tau),
+            pull(T(1.0) * R, i, b_4, tau)};
   }
   template <class T>
   static T stiffness(const std::array<T, 8>& p, double /*speed*/) {
+    const auto& [f_y, f_i, c0, f0, R, d, v_s, tau] = p;
     // Twice the bound: the edges are kinks no step lands on.
-    return T(2.0) / p[7];
+    return T(2.0) / tau;
   }
   template <class T>
   static T force(const std::array<T, 8>& p, const std::array<T, 4>& s, const Input<T>& in, const T& /*below*/) {
-    const auto& [f_y, f_i, c0, f0, width, d, v_s, tau] = p;
+    const auto& [f_y, f_i, c0, f0, R, d, v_s, tau] = p;
     T sum = in.drive;
     T total(1.0);
     const T ratio = exp(T(-0.25) * d);
     T weight = ratio;
-    for (const T& play : s) {
-      sum = sum + weight * play;
+    for (const T& b : s) {
+      sum = sum + weight * b;
       total = total + weight;
       weight = weight * ratio;
     }

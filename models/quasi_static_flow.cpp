@@ -88,21 +88,22 @@ struct QuasiStaticFlow {
 
   template <class T>
   static T force(const std::array<T, 9>& p, const std::array<T, 0>& /*s*/, const Input<T>& in, const T& /*below*/) {
-    const auto& [tau_y, eta, f0, area, radius, height, active, passive, v_s] = p;
-    const T speed = sqrt(in.v * in.v + v_s * v_s);
-    const T flow = area * speed;
-    const T plug_gradient = T(2.0) * tau_y / height;
-    const T q = T(3.0 / std::numbers::pi) * eta * flow / (radius * height * height * tau_y);
-    const T k = height / radius;
+    const auto& [tau_y, eta, f0, A_p, R, h, L_a, L_p, v_s] = p;
+    const T u = sqrt(in.v * in.v + v_s * v_s);
+    const T Q = A_p * u;
+    const T plug_gradient = T(2.0) * tau_y / h;
+    const T q = T(3.0 / std::numbers::pi) * eta * Q / (R * h * h * tau_y);
+    const T k = h / R;
     const T inner = T(1.0) - T(0.5) * k;
     const T outer = T(1.0) + T(0.5) * k;
     const T inner2 = inner * inner;
     const T outer2 = outer * outer;
     const T difference = outer2 - inner2;
     const T annulus = difference * (outer2 + inner2 - difference / log(outer / inner));
-    const T radius2 = radius * radius;
-    const T newtonian = T(8.0 / std::numbers::pi) * eta * flow / (radius2 * radius2 * annulus);
-    return in.v / speed * area * (plug_gradient * gradient(q, k) * active + newtonian * passive) + f0;
+    const T R2 = R * R;
+    const T G_p = T(8.0 / std::numbers::pi) * eta * Q / (R2 * R2 * annulus);
+    const T G = plug_gradient * gradient(q, k);
+    return in.v / u * A_p * (G * L_a + G_p * L_p) + f0;
   }
 };
 

@@ -22,7 +22,8 @@ struct CubicDamper {
   };
   template <class T>
   static T force(const std::array<T, 3>& p, const std::array<T, 0>& /*s*/, const Input<T>& in, const T& /*below*/) {
-    return (p[0] + p[1] * in.v * in.v) * in.v + p[2];
+    const auto& [c0, c3, f0] = p;
+    return (c0 + c3 * in.v * in.v) * in.v + f0;
   }
 };
 
@@ -48,7 +49,8 @@ struct CubicDamping {
   };
   template <class T>
   static T force(const std::array<T, 1>& p, const std::array<T, 0>& /*s*/, const Input<T>& in, const T& below) {
-    return below + p[0] * in.v * in.v * in.v;
+    const auto& [d3] = p;
+    return below + d3 * in.v * in.v * in.v;
   }
 };
 
