@@ -29,8 +29,7 @@ struct Asymmetry {
 
   template <class T>
   static T force(const std::array<T, 2>& p, const std::array<T, 0>& /*s*/, const Input<T>& in, const T& below) {
-    const T& e = p[0];
-    const T& v_s = p[1];
+    const auto& [e, v_s] = p;
     return below * (T(1.0) + e * tanh(in.v / v_s));
   }
 };

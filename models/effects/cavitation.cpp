@@ -41,23 +41,28 @@ struct Cavitation {
   };
 
   template <class T>
-  static std::array<T, 1> loaded_rate(const std::array<T, 4>& p, const std::array<T, 1>& s, const Input<T>& in,
+  static std::array<T, 1> loaded_rate(const std::array<T, 4>& p, const std::array<T, 1>& state, const Input<T>& in,
                                       const T& below) {
-    const T r = -p[0] * below;
-    const T open = tanh(s[0] / p[3]);
+    const auto& [kappa, w, q, s_r] = p;
+    const auto& [s] = state;
+    const T r = -kappa * below;
+    const T e = tanh(s / s_r);
     const T over = max(r - T(1.0), T(0.0));
-    const T growth = select(T(0.0) < p[0] * in.v, -open, over / (p[1] + over));
-    return {abs(in.v) * growth - p[2] * s[0]};
+    const T growth = select(T(0.0) < kappa * in.v, -e, over / (w + over));
+    return {abs(in.v) * growth - q * s};
   }
   template <class T>
   static T stiffness(const std::array<T, 4>& p, double speed) {
-    return T(speed) / p[3] + p[2];
+    const auto& [kappa, w, q, s_r] = p;
+    return T(speed) / s_r + q;
   }
   template <class T>
-  static T force(const std::array<T, 4>& p, const std::array<T, 1>& s, const Input<T>& in, const T& below) {
-    const T r = -p[0] * below;
-    const T open = tanh(s[0] / p[3]);
-    return select(T(0.0) < p[0] * in.v, below * (T(1.0) - open), below / max(r, T(1.0)));
+  static T force(const std::array<T, 4>& p, const std::array<T, 1>& state, const Input<T>& in, const T& below) {
+    const auto& [kappa, w, q, s_r] = p;
+    const auto& [s] = state;
+    const T r = -kappa * below;
+    const T e = tanh(s / s_r);
+    return select(T(0.0) < kappa * in.v, below * (T(1.0) - e), below / max(r, T(1.0)));
   }
 };
 

@@ -41,12 +41,12 @@ struct Clearance {
 
   template <class T>
   static Yield<T> yield(const std::array<T, 4>& p, const T& q) {
-    const T half = T(0.5) * p[0];
-    const T& soft = p[1];
-    const T inverse = T(1.0) / p[2];
+    const auto& [gap, C_c, f_c, tau] = p;
+    const T half = T(0.5) * gap;
+    const T inverse = T(1.0) / f_c;
     const T bearing = tanh(q * inverse);
     const T open = half * inverse * (T(1.0) - bearing * bearing);
-    return {q * soft + half * bearing, soft + open, T(-2.0) * open * bearing * inverse, T(1.0) / p[3], T(1.0), p[2]};
+    return {q * C_c + half * bearing, C_c + open, T(-2.0) * open * bearing * inverse, T(1.0) / tau, T(1.0), f_c};
   }
 };
 

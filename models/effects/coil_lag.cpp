@@ -37,16 +37,17 @@ struct CoilLag {
 
   template <class T>
   static T excite(const std::array<T, 2>& p, std::array<T, excitation_memory>& memory, double elapsed, const T& drive) {
+    const auto& [tau, r] = p;
     T& current = memory[0];
     T& command = memory[1];
     if (elapsed <= 0.0) {
       current = drive;
     } else {
       const auto rising = current < drive;
-      const T tau = max(select(rising, p[0], p[0] * p[1]), T(1e-9));
+      const T tau_i = max(select(rising, tau, tau * r), T(1e-9));
       const T slope = (drive - command) / T(elapsed);
-      const T behind = slope * tau;
-      current = drive - behind + (current - command + behind) * exp(T(-elapsed) / tau);
+      const T behind = slope * tau_i;
+      current = drive - behind + (current - command + behind) * exp(T(-elapsed) / tau_i);
     }
     command = drive;
     return current;

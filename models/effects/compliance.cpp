@@ -33,8 +33,7 @@ struct Compliance {
 
   template <class T>
   static Yield<T> yield(const std::array<T, 2>& p, const T& q) {
-    const T& C = p[0];
-    const T& tau = p[1];
+    const auto& [C, tau] = p;
     return {C * q, C, T(0.0), T(1.0) / tau, T(1.0), T(0.0)};
   }
 };

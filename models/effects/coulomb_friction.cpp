@@ -35,16 +35,21 @@ struct CoulombFriction {
 
   template <class T>
   static std::array<T, 1> rate(const std::array<T, 3>& p, const std::array<T, 1>& s, const Input<T>& in) {
-    return {bristle_rate(p[1], in.v, s[0])};
+    const auto& [fc, x_b, v_t] = p;
+    const auto& [z] = s;
+    return {bristle_rate(x_b, in.v, z)};
   }
   static constexpr int settles = 0;
   template <class T>
   static T stiffness(const std::array<T, 3>& p, double speed) {
-    return bristle_stiffness(p[1], speed);
+    const auto& [fc, x_b, v_t] = p;
+    return bristle_stiffness(x_b, speed);
   }
   template <class T>
   static T force(const std::array<T, 3>& p, const std::array<T, 1>& s, const Input<T>& in, const T& below) {
-    return below + p[0] * s[0] * on_film(p[2], in.v);
+    const auto& [fc, x_b, v_t] = p;
+    const auto& [z] = s;
+    return below + fc * z * on_film(v_t, in.v);
   }
 };
 

@@ -27,7 +27,7 @@ struct CubicStiffness {
 
   template <class T>
   static T force(const std::array<T, 1>& p, const std::array<T, 0>& /*s*/, const Input<T>& in, const T& below) {
-    const T& k3 = p[0];
+    const auto& [k3] = p;
     return below + k3 * in.x * in.x * in.x;
   }
 };

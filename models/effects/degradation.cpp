@@ -33,7 +33,9 @@ struct Degradation {
   template <class T>
   static std::array<T, 1> loaded_rate(const std::array<T, 1>& p, const std::array<T, 1>& s, const Input<T>& in,
                                       const T& below) {
-    return {below / max(T(1.0) + p[0] * s[0], T(0.1)) * in.v};
+    const auto& [d] = p;
+    const auto& [E] = s;
+    return {below / max(T(1.0) + d * E, T(0.1)) * in.v};
   }
   template <class T>
   static T stiffness(const std::array<T, 1>& /*p*/, double /*speed*/) {
@@ -41,7 +43,9 @@ struct Degradation {
   }
   template <class T>
   static T force(const std::array<T, 1>& p, const std::array<T, 1>& s, const Input<T>& /*in*/, const T& below) {
-    return below / max(T(1.0) + p[0] * s[0], T(0.1));
+    const auto& [d] = p;
+    const auto& [E] = s;
+    return below / max(T(1.0) + d * E, T(0.1));
   }
 };
 

@@ -34,13 +34,11 @@ struct EndStop {
   };
 
   template <class T>
-  static T force(const std::array<T, 4>& p, const std::array<T, 0>& /*s*/, const Input<T>& in, const T& below) {
-    const T& k_b = p[0];
-    const T& x_up = p[1];
-    const T& x_low = p[2];
+  static T force(const std::array<T, 4>& card, const std::array<T, 0>& /*s*/, const Input<T>& in, const T& below) {
+    const auto& [k_b, x_up, x_low, p] = card;
     const T upper = max(in.x - x_up, T(0.0));
     const T lower = max(-in.x - x_low, T(0.0));
-    const T power = p[3] - T(1.0);
+    const T power = p - T(1.0);
     return below + k_b * (upper * pow(upper * T(1.0e3), power) - lower * pow(lower * T(1.0e3), power));
   }
 };

@@ -41,10 +41,11 @@ struct EntrappedGas {
 
   template <class T>
   static Yield<T> yield(const std::array<T, 4>& p, const T& q) {
-    const T inverse = T(1.0) / p[1];
+    const auto& [d_a, f_a, C_c, tau] = p;
+    const T inverse = T(1.0) / f_a;
     const T full = tanh(q * inverse);
-    const T slope = p[0] * inverse * (T(1.0) - full * full);
-    return {p[2] * q + p[0] * full, p[2] + slope, T(-2.0) * slope * full * inverse, T(1.0) / p[3], T(1.0), p[1]};
+    const T slope = d_a * inverse * (T(1.0) - full * full);
+    return {C_c * q + d_a * full, C_c + slope, T(-2.0) * slope * full * inverse, T(1.0) / tau, T(1.0), f_a};
   }
 };
 

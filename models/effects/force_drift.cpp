@@ -24,7 +24,7 @@ struct ForceDrift {
 
   template <class T>
   static T force(const std::array<T, 1>& p, const std::array<T, 0>& /*s*/, const Input<T>& in, const T& below) {
-    const T& r = p[0];
+    const auto& [r] = p;
     return below + r * in.time;
   }
 };

@@ -35,9 +35,7 @@ struct GasSpring {
 
   template <class T>
   static T force(const std::array<T, 3>& p, const std::array<T, 0>& /*s*/, const Input<T>& in, const T& below) {
-    const T& f_g = p[0];
-    const T& g = p[1];
-    const T& kappa = p[2];
+    const auto& [f_g, g, kappa] = p;
     return below + f_g * pow(max(T(1.0) - g * in.x, T(0.05)), -kappa);
   }
 };

@@ -30,7 +30,7 @@ struct Inertia {
 
   template <class T>
   static T force(const std::array<T, 1>& p, const std::array<T, 0>& /*s*/, const Input<T>& in, const T& below) {
-    const T& m = p[0];
+    const auto& [m] = p;
     return fma(m, in.a, below);
   }
 };

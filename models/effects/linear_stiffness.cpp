@@ -28,7 +28,7 @@ struct LinearStiffness {
 
   template <class T>
   static T force(const std::array<T, 1>& p, const std::array<T, 0>& /*s*/, const Input<T>& in, const T& below) {
-    const T& k = p[0];
+    const auto& [k] = p;
     return below + k * in.x;
   }
 };

@@ -40,9 +40,10 @@ struct MagneticRemanence {
 
   template <class T>
   static T excite(const std::array<T, 3>& p, std::array<T, excitation_memory>& memory, double elapsed, const T& drive) {
+    const auto& [rho, w, s] = p;
     T& m = memory[0];
-    m = min(max(elapsed < 0.0 ? p[2] * drive : m, drive - p[1]), drive + p[1]);
-    return drive + p[0] * (m - drive);
+    m = min(max(elapsed < 0.0 ? s * drive : m, drive - w), drive + w);
+    return drive + rho * (m - drive);
   }
   template <class T>
   static T force(const std::array<T, 3>& /*p*/, const std::array<T, 0>& /*s*/, const Input<T>& /*in*/, const T& below) {

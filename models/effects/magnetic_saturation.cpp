@@ -33,7 +33,8 @@ struct MagneticSaturation {
   template <class T>
   static T excite(const std::array<T, 1>& p, std::array<T, excitation_memory>& /*memory*/, double /*elapsed*/,
                   const T& drive) {
-    const T a = p[0] * drive * drive;
+    const auto& [sigma] = p;
+    const T a = sigma * drive * drive;
     const T root = sqrt(max(a, T(1e-4)));
     const T series = T(1.0) - a * (T(1.0 / 3.0) - a * T(2.0 / 15.0));
     return drive * select(a < T(1e-4), series, tanh(root) / root);

@@ -28,7 +28,8 @@ struct OffsetForce {
 
   template <class T>
   static T force(const std::array<T, 1>& p, const std::array<T, 0>& /*s*/, const Input<T>& /*in*/, const T& below) {
-    return below + p[0];
+    const auto& [f0] = p;
+    return below + f0;
   }
 };
 

@@ -35,10 +35,11 @@ struct Pinching {
   };
 
   template <class T>
-  static T force(const std::array<T, 4>& p, const std::array<T, 0>& /*s*/, const Input<T>& in, const T& below) {
-    const T relative = (in.x - p[1]) / p[2];
+  static T force(const std::array<T, 4>& card, const std::array<T, 0>& /*s*/, const Input<T>& in, const T& below) {
+    const auto& [p, x_p, w, q] = card;
+    const T relative = (in.x - x_p) / w;
     const T square = max(relative * relative, T(1e-12));
-    return below * (T(1.0) - p[0] * exp(-pow(square, T(0.5) * p[3])));
+    return below * (T(1.0) - p * exp(-pow(square, T(0.5) * q)));
   }
 };
 

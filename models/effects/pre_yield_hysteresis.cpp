@@ -29,19 +29,21 @@ struct PreYieldHysteresis {
 
   template <class T>
   static std::array<T, 1> rate(const std::array<T, 2>& p, const std::array<T, 1>& s, const Input<T>& in) {
-    const T& x_y = p[1];
-    return {(in.v - abs(in.v) * s[0]) / x_y};
+    const auto& [f_h, x_y] = p;
+    const auto& [z] = s;
+    return {(in.v - abs(in.v) * z) / x_y};
   }
   static constexpr int settles = 0;
   template <class T>
   static T stiffness(const std::array<T, 2>& p, double speed) {
-    const T& x_y = p[1];
+    const auto& [f_h, x_y] = p;
     return T(speed) / x_y;
   }
   template <class T>
   static T force(const std::array<T, 2>& p, const std::array<T, 1>& s, const Input<T>& /*in*/, const T& below) {
-    const T& f_h = p[0];
-    return below + f_h * s[0];
+    const auto& [f_h, x_y] = p;
+    const auto& [z] = s;
+    return below + f_h * z;
   }
 };
 

@@ -28,7 +28,7 @@ struct QuadraticDamping {
 
   template <class T>
   static T force(const std::array<T, 1>& p, const std::array<T, 0>& /*s*/, const Input<T>& in, const T& below) {
-    const T& d2 = p[0];
+    const auto& [d2] = p;
     return below + d2 * in.v * abs(in.v);
   }
 };

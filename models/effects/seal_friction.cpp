@@ -40,20 +40,22 @@ struct SealFriction {
 
   template <class T>
   static std::array<T, 1> rate(const std::array<T, 5>& p, const std::array<T, 1>& s, const Input<T>& in) {
-    return {bristle_rate(p[3], in.v, s[0])};
+    const auto& [fc, fb, v_st, x_b, v_t] = p;
+    const auto& [z] = s;
+    return {bristle_rate(x_b, in.v, z)};
   }
   static constexpr int settles = 0;
   template <class T>
   static T stiffness(const std::array<T, 5>& p, double speed) {
-    return bristle_stiffness(p[3], speed);
+    const auto& [fc, fb, v_st, x_b, v_t] = p;
+    return bristle_stiffness(x_b, speed);
   }
   template <class T>
   static T force(const std::array<T, 5>& p, const std::array<T, 1>& s, const Input<T>& in, const T& below) {
-    const T& fc = p[0];
-    const T& fb = p[1];
-    const T& v_st = p[2];
+    const auto& [fc, fb, v_st, x_b, v_t] = p;
+    const auto& [z] = s;
     const T relative = in.v / v_st;
-    return below + (fc + fb * exp(-relative * relative)) * s[0] * on_film(p[4], in.v);
+    return below + (fc + fb * exp(-relative * relative)) * z * on_film(v_t, in.v);
   }
 };
 

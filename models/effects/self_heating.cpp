@@ -33,26 +33,29 @@ struct SelfHeating {
   };
 
   template <class T>
-  static T warm(const std::array<T, 4>& p, const T& heat, const Input<T>& in, const T& below) {
-    const T loss = p[0] * heat;
-    const T viscous = p[3] * in.v;
-    return (below - viscous) * exp(-p[2] * loss) + viscous * exp(-loss);
+  static T warm(const std::array<T, 4>& p, const T& q, const Input<T>& in, const T& below) {
+    const auto& [b, tau, y, c_h] = p;
+    const T loss = b * q;
+    const T viscous = c_h * in.v;
+    return (below - viscous) * exp(-y * loss) + viscous * exp(-loss);
   }
 
   template <class T>
   static std::array<T, 1> loaded_rate(const std::array<T, 4>& p, const std::array<T, 1>& s, const Input<T>& in,
                                       const T& below) {
-    const T& tau = p[1];
-    return {warm(p, s[0], in, below) * in.v - s[0] / tau};
+    const auto& [b, tau, y, c_h] = p;
+    const auto& [q] = s;
+    return {warm(p, q, in, below) * in.v - q / tau};
   }
   template <class T>
   static T stiffness(const std::array<T, 4>& p, double /*speed*/) {
-    const T& tau = p[1];
+    const auto& [b, tau, y, c_h] = p;
     return T(1.0) / tau;
   }
   template <class T>
   static T force(const std::array<T, 4>& p, const std::array<T, 1>& s, const Input<T>& in, const T& below) {
-    return warm(p, s[0], in, below);
+    const auto& [q] = s;
+    return warm(p, q, in, below);
   }
 };
 

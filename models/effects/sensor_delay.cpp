@@ -34,13 +34,14 @@ struct SensorDelay {
 
   template <class T>
   static void drive(const std::array<T, 1>& p, const std::array<T, 0>& /*s*/, Input<T>& in) {
-    const T& lag = p[0];
+    const auto& [lag] = p;
     in.x = in.x - lag * (in.v - T(0.5) * lag * in.a);
     in.v = in.v - lag * (in.a - T(0.5) * lag * in.jerk);
   }
   template <class T>
   static T recall(const std::array<T, 1>& p, const Command& command) {
-    return command.earlier(p[0]);
+    const auto& [lag] = p;
+    return command.earlier(lag);
   }
   template <class T>
   static T force(const std::array<T, 1>& /*p*/, const std::array<T, 0>& /*s*/, const Input<T>& /*in*/, const T& below) {

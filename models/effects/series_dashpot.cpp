@@ -32,6 +32,7 @@ struct SeriesDashpot {
 
   template <class T>
   static Yield<T> yield(const std::array<T, 1>& p, const T& q) {
+    const auto& [e] = p;
     constexpr double stroke = 0.5;
     const T over = max(abs(q) - T(stroke), T(0.0)) * T(1.0 / stroke);
     const T limited = tanh(over);
@@ -40,7 +41,7 @@ struct SeriesDashpot {
     return {select(q < T(0.0), -size, size),
             slope,
             select(q < T(0.0), T(2.0 / stroke), T(-2.0 / stroke)) * slope * limited,
-            p[0],
+            e,
             T(0.0),
             T(0.0)};
   }

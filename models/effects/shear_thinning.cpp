@@ -35,9 +35,7 @@ struct ShearThinning {
 
   template <class T>
   static T force(const std::array<T, 3>& p, const std::array<T, 0>& /*s*/, const Input<T>& in, const T& below) {
-    const T& c_t = p[0];
-    const T& v_c = p[1];
-    const T& m = p[2];
+    const auto& [c_t, v_c, m] = p;
     const T relative = in.v / v_c;
     const T left = pow(T(1.0) + relative * relative, T(0.5) * (m - T(1.0)));
     return below - c_t * in.v * (T(1.0) - left);

@@ -35,10 +35,10 @@ struct Stiction {
     return T(0.0);
   }
   template <class T>
-  static T force(const std::array<T, 2>& p, const std::array<T, 1>& s, const Input<T>& /*in*/, const T& below) {
-    const T& a = p[0];
-    const T& L = p[1];
-    return below * (T(1.0) + a * exp(-s[0] / L));
+  static T force(const std::array<T, 2>& p, const std::array<T, 1>& state, const Input<T>& /*in*/, const T& below) {
+    const auto& [a, L] = p;
+    const auto& [s] = state;
+    return below * (T(1.0) + a * exp(-s / L));
   }
 };
 

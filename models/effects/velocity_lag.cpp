@@ -33,7 +33,7 @@ struct VelocityLag {
 
   template <class T>
   static void drive(const std::array<T, 1>& p, const std::array<T, 0>& /*s*/, Input<T>& in) {
-    const T& lag = p[0];
+    const auto& [lag] = p;
     in.v = fma(lag, in.a, in.v);
   }
   template <class T>

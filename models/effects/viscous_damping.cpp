@@ -27,7 +27,7 @@ struct ViscousDamping {
 
   template <class T>
   static T force(const std::array<T, 1>& p, const std::array<T, 0>& /*s*/, const Input<T>& in, const T& below) {
-    const T& c = p[0];
+    const auto& [c] = p;
     return below + c * in.v;
   }
 };
