@@ -40,6 +40,10 @@ struct BoucWen {
   }
   static constexpr int settles = 0;
   template <class T>
+  static T towards(const std::array<T, 7>& /*p*/, const std::array<T, 1>& /*s*/, const Input<T>& in) {
+    return in.v;
+  }
+  template <class T>
   static T stiffness(const std::array<T, 7>& p, double speed) {
     const auto& [alpha, c0, k0, f0, x_y, share, n] = p;
     return T(speed) * n * steepest(share) / x_y;

@@ -31,6 +31,10 @@ struct ModifiedDahl {
   }
   static constexpr int settles = 0;
   template <class T>
+  static T towards(const std::array<T, 5>& /*p*/, const std::array<T, 1>& /*s*/, const Input<T>& in) {
+    return in.v;
+  }
+  template <class T>
   static T stiffness(const std::array<T, 5>& p, double speed) {
     const auto& [alpha, c0, k0, f0, x_y] = p;
     return T(speed) / x_y;

@@ -22,7 +22,6 @@ struct Cavitation {
                                                    "r > 1: F <- F / r, s' = |v| (r - 1) / (w + r - 1) - q s",
                                                    "v kappa > 0: F <- F (1 - e), s' = -|v| e - q s"};
   static constexpr int states = 1;
-  static constexpr bool has_loaded_rate = true;
   // Limits of 0.96, 0.85, 0.7 and 0.45 of the peak force, to either side.
   static constexpr double starts[] = {0.052, -0.052, 0.059, -0.059, 0.071, -0.071, 0.11, -0.11};
   static constexpr Parameter parameters[] = {

@@ -16,7 +16,6 @@ struct Clearance {
   static constexpr std::string_view equations[] = {"F = F_law(x - d, v - d') = q + tau q'",
                                                    "d = C_c q + (gap / 2) tanh(q / f_c)"};
   static constexpr int states = 1;
-  static constexpr bool is_series = true;
   static constexpr Parameter parameters[] = {
       {.name = "gap", .symbol = "g", .unit = "m", .meaning = "full width of the play", .box = {0, 5e-3}, .initial = 0},
       {.name = "C_c", .symbol = "1/k_c", .unit = "m/N", .meaning = "compliance of the closed contact", .box = {0, 1e-6}, .initial = 0},

@@ -19,7 +19,6 @@ struct CoilLag {
   static constexpr std::string_view equations[] = {"i' = (i_cmd - i) / tau, rising current",
                                                    "i' = (i_cmd - i) / (tau r), falling current", "i_cmd <- i"};
   static constexpr int states = 0;
-  static constexpr bool has_excite = true;
   static constexpr Parameter parameters[] = {
       {.name = "tau", .unit = "s", .meaning = "time constant of the rising current", .box = {0, 0.5}, .initial = 0, .dimension = {}},
       {.name = "r", .unit = "1", .meaning = "time constant of the falling current over that of the rising", .box = {0.5, 3}, .initial = 1, .scale = Scale::logarithmic},
@@ -51,10 +50,6 @@ struct CoilLag {
     }
     command = drive;
     return current;
-  }
-  template <class T>
-  static T force(const std::array<T, 2>& /*p*/, const std::array<T, 0>& /*s*/, const Input<T>& /*in*/, const T& below) {
-    return below;
   }
 };
 

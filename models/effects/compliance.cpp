@@ -13,7 +13,6 @@ struct Compliance {
   static constexpr std::string_view reference = "standard (Maxwell element)";
   static constexpr std::string_view equations[] = {"F = F_law(x - d, v - d') = q + tau q'", "d = C q"};
   static constexpr int states = 1;
-  static constexpr bool is_series = true;
   static constexpr Parameter parameters[] = {
       {.name = "C", .symbol = "1/k_s", .unit = "m/N", .meaning = "compliance of the series spring", .box = {0, 1e-5}, .initial = 0},
       {.name = "tau", .unit = "s", .meaning = "relaxation time of the spring's own damping", .box = {2e-4, 5e-3}, .initial = 5e-4, .scale = Scale::logarithmic, .fixed = true},

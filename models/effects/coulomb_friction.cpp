@@ -41,6 +41,10 @@ struct CoulombFriction {
   }
   static constexpr int settles = 0;
   template <class T>
+  static T towards(const std::array<T, 3>& /*p*/, const std::array<T, 1>& /*s*/, const Input<T>& in) {
+    return in.v;
+  }
+  template <class T>
   static T stiffness(const std::array<T, 3>& p, double speed) {
     const auto& [fc, x_b, v_t] = p;
     return bristle_stiffness(x_b, speed);

@@ -15,7 +15,6 @@ struct Degradation {
   static constexpr std::string_view reference = "loss of force over accumulated work; after Baber, Noori 1985";
   static constexpr std::string_view equations[] = {"F <- F / (1 + d E)", "E' = F v"};
   static constexpr int states = 1;
-  static constexpr bool has_loaded_rate = true;
   static constexpr Parameter parameters[] = {
       {.name = "d", .unit = "1/J", .meaning = "relative loss of force per work done", .box = {0, 2e-3}, .initial = 0},
   };

@@ -16,7 +16,6 @@ struct EntrappedGas {
   static constexpr std::string_view equations[] = {"F = F_law(x - d, v - d') = q + tau q'",
                                                    "d = C_c q + d_a tanh(q / f_a)"};
   static constexpr int states = 1;
-  static constexpr bool is_series = true;
   static constexpr Parameter parameters[] = {
       {.name = "d_a", .unit = "m", .meaning = "travel that compresses the gas", .box = {0, 5e-3}, .initial = 0},
       {.name = "f_a", .unit = "N", .meaning = "force at which the gas is compressed", .box = {30, 1e3}, .initial = 200, .scale = Scale::logarithmic},

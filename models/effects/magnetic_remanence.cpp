@@ -18,7 +18,6 @@ struct MagneticRemanence {
       "play operator; Krasnosel'skii, Pokrovskii, Systems with Hysteresis, Springer 1989";
   static constexpr std::string_view equations[] = {"m <- min(max(m, i - w), i + w)", "i <- i + rho (m - i)"};
   static constexpr int states = 0;
-  static constexpr bool has_excite = true;
   static constexpr Parameter parameters[] = {
       {.name = "rho", .unit = "1", .meaning = "share of the drive that remains behind", .box = {0, 1}, .initial = 0},
       {.name = "w", .unit = "A", .meaning = "half width of the play", .box = {0.01, 2}, .initial = 0.2, .scale = Scale::logarithmic},
@@ -44,10 +43,6 @@ struct MagneticRemanence {
     T& m = memory[0];
     m = min(max(elapsed < 0.0 ? s * drive : m, drive - w), drive + w);
     return drive + rho * (m - drive);
-  }
-  template <class T>
-  static T force(const std::array<T, 3>& /*p*/, const std::array<T, 0>& /*s*/, const Input<T>& /*in*/, const T& below) {
-    return below;
   }
 };
 

@@ -14,7 +14,6 @@ struct MagneticSaturation {
   static constexpr std::string_view reference = "standard saturation curve";
   static constexpr std::string_view equations[] = {"i <- i_s tanh(i / i_s), sigma = 1 / i_s^2"};
   static constexpr int states = 0;
-  static constexpr bool has_excite = true;
   static constexpr Parameter parameters[] = {
       {.name = "sigma", .symbol = "1/i_s^2", .unit = "1/A^2", .meaning = "inverse square of the drive at which the circuit saturates", .box = {0, 25}, .initial = 0},
   };
@@ -38,10 +37,6 @@ struct MagneticSaturation {
     const T root = sqrt(max(a, T(1e-4)));
     const T series = T(1.0) - a * (T(1.0 / 3.0) - a * T(2.0 / 15.0));
     return drive * select(a < T(1e-4), series, tanh(root) / root);
-  }
-  template <class T>
-  static T force(const std::array<T, 1>& /*p*/, const std::array<T, 0>& /*s*/, const Input<T>& /*in*/, const T& below) {
-    return below;
   }
 };
 

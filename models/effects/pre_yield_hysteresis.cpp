@@ -35,6 +35,10 @@ struct PreYieldHysteresis {
   }
   static constexpr int settles = 0;
   template <class T>
+  static T towards(const std::array<T, 2>& /*p*/, const std::array<T, 1>& /*s*/, const Input<T>& in) {
+    return in.v;
+  }
+  template <class T>
   static T stiffness(const std::array<T, 2>& p, double speed) {
     const auto& [f_h, x_y] = p;
     return T(speed) / x_y;

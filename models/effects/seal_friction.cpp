@@ -46,6 +46,10 @@ struct SealFriction {
   }
   static constexpr int settles = 0;
   template <class T>
+  static T towards(const std::array<T, 5>& /*p*/, const std::array<T, 1>& /*s*/, const Input<T>& in) {
+    return in.v;
+  }
+  template <class T>
   static T stiffness(const std::array<T, 5>& p, double speed) {
     const auto& [fc, fb, v_st, x_b, v_t] = p;
     return bristle_stiffness(x_b, speed);

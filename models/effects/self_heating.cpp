@@ -16,7 +16,6 @@ struct SelfHeating {
   static constexpr std::string_view equations[] = {"F <- (F - c_h v) exp(-y b q) + c_h v exp(-b q)",
                                                    "q' = F v - q / tau"};
   static constexpr int states = 1;
-  static constexpr bool has_loaded_rate = true;
   static constexpr Parameter parameters[] = {
       {.name = "b", .unit = "1/J", .meaning = "relative loss of viscosity per stored heat", .box = {0, 2e-3}, .initial = 0},
       {.name = "tau", .unit = "s", .meaning = "thermal time constant", .box = {1, 2e3}, .initial = 60, .scale = Scale::logarithmic, .dimension = {}},

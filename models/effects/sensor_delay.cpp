@@ -16,8 +16,6 @@ struct SensorDelay {
   static constexpr std::string_view equations[] = {"x <- x - lag v + lag^2 a / 2, v <- v - lag a + lag^2 j / 2",
                                                    "i <- i(t - lag)"};
   static constexpr int states = 0;
-  static constexpr bool has_drive = true;
-  static constexpr bool has_recall = true;
   static constexpr Parameter parameters[] = {
       {.name = "lag", .unit = "s", .meaning = "delay of the force channel", .box = {-0.02, 0.02}, .initial = 0},
   };
@@ -42,10 +40,6 @@ struct SensorDelay {
   static T recall(const std::array<T, 1>& p, const Command& command) {
     const auto& [lag] = p;
     return command.earlier(lag);
-  }
-  template <class T>
-  static T force(const std::array<T, 1>& /*p*/, const std::array<T, 0>& /*s*/, const Input<T>& /*in*/, const T& below) {
-    return below;
   }
 };
 

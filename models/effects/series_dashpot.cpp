@@ -15,7 +15,6 @@ struct SeriesDashpot {
       "Spencer et al., J. Eng. Mech. 123 (1997) 230-238; Maxwell dashpot in series with the law";
   static constexpr std::string_view equations[] = {"F = F_law(x - d, v - d')", "d' = e F, e = 1 / c1"};
   static constexpr int states = 1;
-  static constexpr bool is_series = true;
   static constexpr Parameter parameters[] = {
       {.name = "e", .symbol = "1/c1", .unit = "m/(N s)", .meaning = "speed of the series dashpot per force", .box = {0, 3e-4}, .initial = 0},
   };

@@ -14,7 +14,6 @@ struct VelocityLag {
   static constexpr std::string_view reference = "standard; inverse of a first-order filter";
   static constexpr std::string_view equations[] = {"v <- v + lag a"};
   static constexpr int states = 0;
-  static constexpr bool has_drive = true;
   static constexpr Parameter parameters[] = {
       {.name = "lag", .unit = "s", .meaning = "lag of the recorded velocity behind the one that acts", .box = {-0.02, 0.02}, .initial = 0},
   };
@@ -35,10 +34,6 @@ struct VelocityLag {
   static void drive(const std::array<T, 1>& p, const std::array<T, 0>& /*s*/, Input<T>& in) {
     const auto& [lag] = p;
     in.v = fma(lag, in.a, in.v);
-  }
-  template <class T>
-  static T force(const std::array<T, 1>& /*p*/, const std::array<T, 0>& /*s*/, const Input<T>& /*in*/, const T& below) {
-    return below;
   }
 };
 

@@ -21,9 +21,55 @@ template <class T, std::size_t N>
   return *reinterpret_cast<const std::array<T, N>*>(p);
 }
 
+// Members are found by their names alone and then used: one that cannot be used as part.hpp says does not compile.
+template <class M>
+concept HasForce = requires {
+  &M::template force<double>;
+};
+template <class M>
+concept HasDrive = requires {
+  &M::template drive<double>;
+};
+template <class M>
+concept HasExcite = requires {
+  &M::template excite<double>;
+};
+template <class M>
+concept HasRecall = requires {
+  &M::template recall<double>;
+};
+template <class M>
+concept HasRate = requires {
+  &M::template rate<double>;
+};
+// The force then depends on its own past.
+template <class M>
+concept HasLoadedRate = requires {
+  &M::template loaded_rate<double>;
+};
+template <class M>
+concept HasStiffness = requires {
+  &M::template stiffness<double>;
+};
 template <class M>
 concept Settles = requires {
   M::settles;
+};
+template <class M>
+concept HasTowards = requires {
+  &M::template towards<double>;
+};
+template <class M>
+concept HasSlack = requires {
+  &M::template slack<double>;
+};
+template <class M>
+concept HasStiffnessNear = requires {
+  &M::template stiffness_near<double>;
+};
+template <class M>
+concept IsSeries = requires {
+  &M::template yield<double>;
 };
 
 template <class M>
@@ -57,7 +103,7 @@ struct Fused {
   }
   template <class T>
   [[gnu::always_inline]] static value_t<T> slack([[maybe_unused]] const T* p) {
-    if constexpr (requires { &M::template slack<double>; }) {
+    if constexpr (HasSlack<M>) {
       return M::slack(values(p));
     } else {
       return value_t<T>(0.0);
@@ -70,7 +116,7 @@ struct Fused {
       return stiffness(p, speed);
     } else {
       value_t<T> bound = stiffness(p, speed);
-      if constexpr (requires { &M::template stiffness_near<double>; }) {
+      if constexpr (HasStiffnessNear<M>) {
         std::array<value_t<T>, M::states> state;
         repeat<M::states>([&](auto i) __attribute__((always_inline)) { state[i] = value_of(s[i]); });
         bound = M::stiffness_near(values(p), state, value_of(in.v), speed, change);
@@ -97,7 +143,11 @@ struct Fused {
   }
   template <class T>
   [[gnu::always_inline]] static T force(const T* p, const T* s, const Input<T>& in) {
-    return M::force(as_array<T, parameter_count<M>>(p), as_array<T, M::states>(s), in, T(0.0));
+    if constexpr (HasForce<M>) {
+      return M::force(as_array<T, parameter_count<M>>(p), as_array<T, M::states>(s), in, T(0.0));
+    } else {
+      return T(0.0);
+    }
   }
   template <class T>
   [[gnu::always_inline]] static value_t<T> stiffness(const T* p, double speed) {
@@ -109,13 +159,8 @@ struct Fused {
   }
   // What drives the state that settles.
   template <class T>
-  [[gnu::always_inline]] static value_t<T> towards([[maybe_unused]] const T* p, [[maybe_unused]] const T* s,
-                                                   const Input<T>& in) {
-    if constexpr (requires { &M::template towards<double>; }) {
-      return value_of(M::towards(as_array<T, parameter_count<M>>(p), as_array<T, M::states>(s), in));
-    } else {
-      return value_of(in.v);
-    }
+  [[gnu::always_inline]] static value_t<T> towards(const T* p, const T* s, const Input<T>& in) {
+    return value_of(M::towards(as_array<T, parameter_count<M>>(p), as_array<T, M::states>(s), in));
   }
 
  private:
@@ -129,25 +174,8 @@ struct Fused {
   }
 };
 
-// The drive hook is detected by its name alone, so that a wrong signature is an error rather than a silent omission.
-template <class M>
-concept HasDrive = M::has_drive;
-
-template <class M>
-concept HasLoadedRate = M::has_loaded_rate;
-// A loaded rate makes the force depend on its own past.
-template <class M>
-concept Bends = HasLoadedRate<M> || M::bends_force;
-template <class M>
-concept IsSeries = M::is_series;
-template <class M>
-concept HasExcite = M::has_excite;
-template <class M>
-concept HasRecall = M::has_recall;
-
 template <class M, class T>
 constexpr PartOperations<T> series_operations() {
-  static_assert(M::states == 1);
   PartOperations<T> result;
   result.yield = [](const T* p, const T& q, Yield<T>& yield) {
     yield = M::yield(as_array<T, parameter_count<M>>(p), q);
@@ -191,9 +219,13 @@ constexpr PartOperations<T> operations() {
       result.slack = [](const T* p) { return Fused<M>::slack(p); };
     }
   }
-  result.force = [](const T* p, const T* s, const Input<T>& in, T& force) {
-    force = M::force(as_array<T, parameter_count<M>>(p), as_array<T, M::states>(s), in, force);
-  };
+  if constexpr (HasForce<M>) {
+    result.force = [](const T* p, const T* s, const Input<T>& in, T& force) {
+      force = M::force(as_array<T, parameter_count<M>>(p), as_array<T, M::states>(s), in, force);
+    };
+  } else {
+    result.force = [](const T*, const T*, const Input<T>&, T&) {};
+  }
   if constexpr (!HasLoadedRate<M> && !std::is_same_v<T, Trace>) {
     result.march = [](const Motion& motion, const T* p, std::size_t stride, std::size_t begin, std::size_t end,
                       T* state, T* out) { march<T>(Fused<M>{}, motion, p, stride, begin, end, state, out); };
@@ -228,7 +260,7 @@ constexpr TracedPart traced_part() {
         return Fused<M>::towards(p, s, in);
       };
     }
-    if constexpr (requires { &M::template stiffness_near<double>; }) {
+    if constexpr (HasStiffnessNear<M>) {
       result.stiffness_near = [](const Trace* p, const Trace* s, const Trace& v, double speed, double change) {
         return M::stiffness_near(as_array<Trace, parameter_count<M>>(p), as_array<Trace, M::states>(s), v, speed,
                                  change);
@@ -244,7 +276,26 @@ inline constexpr TracedPart traced = traced_part<M>();
 
 template <class M>
 constexpr Part compile() {
+  using namespace detail;
   static_assert(M::states <= max_states);
+  static_assert(HasForce<M> || HasDrive<M> || HasExcite<M> || HasRecall<M> || IsSeries<M>,
+                "the part does nothing: it has neither force nor drive, excite, recall or yield");
+  if constexpr (IsSeries<M>) {
+    static_assert(M::states == 1, "a series element has one state");
+    static_assert(!HasForce<M> && !HasDrive<M> && !HasRate<M> && !HasLoadedRate<M> && !HasStiffness<M>,
+                  "the yield of a series element says all that it does");
+  } else {
+    static_assert((M::states > 0) == (HasRate<M> || HasLoadedRate<M>), "states have a rate, and rates a state");
+    static_assert(!(HasRate<M> && HasLoadedRate<M>), "rate and loaded_rate say the same");
+    static_assert((M::states > 0) == HasStiffness<M>, "states have a stiffness");
+  }
+  if constexpr (Settles<M>) {
+    static_assert(HasRate<M> && M::settles >= 0 && M::settles < M::states, "settles is one of the states of a rate");
+    static_assert(HasTowards<M>, "what settles is driven towards its bound");
+    static_assert((M::states > 1) == HasSlack<M>, "the states beside the one that settles have a slack");
+  } else {
+    static_assert(!HasTowards<M> && !HasSlack<M> && !HasStiffnessNear<M>, "only what settles has these");
+  }
   Part part;
   part.id = M::id;
   part.title = M::title;
@@ -252,25 +303,25 @@ constexpr Part compile() {
   part.equations = M::equations;
   part.parameters = M::parameters;
   part.states = M::states;
-  part.traced = &detail::traced<M>;
+  part.traced = &traced<M>;
   if constexpr (requires { M::starts; }) {
     static_assert(std::size(M::starts) == 8);
     part.starts = M::starts;
   }
   if constexpr (requires { M::knowledge; }) {
-    static_assert(detail::knows_its_parameters<M>(), "knowledge names a parameter that the effect does not have");
+    static_assert(knows_its_parameters<M>(), "knowledge names a parameter that the effect does not have");
     part.knowledge = &M::knowledge;
   }
-  if constexpr (detail::IsSeries<M>) {
+  if constexpr (IsSeries<M>) {
     part.bends = true;
-    part.on_double = detail::series_operations<M, double>();
-    part.on_lanes = detail::series_operations<M, Lanes>();
-    part.on_dual = detail::series_operations<M, LaneDual>();
+    part.on_double = series_operations<M, double>();
+    part.on_lanes = series_operations<M, Lanes>();
+    part.on_dual = series_operations<M, LaneDual>();
   } else {
-    part.bends = detail::Bends<M>;
-    part.on_double = detail::operations<M, double>();
-    part.on_lanes = detail::operations<M, Lanes>();
-    part.on_dual = detail::operations<M, LaneDual>();
+    part.bends = HasLoadedRate<M>;
+    part.on_double = operations<M, double>();
+    part.on_lanes = operations<M, Lanes>();
+    part.on_dual = operations<M, LaneDual>();
   }
   return part;
 }

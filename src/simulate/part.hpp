@@ -1,29 +1,34 @@
 // A part: a damper law or a physical effect. Both have the same shape, so that augmenting a model is putting a part
-// behind it. A part is a struct with
-//   id, title, reference, equations       text
-//   parameters                            its card (simulate/parameter.hpp)
-//   states                                number of own state variables
-//   template <class T> force(p, s, in, below) -> T      force so far (0 for a law's incoming force) -> force
-//   template <class T> rate(p, s, in)      -> array<T, states>   time derivatives of its states (if states > 0)
-//   template <class T> stiffness(p, speed) -> T     bound of |d rate / d state| in 1/s at |velocity| <= speed
-//   (likewise) template <class T> drive(p, s, in)     -> Input<T>   what the parts below see (optional)
-//   settles                                index of a state that |state| = 1 bounds and holds, as a hysteresis that has
-//                                          yielded, while what drives it keeps its sign: steps need not resolve it then
-//                                          (optional)
-//   template <class T> towards(p, s, in)   -> T     with settles: what drives it, the velocity where it is left out
-//   template <class T> slack(p)            -> T     with settles: bound as stiffness of the other states meanwhile;
-//                                          zero where it is left out
-//   template <class T> stiffness_near(p, s, v, speed, change) -> T     with settles: a closer bound while the velocity,
-//                                          now v, stays below speed and within change of v (optional)
-// A rate that needs the force below has `loaded_rate(p, s, in, below)` in place of `rate`. A series element, behind
-// which everything nearer to the law is deflected, has one state q and in place of rate, stiffness and force
-//   template <class T> yield(p, q)         -> Yield<T>
-// A part that changes the drive before the laws of the parameters are evaluated has
-//   template <class T> excite(p, memory, elapsed, drive) -> T    (array<T, 2> memory, see below)
-// and one that sees the drive of another instant
-//   template <class T> recall(p, command) -> T
-// where p is std::array<T, parameter count> in the order of the card. What is known of an effect beside its equations
-// stands in its `knowledge` (simulate/knowledge.hpp).
+// behind it. A part is a struct whose members say what it does. A member is found by its name: one of another signature
+// does not compile, nor does a part without what goes with what it has (simulate/compile.hpp). All parts have
+//   id, title, reference, equations    text
+//   parameters                         the card (simulate/parameter.hpp)
+//   states                             number of own state variables
+// and functions, templates on the scalar T, of which a part has those that it needs, one at least. p is
+// std::array<T, parameter count> in the order of the card, s std::array<T, states>, in an Input<T>.
+//   force(p, s, in, below) -> T        the force; `below` is that of the parts below, 0 for a law. An effect without it
+//                                      lets the force pass
+//   drive(p, s, in)                    turns `in` into what the parts below see
+//   excite(p, memory, elapsed, drive) -> T    the drive that the laws of the parameters see, of the one recorded at a
+//                                      sample; std::array<T, excitation_memory> memory, see PartOperations
+//   recall(p, command) -> T            the drive of another instant, likewise, before any excite
+// A part with states has besides
+//   rate(p, s, in) -> array<T, states>         their time derivatives, or, where they depend on the force below,
+//   loaded_rate(p, s, in, below) -> array<T, states>
+//   stiffness(p, speed) -> T           bound of |d rate / d state| in 1/s at |velocity| <= speed
+// A part with a state that |state| = 1 bounds and holds, as a hysteresis that has yielded, while what drives it keeps
+// its sign, has besides, so that steps need not resolve it then,
+//   settles                            which state
+//   towards(p, s, in) -> T             what drives it: its sign counts
+//   slack(p) -> T                      with other states: bound as stiffness of those meanwhile
+//   stiffness_near(p, s, v, speed, change) -> T    optional: a closer bound as stiffness while the velocity, now v,
+//   stays
+//                                      below speed and within change of v
+// A series element, behind which everything nearer to the law is deflected, has one state q and only
+//   yield(p, q) -> Yield<T>
+// An effect may have besides
+//   starts                             eight values (Part::starts)
+//   knowledge                          what is known of it beside its equations (simulate/knowledge.hpp)
 #pragma once
 
 #include <array>
