@@ -42,11 +42,9 @@ std::string identifier(std::string_view text) {
 std::vector<ExportedLink> links_of(const ExportedModel& exported) {
   std::vector<ExportedLink> result;
   std::set<std::string> names;
-  std::size_t parameter = 0;
-  int state = 0;
   int memory = 0;
-  const auto add = [&](const Part& part) {
-    ExportedLink link{&part, equations_of(part), identifier(part.id), parameter, state, -1};
+  exported.model.for_links([&](const Link& at) {
+    ExportedLink link{at.part, equations_of(*at.part), identifier(at.part->id), at.parameter, at.state, -1};
     if (!names.insert(link.name).second) {
       link.name += "_" + std::to_string(result.size());
       names.insert(link.name);
@@ -60,14 +58,8 @@ std::vector<ExportedLink> links_of(const ExportedModel& exported) {
     if (link.equations.excite) {
       link.memory = memory++;
     }
-    parameter += part.parameters.size();
-    state += part.states;
     result.push_back(std::move(link));
-  };
-  add(*exported.model.law);
-  for (const Part* effect : exported.model.effects) {
-    add(*effect);
-  }
+  });
   for (const ExportedLink& link : result) {
     if (!link.equations.recall) {
       continue;

@@ -72,17 +72,12 @@ template <class T>
 class Excitation {
  public:
   explicit Excitation(const CompositeModel& model) {
-    std::size_t parameter = model.law->parameters.size();
-    for (const Part* effect : model.effects) {
+    model.for_links([this](const Link& link) {
+      const PartOperations<T>& part = link.part->on<T>();
       // Outermost first, but what recalls the recording before all.
-      if (effect->on<T>().recall != nullptr) {
-        recalls_.insert(recalls_.begin(), {effect->on<T>().recall, parameter});
-      }
-      if (effect->on<T>().excite != nullptr) {
-        parts_.insert(parts_.begin(), {effect->on<T>().excite, parameter, {}});
-      }
-      parameter += effect->parameters.size();
-    }
+      if (part.recall != nullptr) recalls_.insert(recalls_.begin(), {part.recall, link.parameter});
+      if (part.excite != nullptr) parts_.insert(parts_.begin(), {part.excite, link.parameter, {}});
+    });
   }
   [[nodiscard]] bool none() const { return recalls_.empty() && parts_.empty(); }
   // Drive that acts at a sample whose parameters at the recorded drive are p.
@@ -196,14 +191,11 @@ void lead_in(Target& target, const Recording& recording) {
 // Sum over the parts of their bounds of |d rate / d state|, 1/s. A series element has none of its own: its state is
 // solved for together with the force.
 double stiffness_bound(const CompositeModel& model, const double* p, double speed) {
-  double bound = model.law->states > 0 ? model.law->on_double.stiffness(p, speed) : 0.0;
-  std::size_t at = model.law->parameters.size();
-  for (const Part* effect : model.effects) {
-    if (effect->on_double.stiffness != nullptr) {
-      bound += effect->on_double.stiffness(p + at, speed);
-    }
-    at += effect->parameters.size();
-  }
+  double bound = 0.0;
+  model.for_links([&](const Link& link) {
+    const auto stiffness = link.part->on_double.stiffness;
+    if (stiffness != nullptr) bound += stiffness(p + link.parameter, speed);
+  });
   return bound;
 }
 

@@ -11,7 +11,6 @@
 namespace hysteron {
 namespace {
 
-constexpr std::size_t max_links = 9;
 // How much finer than their rate the steps of elements are: their knees are passed with a step on either side.
 constexpr double element_margin = 1.25;
 // Steps are this part of an interval at least: a shorter one at its end would be lost in rounding, and a step that gets
@@ -42,16 +41,12 @@ class Assembly {
   using Value = value_t<T>;
   static constexpr bool differentiates = !std::is_same_v<T, Value>;
 
-  Assembly(const CompositeModel& model, const Motion& motion) : motion_(motion) {
-    const auto add = [&](const Part& part) {
-      links_.push_back({&part.on<T>(), &part.on<Value>(), parameters_, states_, part.states});
-      parameters_ += part.parameters.size();
-      states_ += part.states;
-    };
-    add(*model.law);
-    for (const Part* effect : model.effects) {
-      add(*effect);
-    }
+  Assembly(const CompositeModel& model, const Motion& motion)
+      : motion_(motion), parameters_(model.parameter_count()), states_(model.states()) {
+    model.for_links([this](const hysteron::Link& link) {
+      const Part& part = *link.part;
+      links_.push_back({&part.on<T>(), &part.on<Value>(), link.parameter, link.state, part.states});
+    });
     values_.resize(parameters_);
     still_.resize(links_.size());
     moving_.resize(links_.size());
@@ -358,8 +353,8 @@ class Assembly {
 
   const Motion& motion_;
   std::vector<Link> links_;  // law first
-  std::size_t parameters_ = 0;
-  int states_ = 0;
+  std::size_t parameters_;
+  int states_;
   const T* p_ = nullptr;
   std::vector<Value> values_;
   std::vector<Value> still_;  // stiffness bound of a link = still + moving |v|
@@ -371,38 +366,9 @@ class Assembly {
 template <class T>
 struct Room {
   typename Assembly<T>::Start start{};
-  States<T> k2, k3, k4, trial, next;
+  detail::Stages<T, -1> stages;
+  States<T> next;
 };
-
-template <class T>
-void advance(const Assembly<T>& system, const value_t<T>& h, const Input<T>& middle, const Input<T>& end,
-             const States<T>& state, Room<T>& room) {
-  using Value = value_t<T>;
-  const auto count = static_cast<std::size_t>(system.states());
-  typename Assembly<T>::Start& start = room.start;
-  States<T>& k2 = room.k2;
-  States<T>& k3 = room.k3;
-  States<T>& k4 = room.k4;
-  States<T>& trial = room.trial;
-  States<T>& next = room.next;
-  const auto shift = [&](const Value& step, const States<T>& k) {
-    for (std::size_t i = 0; i < count; ++i) {
-      trial[i] = detail::scaled_sum(step, k[i], state[i]);
-    }
-  };
-  const Value half = Value(0.5) * h;
-  shift(half, start.rates);
-  system.rate(trial, middle, start.relief, k2);
-  shift(half, k2);
-  system.rate(trial, middle, start.relief, k3);
-  shift(h, k3);
-  system.rate(trial, end, start.relief, k4);
-  const Value sixth = Value(1.0 / 6.0) * h;
-  for (std::size_t i = 0; i < count; ++i) {
-    next[i] =
-        detail::scaled_sum(sixth, detail::scaled_sum(Value(2.0), k2[i] + k3[i], start.rates[i] + k4[i]), state[i]);
-  }
-}
 
 double acceleration_of(const MotionInterval& interval) {
   return detail::change_of_velocity(interval) / interval.length;
@@ -415,8 +381,7 @@ void march_segment(const Assembly<T>& system, const Motion& motion, std::size_t 
   using Value = value_t<T>;
   const MotionInterval& interval = motion.intervals[n];
   // The kinks are those of the laws: elements are smooth on the scale that their own stiffness tells.
-  const double coarse = detail::coarseness(motion, interval.length);
-  const double finer = detail::near_reversal(motion, n) ? std::max(motion.finer_at_reversals, coarse) : coarse;
+  const double finer = detail::fineness(motion, n);
   const double limit = motion.step_limit / interval.length;
   const Value shortest(std::max((to - from) / motion.most_substeps, least_progress));
   const Value little(1e-9 / (interval.length * (to - from)));
@@ -442,11 +407,15 @@ void march_segment(const Assembly<T>& system, const Motion& motion, std::size_t 
     step = select(step < left, step, left);  // all that is left for a lane with NaN
     const Value reached = select(step < left * Value(1.0 - 1e-9), theta + step, Value(to));
     const Value middle = fma(Value(0.5), step, theta);
-    advance<T>(system, step * Value(interval.length), detail::input_at<T>(motion, n, middle),
-               detail::input_at<T>(motion, n, reached), state, room);
-    const auto awake = (stiffness < start.stiffness) &
-                       (system.woken(start.rates, room.k2, little) | system.woken(start.rates, room.k3, little) |
-                        system.woken(start.rates, room.k4, little));
+    const auto rate = [&](const States<T>& s, const Input<T>& at, States<T>& rates) {
+      system.rate(s, at, start.relief, rates);
+    };
+    detail::advance<-1, T>(rate, system.states(), step * Value(interval.length), start.rates,
+                           detail::input_at<T>(motion, n, middle), detail::input_at<T>(motion, n, reached), state,
+                           room.stages, room.next);
+    const auto awake = (stiffness < start.stiffness) & (system.woken(start.rates, room.stages.k2, little) |
+                                                        system.woken(start.rates, room.stages.k3, little) |
+                                                        system.woken(start.rates, room.stages.k4, little));
     for (std::size_t i = 0; i < static_cast<std::size_t>(system.states()); ++i) {
       state[i] = select(active, select(awake, state[i], room.next[i]), state[i]);
     }
@@ -493,10 +462,11 @@ void march_assembly(const CompositeModel& model, const Motion& motion, const T* 
       detail::parameters_between(p + (n - begin) * stride, stride, between.data());
       system.set_parameters(between.data());
     }
-    march_segment<T>(system, motion, n, 0.0, interval.reversal_at, stride == 0, room, current);
-    if (interval.reversal) {
-      march_segment<T>(system, motion, n, interval.reversal_at, 1.0, false, room, current);
-    }
+    bool known = stride == 0;
+    detail::between_reversals(interval, [&](double from, double to) {
+      march_segment<T>(system, motion, n, from, to, known, room, current);
+      known = false;
+    });
   }
   std::copy_n(current.begin(), system.states(), state);
 }

@@ -11,9 +11,6 @@
 namespace hysteron {
 namespace {
 
-// A law and the effects behind it.
-constexpr std::size_t max_links = 9;
-
 // The chain at run time: drives act from the outermost effect inwards, forces from the law outwards.
 template <class T>
 struct Chain {
@@ -24,19 +21,12 @@ struct Chain {
     int states;
   };
   std::vector<Link> links;  // law first
-  int total = 0;
+  int total;
 
-  explicit Chain(const CompositeModel& model) {
-    std::size_t parameter = 0;
-    const auto add = [&](const Part& part) {
-      links.push_back({&part.on<T>(), parameter, total, part.states});
-      parameter += part.parameters.size();
-      total += part.states;
-    };
-    add(*model.law);
-    for (const Part* effect : model.effects) {
-      add(*effect);
-    }
+  explicit Chain(const CompositeModel& model) : total(model.states()) {
+    model.for_links([this](const hysteron::Link& link) {
+      links.push_back({&link.part->on<T>(), link.parameter, link.state, link.part->states});
+    });
   }
 
   [[nodiscard]] int states() const { return total; }
@@ -175,18 +165,14 @@ std::vector<std::string> CompositeModel::parameter_names() const {
 }
 
 std::size_t CompositeModel::parameter_count() const {
-  std::size_t count = law->parameters.size();
-  for (const Part* effect : effects) {
-    count += effect->parameters.size();
-  }
+  std::size_t count = 0;
+  for_links([&](const Link& link) { count += link.part->parameters.size(); });
   return count;
 }
 
 int CompositeModel::states() const {
-  int count = law->states;
-  for (const Part* effect : effects) {
-    count += effect->states;
-  }
+  int count = 0;
+  for_links([&](const Link& link) { count += link.part->states; });
   return count;
 }
 
@@ -201,14 +187,13 @@ void CompositeModel::march(const Motion& motion, const T* p, std::size_t stride,
       effects, [](const Part* effect) { return effect->states == 0 && effect->on<T>().drive == nullptr; });
   if (additive) {
     law->on<T>().march(motion, p, stride, begin, end, state, out);
-    std::size_t parameter = law->parameters.size();
-    for (const Part* effect : effects) {
+    for_links([&](const Link& link) {
+      if (link.part == law) return;
       for (std::size_t n = begin; n < end; ++n) {
-        effect->on<T>().force(p + (n - begin) * stride + parameter, state, detail::input_of_sample<T>(motion, n),
-                              out[n - begin]);
+        link.part->on<T>().force(p + (n - begin) * stride + link.parameter, state,
+                                 detail::input_of_sample<T>(motion, n), out[n - begin]);
       }
-      parameter += effect->parameters.size();
-    }
+    });
     return;
   }
   if (needs_assembly<T>(*this)) {

@@ -9,10 +9,30 @@
 
 namespace hysteron {
 
+// A law and the effects behind it.
+inline constexpr std::size_t max_links = 9;
+
+// A part in its place: where its own parameters and states begin among those of the model.
+struct Link {
+  const Part* part;
+  std::size_t parameter;
+  int state;
+};
+
 struct CompositeModel {
   const Part* law = nullptr;
   std::vector<const Part*> effects;  // nearest to the law first
 
+  // Hands every Link to `take`, the law first, then the effects from it outwards.
+  template <class Take>
+  void for_links(Take&& take) const {
+    Link link{law, 0, 0};
+    take(link);
+    for (const Part* effect : effects) {
+      link = {effect, link.parameter + link.part->parameters.size(), link.state + link.part->states};
+      take(link);
+    }
+  }
   // Parameters of the law, then of the effects in order; effect parameters are named "effect-id.name".
   [[nodiscard]] std::vector<Parameter> parameters() const;
   [[nodiscard]] std::vector<std::string> parameter_names() const;

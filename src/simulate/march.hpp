@@ -176,33 +176,52 @@ inline double change_of_velocity(const MotionInterval& interval) {
          (n + 1 < motion.intervals.size() && motion.intervals[n + 1].reversal);
 }
 
-// One step of length h from `state`, whose rates k1 are, into `next`; rate(state, input, rates).
-template <int N, class T, class Rate>
-[[gnu::always_inline]] inline void advance(const Rate& rate, int states, const value_t<T>& h,
-                                           const StateArray<T, N>& k1, const Input<T>& at_middle,
-                                           const Input<T>& at_end, const StateArray<T, N>& state,
-                                           StateArray<T, N>& next) {
-  using Value = value_t<T>;
-  const Value half = Value(0.5) * h;
-  const Value sixth = Value(1.0 / 6.0) * h;
+// Rates within a step, and the states they are taken at.
+template <class T, int N>
+struct Stages {
   StateArray<T, N> k2;
   StateArray<T, N> k3;
   StateArray<T, N> k4;
   StateArray<T, N> trial;
+};
+
+// One step of length h from `state`, whose rates k1 are, into `next`; rate(state, input, rates).
+template <int N, class T, class Rate>
+[[gnu::always_inline]] inline void advance(const Rate& rate, int states, const value_t<T>& h,
+                                           const StateArray<T, N>& k1, const Input<T>& at_middle,
+                                           const Input<T>& at_end, const StateArray<T, N>& state, Stages<T, N>& stages,
+                                           StateArray<T, N>& next) {
+  using Value = value_t<T>;
+  const Value half = Value(0.5) * h;
+  const Value sixth = Value(1.0 / 6.0) * h;
   const auto shift = [&](const Value& step, const StateArray<T, N>& k) __attribute__((always_inline)) {
     for_states<N>(
-        states, [&](auto i) __attribute__((always_inline)) { trial[i] = scaled_sum(step, k[i], state[i]); });
+        states, [&](auto i) __attribute__((always_inline)) { stages.trial[i] = scaled_sum(step, k[i], state[i]); });
   };
   shift(half, k1);
-  rate(trial, at_middle, k2);
-  shift(half, k2);
-  rate(trial, at_middle, k3);
-  shift(h, k3);
-  rate(trial, at_end, k4);
+  rate(stages.trial, at_middle, stages.k2);
+  shift(half, stages.k2);
+  rate(stages.trial, at_middle, stages.k3);
+  shift(h, stages.k3);
+  rate(stages.trial, at_end, stages.k4);
   for_states<N>(
       states, [&](auto i) __attribute__((always_inline)) {
-        next[i] = scaled_sum(sixth, scaled_sum(Value(2.0), k2[i] + k3[i], k1[i] + k4[i]), state[i]);
+        const T between = stages.k2[i] + stages.k3[i];
+        next[i] = scaled_sum(sixth, scaled_sum(Value(2.0), between, k1[i] + stages.k4[i]), state[i]);
       });
+}
+
+// How much finer than smooth equations need the sub-steps of interval n are.
+inline double fineness(const Motion& motion, std::size_t n) {
+  const double coarse = coarseness(motion, motion.intervals[n].length);
+  return near_reversal(motion, n) ? std::max(motion.finer_at_reversals, coarse) : coarse;
+}
+
+// The parts of interval n that are marched one after the other, up to a reversal and from it: march_part(from, to).
+template <class MarchPart>
+[[gnu::always_inline]] inline void between_reversals(const MotionInterval& interval, const MarchPart& march_part) {
+  march_part(0.0, interval.reversal_at);
+  if (interval.reversal) march_part(interval.reversal_at, 1.0);
 }
 
 // The part [from, from + span] of interval n.
@@ -254,7 +273,8 @@ template <int N, class T, class Rate>
     if (k > 0 || known == nullptr) {
       active_rate(state, input(theta), k1);
     }
-    advance<N, T>(active_rate, states, h, k1, input(middle), input(end), state, next);
+    Stages<T, N> stages;
+    advance<N, T>(active_rate, states, h, k1, input(middle), input(end), state, stages, next);
     for_states<N>(
         states, [&](auto i) __attribute__((always_inline)) { state[i] = select(active, next[i], state[i]); });
     theta = end;
@@ -331,8 +351,7 @@ template <class T, class Chain>
   const Parameters<T, Chain> copy(parameters);
   const T* p = copy.data();
   const Segment segment{motion, n, from, to - from};
-  const double coarse = coarseness(motion, segment.interval().length);
-  const double finer = near_reversal(motion, n) ? std::max(motion.finer_at_reversals, coarse) : coarse;
+  const double finer = fineness(motion, n);
   const value_t<T> count = segment.count(system.stiffness(p, segment.interval().speed), finer);
   StateArray<T, N> state;
   for_states<N>(
@@ -409,18 +428,17 @@ template <class T, class Chain>
       if (single && !near_reversal(motion, n)) {
         StateArray<T, N> k1;
         StateArray<T, N> next;
+        Stages<T, N> stages;
         rate(state, start, k1);
         advance<N, T>(rate, states, Value(interval.length), k1, input_stored<T>(motion, n, 0.5, interval.middle),
-                      input_stored<T>(motion, n, 1.0, interval.end), state, next);
+                      input_stored<T>(motion, n, 1.0, interval.end), state, stages, next);
         for_states<N>(
             states, [&](auto i) __attribute__((always_inline)) { state[i] = next[i]; });
         continue;
       }
       store();
-      march_segment<T>(system, motion, n, 0.0, interval.reversal_at, parameters, result);
-      if (interval.reversal) {
-        march_segment<T>(system, motion, n, interval.reversal_at, 1.0, parameters, result);
-      }
+      between_reversals(
+          interval, [&](double from, double to) { march_segment<T>(system, motion, n, from, to, parameters, result); });
       load();
     }
   }
