@@ -1,0 +1,28 @@
+#include "fit/predict.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+#include "fit/march_target.hpp"
+
+namespace hysteron {
+
+std::vector<double> predict(const CompositeModel& model, const std::vector<double>& held,
+                            const std::vector<Term>& terms, const Target& target) {
+  Target motion_only = target;
+  motion_only.force.resize(target.motion.time.size());
+  std::vector<double> force(motion_only.force.size());
+  march_target<double>(
+      model, motion_only,
+      [&](double drive, double* p) {
+        const std::vector<double> values = parameters_at(held, terms, drive, target.frequency);
+        std::ranges::copy(values, p);
+      },
+      [&](std::size_t begin, std::size_t count, const double* out) {
+        std::memcpy(force.data() + begin, out, count * sizeof(double));
+      },
+      [](std::size_t, std::size_t, const double*) {});
+  return force;
+}
+
+}  // namespace hysteron

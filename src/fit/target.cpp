@@ -1,0 +1,125 @@
+#include "fit/target.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "core/drive.hpp"
+#include "fit/layout.hpp"
+#include "fit/mean.hpp"
+#include "fit/start.hpp"
+
+namespace hysteron {
+
+namespace {
+
+Motion motion_of(const Recording& recording, double tolerance) {
+  return make_motion(recording.time, recording.displacement, recording.velocity, quiet_drive(recording.drive),
+                     tolerance, recording.derived_acceleration);
+}
+
+// The period to march beforehand, if any, so that the recording goes on from its end.
+void lead_in(Target& target, const Recording& recording) {
+  target.preroll = start_of(recording) == Start::from_nothing ? 0 : returns_after(recording, target.frequency);
+  if (target.preroll == 0) {
+    return;
+  }
+  target.lead_in = target.motion;
+  const std::size_t count = std::min(target.preroll + 1, recording.size());
+  for (std::vector<double>* channel : {&target.lead_in.time, &target.lead_in.x, &target.lead_in.v, &target.lead_in.a,
+                                       &target.lead_in.jerk, &target.lead_in.drive}) {
+    channel->resize(std::min(count, channel->size()));
+  }
+  target.lead_in.intervals.resize(count - 1);
+  target.motion.lead = target.lead_in.time.back();
+}
+
+// Samples a first look keeps: enough for the parameters, and for the shape of every period.
+constexpr std::size_t screening_samples = 200;
+constexpr double screening_samples_of_a_period = 100.0;
+
+std::size_t screening_stride(const Recording& recording, double frequency) {
+  const double step = (recording.time.back() - recording.time.front()) / static_cast<double>(recording.size() - 1);
+  const double of_period = frequency > 0.0 ? 1.0 / (frequency * step * screening_samples_of_a_period) : 1.0;
+  return std::max<std::size_t>(
+      1, std::min(recording.size() / screening_samples, static_cast<std::size_t>(std::min(of_period, 1e6))));
+}
+
+// Whether the first force is far from the mean one: a motion that turns just there comes from somewhere, and brings its
+// hysteresis along.
+bool loaded_at_start(const Recording& recording) {
+  constexpr std::size_t first = 5;
+  constexpr double far = 0.1;  // of the largest force
+  if (recording.force.size() < 4 * first) {
+    return false;
+  }
+  const auto mean = [](auto from, auto to) { return std::accumulate(from, to, 0.0) / static_cast<double>(to - from); };
+  const double all = mean(recording.force.begin(), recording.force.end());
+  const double start = mean(recording.force.begin(), recording.force.begin() + first);
+  double largest = 0.0;
+  for (const double force : recording.force) {
+    largest = std::max(largest, std::fabs(force - all));
+  }
+  return std::fabs(start - all) > far * largest;
+}
+
+// Samples until a motion that is under way at the first one has travelled a quarter of its range, by when hysteresis
+// has forgotten where it started; 0 for a start from rest, and never more than a third of the recording.
+std::size_t run_in_samples(const Recording& recording) {
+  double peak = 0.0;
+  for (const double velocity : recording.velocity) {
+    peak = std::max(peak, std::fabs(velocity));
+  }
+  if (std::fabs(recording.velocity[0]) < 0.02 * peak && !loaded_at_start(recording)) {
+    return 0;
+  }
+  const auto [low, high] = std::ranges::minmax(recording.displacement);
+  double travelled = 0.0;
+  std::size_t n = 0;
+  while (n + 1 < recording.size() / 3 && travelled < 0.25 * (high - low)) {
+    ++n;
+    travelled += std::fabs(recording.displacement[n] - recording.displacement[n - 1]);
+  }
+  return n;
+}
+
+}  // namespace
+
+Target make_target(const Recording& recording, const ObjectiveOptions& options) {
+  Target target;
+  target.motion = motion_of(recording, options.tolerance);
+  target.force = recording.force;
+  target.frequency = dominant_frequency(recording);
+  if (!recording.drive.empty()) {
+    target.drive = mean_of(recording.drive);
+    target.drive_varies = drive_varies(recording);
+  }
+  lead_in(target, recording);
+  if (options.comparing) {
+    target.lead_in = comparing_motion(std::move(target.lead_in));
+    target.motion = comparing_motion(std::move(target.motion));
+  }
+  if (options.skip_run_in && target.preroll == 0) {
+    target.run_in = run_in_samples(recording);
+  }
+  return target;
+}
+
+Target make_screening_target(const Target& full, const Recording& whole, const ObjectiveOptions& options) {
+  const Recording recording = every_kth(whole, screening_stride(whole, full.frequency));
+  Target target = full;
+  target.motion = motion_of(recording, options.tolerance);
+  target.preroll = 0;
+  if (full.preroll > 0) {
+    lead_in(target, recording);
+    target.lead_in = screening_motion(std::move(target.lead_in));
+  }
+  target.motion = screening_motion(std::move(target.motion));
+  target.force = recording.force;
+  target.run_in = full.run_in * target.force.size() / full.force.size();
+  target.weight *=
+      static_cast<double>(full.force.size() - full.run_in) / static_cast<double>(target.force.size() - target.run_in);
+  return target;
+}
+
+}  // namespace hysteron
