@@ -1,6 +1,8 @@
 # cmake -DINPUT=file -DOUTPUT=file.cpp -DNAME=function -DHEADER=header -DNAMESPACE=namespace -P embed.cmake
-# As web/embed.cmake, for any header and namespace.
+# Writes a C++ source with a function that returns the bytes of INPUT, declared by HEADER in NAMESPACE. An array of
+# numbers, not a string literal: any byte is allowed and no compiler's limit on the length of literals matters.
 file(READ "${INPUT}" hex HEX)
+# CMake's regular expressions have no {n}; 32 dots cut the digits into lines of 16 bytes.
 string(REPEAT "." 32 line)
 string(REGEX REPLACE "(${line})" "\\1\n" hex "${hex}")
 string(REGEX REPLACE "([0-9a-f][0-9a-f])" "0x\\1," hex "${hex}")

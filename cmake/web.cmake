@@ -37,13 +37,15 @@ else()
     VERBATIM)
 endif()
 
+set(_hysteron_embed_script "${CMAKE_CURRENT_LIST_DIR}/embed.cmake")
 set(HYSTERON_WEB_SOURCES "")
 function(_hysteron_embed name input)
   set(output "${HYSTERON_WEB_BUILD_DIR}/${name}.cpp")
   add_custom_command(
     OUTPUT "${output}"
-    COMMAND ${CMAKE_COMMAND} "-DINPUT=${input}" "-DOUTPUT=${output}" "-DNAME=${name}" -P "${HYSTERON_WEB_DIR}/embed.cmake"
-    DEPENDS "${input}" "${HYSTERON_WEB_DIR}/embed.cmake"
+    COMMAND ${CMAKE_COMMAND} "-DINPUT=${input}" "-DOUTPUT=${output}" "-DNAME=${name}" -DHEADER=report/web_assets.hpp
+            -DNAMESPACE=hysteron::web -P "${_hysteron_embed_script}"
+    DEPENDS "${input}" "${_hysteron_embed_script}"
     COMMENT "Embedding ${name}"
     VERBATIM)
   set(HYSTERON_WEB_SOURCES ${HYSTERON_WEB_SOURCES} "${output}" PARENT_SCOPE)
