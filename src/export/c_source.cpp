@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 
+#include "export/pieces.hpp"
 #include "export/runtime.hpp"
 #include "export/writer.hpp"
 
@@ -39,14 +40,7 @@ std::string function(const ExportedLink& link, const std::string& kind, const st
     signature += (signature.empty() ? "" : ", ") + declaration + name;
   }
   std::string body;
-  std::vector<int> parameters;
-  for (const ArgumentNumber& used : statements.used) {
-    if (used.argument == Argument::parameter) {
-      parameters.push_back(used.index);
-    }
-  }
-  std::ranges::sort(parameters);
-  for (const int k : parameters) {
+  for (const int k : parameters_used(statements)) {
     body += fmt::format("  const double {} = p[{}];\n",
                         parameter_identifier(link.part->parameters[static_cast<std::size_t>(k)]), k);
   }
@@ -54,12 +48,11 @@ std::string function(const ExportedLink& link, const std::string& kind, const st
     body += "  " + line + "\n";
   }
   static constexpr const char* yield_members[] = {"deflection", "slope", "bend", "gain", "hold", "width"};
-  static constexpr const char* motion_members[] = {"x", "v", "drive", "time", "age", "a", "jerk"};
   std::string stores;
   for (const Statements::Result& result : statements.results) {
     std::string target;
     if (kind == "drive") {
-      const char* member = motion_members[static_cast<int>(result.target.argument) - static_cast<int>(Argument::x)];
+      const char* member = motion_member(result.target.argument);
       body += fmt::format("  const double new_{} = {};\n", member, result.expression);
       stores += fmt::format("  in->{0} = new_{0};\n", member);
     } else if (kind == "rate") {
@@ -179,25 +172,8 @@ std::string parameters_at(const ExportedModel& exported) {
   const std::vector<Parameter> cards = exported.model.parameters();
   const std::vector<std::string> names = exported.model.parameter_names();
   for (std::size_t k = 0; k < cards.size(); ++k) {
-    std::string value;
-    for (const Term& term : exported.terms) {
-      if (term.parameter != k) {
-        continue;
-      }
-      std::string product = literal(term.value);
-      for (int power = 0; power < term.drive_power; ++power) {
-        product += " * drive";
-      }
-      for (int power = 0; power < term.frequency_power; ++power) {
-        product += " * frequency";
-      }
-      value += (value.empty() ? "" : " + ") + product;
-    }
-    if (value.empty()) {
-      value = literal(exported.held[k]);
-    }
-    text +=
-        fmt::format("  p[{}] = {}; /* {} [{}]: {} */\n", k, value, names[k], cards[k].unit, quoted(cards[k].meaning));
+    text += fmt::format("  p[{}] = {}; /* {} [{}]: {} */\n", k, expression_of_parameter(exported, k), names[k],
+                        cards[k].unit, quoted(cards[k].meaning));
   }
   if (!exported.follows_drive()) {
     text += "  (void)drive;\n";
@@ -298,18 +274,7 @@ std::string with_name(std::string_view text, const std::string& name) {
 CSource c_source(const ExportedModel& exported, const TestVector& vector) {
   const std::vector<ExportedLink> links = links_of(exported);
   const int states = exported.model.states();
-  const bool series = std::ranges::any_of(
-      links, [](const ExportedLink& link) { return link.equations.yield.has_value() || link.equations.loaded; });
-  const bool recalls =
-      std::ranges::any_of(links, [](const ExportedLink& link) { return link.equations.recall.has_value(); });
-  const bool settles = std::ranges::any_of(links, [](const ExportedLink& link) { return link.equations.settles >= 0; });
-  const bool alone = std::ranges::all_of(links.begin() + 1, links.end(), [](const ExportedLink& link) {
-    return link.part->states == 0 && !link.equations.drive;
-  });
-  int memories = 0;
-  for (const ExportedLink& link : links) {
-    memories += link.memory >= 0 ? 1 : 0;
-  }
+  const auto [series, settles, recalls, alone, memories] = facts_of(links);
   CSource result;
   result.header = with_name(runtime::header_h(), exported.name);
   const std::pair<const char*, std::string> numbers[] = {
@@ -379,23 +344,17 @@ ExportedFiles c_files(const ExportedModel& exported, const TestVector& vector) {
   const auto table = [](const std::vector<TestSample>& samples) {
     std::string text;
     for (const TestSample& s : samples) {
-      text += fmt::format("    {{{}, {}, {}, {}, {}, {}, {}}},\n", literal(s.time), literal(s.displacement),
-                          literal(s.velocity), literal(s.slope), literal(s.acceleration), literal(s.jerk),
-                          literal(s.drive));
+      text += "    {" + literals(s) + "},\n";
     }
     return text;
   };
-  std::string force;
-  for (const double f : vector.force) {
-    force += fmt::format("    {},\n", literal(f));
-  }
   std::string test = with_name(runtime::test_c(), exported.name);
   test = replaced(test, "@frequency@", literal(vector.frequency));
   test = replaced(test, "@lead_in_count@", std::to_string(vector.lead_in.size()));
   test = replaced(test, "@lead_in@", vector.lead_in.empty() ? "    {0, 0, 0, 0, 0, 0, 0},\n" : table(vector.lead_in));
   test = replaced(test, "@count@", std::to_string(vector.samples.size()));
   test = replaced(test, "@samples@", table(vector.samples));
-  test = replaced(test, "@force@", force);
+  test = replaced(test, "@force@", lines_of(vector.force));
   return {
       {exported.name + ".h", source.header}, {exported.name + ".c", source.source}, {exported.name + "_test.c", test}};
 }

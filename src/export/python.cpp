@@ -1,8 +1,7 @@
 // Python: one module of the same equations, nothing but the standard library, and one that replays a test vector.
 #include <fmt/format.h>
 
-#include <algorithm>
-
+#include "export/pieces.hpp"
 #include "export/runtime.hpp"
 #include "export/targets.hpp"
 #include "export/writer.hpp"
@@ -17,29 +16,20 @@ std::string function(const ExportedLink& link, const std::string& kind, const st
                      const Function& code) {
   const Statements statements = write_statements(code, link.part->parameters, Language::python);
   std::string text = fmt::format("\n\ndef {}_{}({}):\n", link.name, kind, arguments);
-  std::vector<int> parameters;
-  for (const ArgumentNumber& used : statements.used) {
-    if (used.argument == Argument::parameter) {
-      parameters.push_back(used.index);
-    }
-  }
-  std::ranges::sort(parameters);
-  for (const int k : parameters) {
+  for (const int k : parameters_used(statements)) {
     text +=
         fmt::format("    {} = p[{}]\n", parameter_identifier(link.part->parameters[static_cast<std::size_t>(k)]), k);
   }
   for (const std::string& line : statements.lines) {
     text += "    " + line + "\n";
   }
-  static constexpr const char* motion_members[] = {"x", "v", "drive", "time", "age", "a", "jerk"};
   std::string targets;
   std::string values;
   std::string acting;
   for (const Statements::Result& result : statements.results) {
     std::string target;
     if (kind == "drive") {
-      target = std::string("seen.") +
-               motion_members[static_cast<int>(result.target.argument) - static_cast<int>(Argument::x)];
+      target = std::string("seen.") + motion_member(result.target.argument);
     } else if (result.target.argument == Argument::memory) {
       target = fmt::format("memory[{}]", result.target.index);
     } else if (kind.starts_with("excite")) {
@@ -107,22 +97,8 @@ std::string parameters_at(const ExportedModel& exported) {
   const std::vector<Parameter> cards = exported.model.parameters();
   const std::vector<std::string> names = exported.model.parameter_names();
   for (std::size_t k = 0; k < cards.size(); ++k) {
-    std::string value;
-    for (const Term& term : exported.terms) {
-      if (term.parameter != k) {
-        continue;
-      }
-      std::string product = literal(term.value);
-      for (int power = 0; power < term.drive_power; ++power) {
-        product += " * drive";
-      }
-      for (int power = 0; power < term.frequency_power; ++power) {
-        product += " * frequency";
-      }
-      value += (value.empty() ? "" : " + ") + product;
-    }
-    text += fmt::format("        {},  # {} [{}]: {}\n", value.empty() ? literal(exported.held[k]) : value, names[k],
-                        cards[k].unit, cards[k].meaning);
+    text += fmt::format("        {},  # {} [{}]: {}\n", expression_of_parameter(exported, k), names[k], cards[k].unit,
+                        cards[k].meaning);
   }
   return text + "    ]\n";
 }
@@ -158,9 +134,7 @@ std::string acting(const std::vector<ExportedLink>& links) {
 std::string rows(const std::vector<TestSample>& samples) {
   std::string text;
   for (const TestSample& s : samples) {
-    text +=
-        fmt::format("    ({}, {}, {}, {}, {}, {}, {}),\n", literal(s.time), literal(s.displacement),
-                    literal(s.velocity), literal(s.slope), literal(s.acceleration), literal(s.jerk), literal(s.drive));
+    text += "    (" + literals(s) + "),\n";
   }
   return text;
 }
@@ -169,16 +143,9 @@ std::string rows(const std::vector<TestSample>& samples) {
 
 Export export_python(const ExportedModel& exported, const TestVector& vector) {
   const std::vector<ExportedLink> links = links_of(exported);
-  const auto any_link = [&](auto holds) { return std::ranges::any_of(links, holds); };
-  const bool series = any_link([](const ExportedLink& link) { return link.equations.yield || link.equations.loaded; });
-  const bool settles = any_link([](const ExportedLink& link) { return link.equations.settles >= 0; });
-  const bool alone = std::ranges::all_of(links.begin() + 1, links.end(), [](const ExportedLink& link) {
-    return link.part->states == 0 && !link.equations.drive;
-  });
-  int memories = 0;
+  const ChainFacts facts = facts_of(links);
   std::string equations;
   for (const ExportedLink& link : links) {
-    memories += link.memory >= 0 ? 1 : 0;
     equations += functions_of(link);
   }
   std::string text(runtime::python_py());
@@ -187,13 +154,13 @@ Export export_python(const ExportedModel& exported, const TestVector& vector) {
       {"@title@", quoted(exported.title())},
       {"@frequency@", literal(vector.frequency)},
       {"@states@", std::to_string(exported.model.states())},
-      {"@settles@", truth(settles)},
-      {"@alone@", truth(alone)},
-      {"@series@", truth(series)},
+      {"@settles@", truth(facts.settles)},
+      {"@alone@", truth(facts.alone)},
+      {"@series@", truth(facts.series)},
       {"@step_limit@", literal(make_motion({}, {}, {}, {}, exported.tolerance).step_limit)},
       {"@most_substeps@", std::to_string(exported.most_substeps)},
       {"@substeps@", std::to_string(exported.substeps)},
-      {"@memories@", std::to_string(memories)},
+      {"@memories@", std::to_string(facts.memories)},
       {"@equations@", equations},
       {"@links@", table_of(links)},
       {"@parameters_at@", parameters_at(exported)},
@@ -201,16 +168,12 @@ Export export_python(const ExportedModel& exported, const TestVector& vector) {
   for (const auto& [what, with] : pieces) {
     text = replaced(text, what, with);
   }
-  std::string force;
-  for (const double f : vector.force) {
-    force += fmt::format("    {},\n", literal(f));
-  }
   std::string test(runtime::python_test_py());
   test = replaced(test, "@name@", exported.name);
   test = replaced(test, "@frequency@", literal(vector.frequency));
   test = replaced(test, "@lead_in@", rows(vector.lead_in));
   test = replaced(test, "@samples@", rows(vector.samples));
-  test = replaced(test, "@force@", force);
+  test = replaced(test, "@force@", lines_of(vector.force));
   return {{{exported.name + ".py", text}, {exported.name + "_test.py", test}},
           "replay: python3 " + exported.name + "_test.py in that folder"};
 }
