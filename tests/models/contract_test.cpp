@@ -379,6 +379,16 @@ TEST(Limits, NonlinearBiviscousSlopes) {
   EXPECT_NEAR(at(-0.2), -1000.0 * 0.2 - 400.0, 1e-9);
 }
 
+TEST(Limits, BinghamMaxwellRelaxesToBingham) {
+  const CompositeModel model = make_model("bingham-maxwell", {});
+  const Vector p = with(model, {{"fc", 400.0}, {"c0", 1000.0}, {"f0", 30.0}, {"lambda", 0.02}});
+  const Series motion = ramp(0.1, 500.0, 0.3);
+  const Vector force = simulate(model, motion.motion(), p);
+  for (std::size_t n = 0; n < motion.size(); ++n) {
+    EXPECT_NEAR(force[n], 400.0 + 1000.0 * 0.1 * (1.0 - std::exp(-motion.time[n] / 0.02)) + 30.0, 1e-3);
+  }
+}
+
 TEST(Limits, ExtendedBinghamFlowsAsBinghamAtSteadyVelocity) {
   const CompositeModel model = make_model("extended-bingham", {});
   const Vector p = with(model, {{"fc", 400.0}, {"c0", 1000.0}, {"f0", 30.0}});
