@@ -173,10 +173,20 @@ TEST(Features, ALawThatHasTheEffectAsAPartOfItsOwnIsNoDoubtOfIt) {
   EXPECT_EQ(features_of(evidence.candidates[0], evidence)[at], 1.0);
 }
 
-TEST(AsGood, WhatIsNoWorseWithinTwoStandardErrors) {
+TEST(Comparison, FewClustersAskForMoreThanTwoStandardErrors) {
+  // Quantiles of Student's distribution where the normal one is at two: 2.649 with five degrees of freedom, 2.284 with
+  // ten.
+  EXPECT_FALSE((Comparison{0.264, 0.1, 1.0, 6}.surely_better()));
+  EXPECT_TRUE((Comparison{0.265, 0.1, 1.0, 6}.surely_better()));
+  EXPECT_FALSE((Comparison{0.228, 0.1, 1.0, 11}.surely_better()));
+  EXPECT_TRUE((Comparison{0.229, 0.1, 1.0, 11}.surely_better()));
+  EXPECT_TRUE((Comparison{0.201, 0.1, 1.0, 1000}.surely_better()));
+}
+
+TEST(AsGood, WhatIsNotSurelyWorse) {
   Evidence evidence = plain();
   Candidate& candidate = evidence.candidates[0];
-  candidate.contenders = {contender("sensor-delay", 0.95, 1.9, true), contender("compliance", 0.9, 2.1),
+  candidate.contenders = {contender("sensor-delay", 0.95, 1.9, true), contender("compliance", 0.9, 2.7),
                           contender("velocity-lag", 0.4, 0.5)};
   const std::vector<const Contender*> others = as_good(candidate);
   ASSERT_EQ(others.size(), 1U) << "told by the data, and never near";

@@ -31,6 +31,13 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Evidence, model, asked_for, recordings, base,
                                    base_compared, augmented_compared, further, richer_laws, augmented_over_base,
                                    other_laws, signatures, doubt_of_completeness, doubt_of_data)
 
+bool Comparison::surely_better() const {
+  // Quantile of Student's distribution for that of the normal at two, in powers of one over the degrees of freedom
+  // (Fisher and Cornish 1960).
+  const double few = clusters > 1 ? 1.0 / static_cast<double>(clusters - 1) : 1.0;
+  return z() > 2.0 + few * (2.5 + few * (3.0625 + few * 2.859375));
+}
+
 nlohmann::json evidence_json(const Evidence& evidence) { return evidence; }
 
 Evidence evidence_from(const nlohmann::json& json) { return json.get<Evidence>(); }

@@ -35,6 +35,9 @@ struct Comparison {
   std::size_t clusters = 0;
 
   [[nodiscard]] double z() const { return std_error > 0.0 ? mean / std_error : 0.0; }
+  // Whether it is above zero as surely as two standard errors of many clusters: of few, the error itself is not well
+  // known, and Student's distribution asks for more.
+  [[nodiscard]] bool surely_better() const;
 };
 
 // What was set in the place of a candidate.

@@ -61,7 +61,7 @@ std::vector<const Contender*> as_good(const Candidate& candidate) {
     if (row.law) {
       continue;
     }
-    const bool told = row.refitted && row.squares > 0.0 && row.behind.z() > surely;
+    const bool told = row.refitted && row.squares > 0.0 && row.behind.surely_better();
     const bool limit = row.held_by_the_candidate && !row.apart;
     // What holds the candidate as a limit always explains as much: it counts only where it is surely not at the limit.
     const bool idle = row.holds_the_candidate && !row.apart;
