@@ -35,9 +35,9 @@ function svgNode(markup) {
 }
 
 // Tables too wide for a phone stand there as one block a row, each cell beside its column's title.
-const stacked = (columns) => (columns.length > 3 ? "stack" : null);
+const stacked = (columns) => (columns.length > 3 || columns.some((c) => c.wide) ? "stack" : null);
 
-// columns: {title, num, pair (two numbers, which may stand below one another), head (cell is the row's header)}; cells are text or nodes.
+// columns: {title, num, wide (too long to stand beside others on a phone), pair (two numbers, which may stand below one another), head (cell is the row's header)}; cells are text or nodes.
 function plainTable(caption, columns, rows) {
   return el("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": caption },
     el("table", { class: stacked(columns) }, el("caption", {}, el("span", {}, caption)),
@@ -872,7 +872,7 @@ function shapesTable(augmented, named) {
   }
   const sizes = (rows) => list(rows).map((p) => `${p.name} = ${significant(p.value, 2)}${p.unit === "1" ? "" : `\u00a0${unitText(p.unit)}`}`).join(", ");
   return [el("h3", {}, "Not sure enough to name"), plainTable("Shapes with which the augmented model predicts better; none is offered as a cause",
-    [{ title: "Shape", head: true }, { title: "Probability that it is the cause", num: true }, { title: "Sizes", text: true }],
+    [{ title: "Shape", head: true }, { title: "Probability that it is the cause", num: true }, { title: "Sizes", text: true, wide: true }],
     shapes.map((s) => [s.title ? `${capital(s.title)} (${s.id})` : s.id, rounded(s.confidence), sizes(s.parameters) || "–"]))];
 }
 
