@@ -5,7 +5,7 @@
 // c0 = C, and lambda stands in place of the spring K = c0 / lambda, so that c0 enters the force linearly. sgn(v) is
 // rounded as in bingham, which this is for lambda -> 0.
 // Source: Makris, Burton, Taylor, Smart Mater. Struct. 5 (1996) 551-564, in the form of Butz, von Stryk, ZAMM 82 (2002)
-// 3-20.
+// 3-20. Neither was at hand when this was written: check the formula against them before relying on it.
 #include "models/cards.hpp"
 #include "simulate/compile.hpp"
 
