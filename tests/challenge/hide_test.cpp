@@ -13,6 +13,7 @@
 #include "io/campaign.hpp"
 #include "io/file.hpp"
 #include "io/output.hpp"
+#include "io/temporary_folder.hpp"
 #include "report/hidden.hpp"
 
 namespace hysteron::challenge {
@@ -205,12 +206,6 @@ TEST(Hide, SeveralAreOnePutInAfterTheOther) {
 
 class HideRun : public ::testing::Test {
  protected:
-  void SetUp() override {
-    std::filesystem::remove_all(out_);
-    std::filesystem::create_directories(out_);
-  }
-  void TearDown() override { std::filesystem::remove_all(out_); }
-
   Campaign campaign() const {
     Campaign result;
     result.recordings = two();
@@ -235,7 +230,8 @@ class HideRun : public ::testing::Test {
     write_file_atomically(out_ / "diagnoses" / name / "diagnosis.json", diagnosis.dump());
   }
 
-  std::filesystem::path out_ = std::filesystem::temp_directory_path() / "hysteron_hide_test";
+  const testing::TemporaryFolder folder_;
+  const std::filesystem::path out_ = folder_.path();
 };
 
 TEST_F(HideRun, WritesCampaignsThatDoNotTellAndScoresThem) {
