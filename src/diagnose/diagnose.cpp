@@ -245,8 +245,7 @@ struct Judgement {
   Verdict verdict;
 };
 
-// `every` holds all recordings, judging ones too: which belong together is no matter of how well a fit predicts.
-Judgement judged(Search found, const Workbench& bench, const Workbench& fine, const Workbench& every) {
+Judgement judged(Search found, const Workbench& bench, const Workbench& fine) {
   std::map<const Fit*, std::vector<Estimate>> estimates;  // fits are asked for several effects
   Judgement result{std::move(found), {}, {}, {}, {}, {}};
   result.contrasts = contrasts(fine.split().fit, fine.residuals(result.search.base).of);
@@ -261,11 +260,6 @@ Judgement judged(Search found, const Workbench& bench, const Workbench& fine, co
   result.evidence = evidence_of(result.search, fine, known);
   result.evidence.doubt_of_completeness = doubt_of_completeness(result.search, fine, result.surprising);
   result.evidence.doubt_of_data = doubt_of_velocity(bench.split().fit);
-  if (result.evidence.doubt_of_data.empty()) {
-    result.belonging = belonging_of(every, result.search.base, result.search.augmented);
-    result.evidence.doubt_of_data = mixed(result.belonging) ? sentence_of(*result.belonging) : std::string{};
-  }
-  result.verdict = verdict_of(result.evidence);
   return result;
 }
 
@@ -278,7 +272,16 @@ struct Searching {
   SearchOptions options;
 
   [[nodiscard]] Judgement behind(const std::string& law, const SearchProgress& progress) const {
-    return judged(search(quick, fine, {law, {}, {}}, options, progress), bench, fine, every);
+    return judged(search(quick, fine, {law, {}, {}}, options, progress), bench, fine);
+  }
+  // With whether the recordings belong together, judging ones too: that is no matter of how well a fit predicts.
+  [[nodiscard]] Judgement whole(Judgement judgement) const {
+    if (judgement.evidence.doubt_of_data.empty()) {
+      judgement.belonging = belonging_of(every, judgement.search.base, judgement.search.augmented);
+      judgement.evidence.doubt_of_data = mixed(judgement.belonging) ? sentence_of(*judgement.belonging) : std::string{};
+    }
+    judgement.verdict = verdict_of(judgement.evidence);
+    return judgement;
   }
 };
 
@@ -305,15 +308,14 @@ Judgement behind_asked_or_better(Searching searching, const std::string& asked, 
     });
   }
   if (!other) {
-    return first;
+    return searching.whole(std::move(first));
   }
-  Judgement& second = *other;
-  const std::vector<LeftOut> both = left_out(searching.fine, {&first.search.augmented, &second.search.augmented});
+  const std::vector<LeftOut> both = left_out(searching.fine, {&first.search.augmented, &other->search.augmented});
   if (block_score(both[0].predicted, both[1].predicted, noise_of(searching.fine)).z() < surely) {
-    return first;
+    return searching.whole(std::move(first));
   }
-  second.evidence.asked_for = asked;
-  second.verdict = verdict_of(second.evidence);
+  other->evidence.asked_for = asked;
+  Judgement second = searching.whole(std::move(*other));
   // Of the misfit of the law asked for, part of which the other law takes.
   const Left before = first.evidence.base;
   const double left = std::clamp(second.evidence.base.excess() / std::max(before.excess(), 1e-300), 0.0, 1.0);
@@ -329,7 +331,7 @@ Judgement behind_asked_or_better(Searching searching, const std::string& asked, 
       fmt::format("{} takes the place of {}, with which recordings left out are predicted worse: what is "
                   "named is missing behind {}",
                   law, asked, law));
-  return std::move(second);
+  return second;
 }
 
 // What is reported is of every sample at the tolerance asked for, and of the judging recordings, which nothing before

@@ -203,7 +203,6 @@ TEST(Cards, RelativesInTheOrderTheyAreTried) {
 }
 
 TEST(Cards, PlaceAndForm) {
-  EXPECT_EQ(effects_that(acts_in_a_part), (NameSet{"end-stop"}));
   EXPECT_EQ(effects_that(has_one_form), (NameSet{"offset-force", "linear-stiffness", "viscous-damping", "inertia"}));
 }
 

@@ -51,9 +51,8 @@ Evidence plain() {
   evidence.augmented_over_base = {1.5, 0.1, 1.0, 6};
   Candidate one;
   one.id = "inertia";
-  one.squares_without = evidence.base.squares;
   one.gain = 19.0 * floor_squares;
-  one.score = one.at_first = {1.5, 0.1, 1.0, 6};
+  one.score = {1.5, 0.1, 1.0, 6};
   one.gain_alone = one.gain;
   one.contenders = {contender("sensor-delay", 0.3, 10.0, true), contender("quadratic-damping", 0.1, 12.0)};
   one.kept = {1.0, 0.9};
@@ -300,9 +299,7 @@ TEST(Verdict, EveryCandidateIsNamedSuggestedOrDoubted) {
 }
 
 TEST(Evidence, AVerdictFollowsFromTheRecordedNumbers) {
-  Evidence evidence = plain();
-  evidence.candidates[0].locality_share = 0.1;
-  evidence.candidates[0].locality_gain = 12.0;
+  const Evidence evidence = plain();
   const nlohmann::json recorded = nlohmann::json::parse(evidence_json(evidence).dump());
   const Evidence again = evidence_from(recorded);
   EXPECT_EQ(evidence_json(again), recorded);

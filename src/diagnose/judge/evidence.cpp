@@ -1,17 +1,5 @@
 #include "diagnose/judge/evidence.hpp"
 
-namespace nlohmann {
-
-template <class T>
-struct adl_serializer<std::optional<T>> {
-  static void to_json(json& row, const std::optional<T>& value) { row = value ? json(*value) : json(nullptr); }
-  static void from_json(const json& row, std::optional<T>& value) {
-    value = row.is_null() ? std::nullopt : std::optional<T>(row.get<T>());
-  }
-};
-
-}  // namespace nlohmann
-
 namespace hysteron {
 
 // Each field stands in the record by its own name, and nowhere else in the code.
@@ -20,16 +8,15 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Left, squares, floor, white, structure, predi
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Comparison, mean, std_error, agreement, clusters)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Contender, id, law, kin, share, refitted, squares, behind, holds_the_candidate,
                                    held_by_the_candidate, apart, ended_as, follows_drive, as_channels)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Candidate, id, squares_without, gain, score, at_first, gain_alone, gain_of_relative,
-                                   contenders, kept, parameters, on_bound, part_of_the_law, one_form, as_channels,
-                                   locality_share, locality_gain)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Candidate, id, gain, score, gain_alone, gain_of_relative, contenders, kept,
+                                   parameters, on_bound, as_channels)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Signature, id, what, unit, value, std_error, z, consistency, placebo_quantile,
                                    recordings, speaks_for, sign)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(OtherLaw, model, squares, has_what_was_found, has)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FirstLook, id, gain, refitted)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Evidence, model, asked_for, recordings, base, augmented, first_stage, candidates,
-                                   base_compared, augmented_compared, further, richer_laws, augmented_over_base,
-                                   other_laws, signatures, doubt_of_completeness, doubt_of_data)
+                                   base_compared, augmented_compared, augmented_over_base, other_laws, signatures,
+                                   doubt_of_completeness, doubt_of_data)
 
 bool Comparison::surely_better() const {
   // Quantile of Student's distribution for that of the normal at two, in powers of one over the degrees of freedom

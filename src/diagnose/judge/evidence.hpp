@@ -4,7 +4,6 @@
 
 #include <cstdint>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -60,21 +59,15 @@ struct Contender {
 // An effect of the augmented model.
 struct Candidate {
   std::string id;
-  double squares_without = 0.0;       // of the augmented model less it, refitted
   double gain = 0.0;                  // squares without less squares with, over the same samples
   Comparison score;                   // with it over without it
-  Comparison at_first;                // alone behind the base, over the base
   double gain_alone = 0.0;            // alone behind the base
   double gain_of_relative = 0.0;      // the largest of the related effects that the augmented model has too
   std::vector<Contender> contenders;  // best first
   std::vector<double> kept;           // share of its gain behind other laws
   int parameters = 1;
-  int on_bound = 0;                      // of these, at an end of their box
-  bool part_of_the_law = false;          // the damper law has it as a parameter of its own
-  bool one_form = false;                 // a multiple of one channel: its form cannot be missed
-  bool as_channels = false;              // a lag of the velocity channel, and the one that the channels show
-  std::optional<double> locality_share;  // of an effect that acts in a part of the stroke: share of the samples there,
-  std::optional<double> locality_gain;   // what it takes off there over what stays there beyond the noise
+  int on_bound = 0;          // of these, at an end of their box
+  bool as_channels = false;  // a lag of the velocity channel, and the one that the channels show
 };
 
 // A signature contrast (residual/contrast.hpp) of what the base model leaves.
@@ -117,8 +110,6 @@ struct Evidence {
   std::vector<Candidate> candidates;   // strongest first
   double base_compared = 0.0;          // squares of base and augmented model, as other laws were compared with them
   double augmented_compared = 0.0;
-  double further = 0.0;  // squares that the best further effect would take off, to first order
-  int richer_laws = 0;
   Comparison augmented_over_base;
   std::vector<OtherLaw> other_laws;
   std::vector<Signature> signatures;

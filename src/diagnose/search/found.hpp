@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "diagnose/residual/locality.hpp"
 #include "diagnose/search/workbench.hpp"
 
 namespace hysteron {
@@ -24,7 +23,6 @@ struct Found {
   double gain = 0.0;  // squares without - squares with
   double evidence = 0.0;
   std::vector<Rival> rivals;               // best first
-  std::optional<Locality> locality = {};   // of an effect that acts in a part of the stroke
   std::optional<std::string> by_law = {};  // the parameter whose richer law in the drive shows the effect
 };
 

@@ -173,8 +173,6 @@ Evidence evidence_of(const Search& search, const Workbench& fine, const Circumst
   result.augmented = same ? result.base : left_of(search.misfit, fine, search.augmented);
   result.base_compared = squared(search.quick_base.cost);
   result.augmented_compared = squared(search.quick_augmented.cost);
-  result.further = search.further;
-  result.richer_laws = static_cast<int>(search.richer.size());
 
   for (const Tried& tried : search.first_stage) {
     result.first_stage.push_back({name_of(tried.part), tried.gain, tried.fit.has_value()});
@@ -190,35 +188,26 @@ Evidence evidence_of(const Search& search, const Workbench& fine, const Circumst
       looked.want(*rival->fit);
     }
   }
-  for (const Tried& tried : search.first_stage) {
-    if (tried.fit && std::ranges::any_of(search.found, [&](const Found& found) { return found.part == tried.part; })) {
-      looked.want(*tried.fit);
-    }
-  }
   looked.look(fine);
   const std::vector<double> noise = noise_of(fine);
   const LeftOut& base = *looked.find(search.base);
   const LeftOut& augmented = *looked.find(search.augmented);
-  const auto series = std::ranges::find_if(
-      search.found, [&](const Found& found) { return fine.beside(search.base, found.part).has_value(); });
-  result.augmented_over_base = comparison(
-      augmented, series == search.found.end() ? base : left_out_beside(fine, search.base, series->part), noise);
+  LeftOut before = base;
+  for (const Found& found : search.found) {
+    before = left_out_beside(fine, search.base, found.part, std::move(before));
+  }
+  result.augmented_over_base = comparison(augmented, before, noise);
 
   for (std::size_t k = 0; k < search.found.size(); ++k) {
     const Found& found = search.found[k];
-    const LeftOut without = fine.beside(found.without, found.part) ? left_out_beside(fine, found.without, found.part)
-                                                                   : *looked.find(found.without);
+    const LeftOut without = left_out_beside(fine, found.without, found.part, *looked.find(found.without));
     Candidate one;
     one.id = found.part.effect;
-    one.squares_without = without.squares;
     one.gain = without.squares - augmented.squares;
     one.score = comparison(augmented, without, noise);
     for (const Tried& tried : search.first_stage) {
       if (tried.part == found.part) {
         one.gain_alone = tried.gain;
-        if (tried.fit) {
-          one.at_first = comparison(*looked.find(*tried.fit), base, noise);
-        }
       }
     }
     const std::vector<const Rival*> close = close_rivals(found);
@@ -244,14 +233,7 @@ Evidence evidence_of(const Search& search, const Workbench& fine, const Circumst
     one.parameters = static_cast<int>(intervals.size());
     one.on_bound =
         static_cast<int>(std::ranges::count_if(intervals, [](const ParameterInterval& p) { return !p.bound.empty(); }));
-    one.part_of_the_law = is_part_of(one.id, result.model);
-    one.one_form = has_one_form(one.id);
     one.as_channels = one.id == channel_lag && as_channels_show(search.augmented, known);
-    if (found.locality) {
-      one.locality_share = found.locality->share;
-      one.locality_gain = (found.locality->before - found.locality->after) /
-                          std::max(found.locality->after - found.locality->noise, 1e-3 * found.locality->before);
-    }
     result.candidates.push_back(std::move(one));
   }
   for (Candidate& one : result.candidates) {

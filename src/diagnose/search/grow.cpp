@@ -83,8 +83,7 @@ void grow(Course& course, const std::vector<Extension>& effects, int most_effect
         return false;
       }
       after = left_out(course.bench, *one.fit);
-      const bool is_series = in_series(one.part.effect);
-      const LeftOut without = is_series ? left_out_beside(course.bench, course.current, one.part) : before;
+      const LeftOut without = left_out_beside(course.bench, course.current, one.part, before);
       return worth(one, course.current, count, block_score(without.predicted, after->predicted, course.noise),
                    is_far(left));
     });

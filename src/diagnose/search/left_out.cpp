@@ -126,8 +126,7 @@ std::vector<LeftOut> left_out(const Workbench& bench, const std::vector<const Fi
   return result;
 }
 
-LeftOut left_out_beside(const Workbench& bench, const Fit& fit, const Extension& part) {
-  LeftOut plain = left_out(bench, fit);
+LeftOut left_out_beside(const Workbench& bench, const Fit& fit, const Extension& part, LeftOut plain) {
   if (const std::optional<Fit> neutral = bench.beside(fit, part)) {
     LeftOut other = left_out(bench, *neutral);
     return other.squares < plain.squares ? other : plain;

@@ -19,7 +19,8 @@ std::vector<LeftOut> left_out(const Workbench& bench, const std::vector<const Fi
 
 // Squared noise of each fitted recording over its normaliser^2: the floor of block_score.
 // Of a fit that `part` is then added to or was taken out of: with Workbench::beside, the one of both that leaves less.
-LeftOut left_out_beside(const Workbench& bench, const Fit& fit, const Extension& part);
+// `plain` is left_out of the fit.
+LeftOut left_out_beside(const Workbench& bench, const Fit& fit, const Extension& part, LeftOut plain);
 
 std::vector<double> noise_of(const Workbench& bench);
 

@@ -2,7 +2,6 @@
 // once and handed to them.
 #pragma once
 
-#include "diagnose/residual/locality.hpp"
 #include "diagnose/residual/misfit.hpp"
 #include "diagnose/residual/recurrence.hpp"
 #include "diagnose/search/workbench.hpp"
@@ -21,8 +20,5 @@ inline Drift drift_of(const Workbench& bench, const Fit& fit) {
   const Residuals residuals = bench.residuals(fit);
   return drift_of(bench.split().fit, residuals, bench.sensitivities(fit, residuals));
 }
-
-// `with` holds the effect, `without` is the same hypothesis less it. Nothing acts where `effect` is not in `with`.
-Locality locality_of(const Workbench& bench, const Fit& with, const Fit& without, const std::string& effect);
 
 }  // namespace hysteron

@@ -77,8 +77,6 @@ bool is_kin(const std::string& effect, const std::string& other) {
   return names(knowledge_of(effect).kin, other) || names(knowledge_of(other).kin, effect);
 }
 
-bool acts_in_a_part(const std::string& effect) { return knowledge_of(effect).acts == Acts::at_ends; }
-
 bool has_one_form(const std::string& effect) { return knowledge_of(effect).one_form; }
 
 bool is_limit(const std::string& effect, const std::string& wider) { return find_limit(effect, wider) != nullptr; }

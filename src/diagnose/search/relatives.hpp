@@ -18,9 +18,6 @@ const Knowledge& knowledge_of(std::string_view effect);
 std::vector<std::string> relatives(const std::string& id);
 bool is_kin(const std::string& effect, const std::string& other);
 
-// Whether the effect does exactly nothing but in a part of the stroke.
-bool acts_in_a_part(const std::string& effect);
-
 // Whether the effect's force is a multiple of one channel or a constant: such a form cannot be missed, so that what
 // stays beside it is not the remainder of its own.
 bool has_one_form(const std::string& effect);

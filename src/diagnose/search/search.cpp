@@ -76,11 +76,6 @@ Search search(const Workbench& bench, const Workbench& fine, const Hypothesis& b
   const Fit& current = course.current;
   result.independent = course.independent;
   result.quick_augmented = current;
-  for (Found& found : result.found) {
-    if (!found.part.is_law() && acts_in_a_part(found.part.effect)) {
-      found.locality = locality_of(bench, current, found.without, found.part.effect);
-    }
-  }
   result.misfit = misfit_of(fine, result.augmented);
   for (Found& found : result.found) {
     if (found.without.what == base) {
@@ -100,8 +95,6 @@ Search search(const Workbench& bench, const Workbench& fine, const Hypothesis& b
     if (best_law > squared(current.cost) || found.size() == 1) {
       result.swaps = swaps(bench, result.quick_base, result.other_laws, found, laws);
     }
-    const std::vector<Scored> next = scored(bench, current, effects);
-    result.further = next.empty() ? 0.0 : next.front().gain;
   }
   return result;
 }

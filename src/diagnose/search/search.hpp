@@ -26,7 +26,6 @@ struct Search {
   Fit quick_augmented;
   bool limited = false;            // few effects were looked for, as another law takes most of the misfit off
   double independent = 0.0;        // samples there
-  double further = 0.0;            // squares that the best further extension would take off, to first order
   std::vector<Tried> first_stage;  // every extension of the base, best first
   std::vector<Fit> other_laws;     // other base laws without effects
   std::vector<Swap> swaps;         // behind these; `without` in the order of `found`

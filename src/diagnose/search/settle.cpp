@@ -150,8 +150,9 @@ std::vector<Found> worth_their_place(Course& course) {
     const bool far = is_far(misfit_of(course.bench, course.current));
     for (const Extension& part : extensions_of(course.current.what)) {
       Found found = taken_out(course, part.is_law() ? law_extension({part.parameters.front()}) : part);
-      const BlockScore score =
-          block_score(left_out_beside(course.bench, found.without, part).predicted, with.predicted, course.noise);
+      const BlockScore score = block_score(
+          left_out_beside(course.bench, found.without, part, left_out(course.bench, found.without)).predicted,
+          with.predicted, course.noise);
       if (!worth_keeping(found.evidence, found.gain, squared(found.without.cost), score, far)) {
         course.current = found.without;
         dropped = true;
@@ -214,7 +215,7 @@ std::vector<Found>::const_iterator unconfirmed(const Workbench& fine, const Fit&
   }
   const double with = left_out(fine, augmented).squares;
   return std::ranges::find_if(found, [&](const Found& one) {
-    const double without = left_out_beside(fine, one.without, one.part).squares;
+    const double without = left_out_beside(fine, one.without, one.part, left_out(fine, one.without)).squares;
     return without - with < least_gain_of_a_place * without;
   });
 }
