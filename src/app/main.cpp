@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "app/command.hpp"
+#include "app/mistyped.hpp"
 #include "core/error.hpp"
 #include "core/printable.hpp"
 #include "mpi/mpi_peers.hpp"
@@ -36,7 +37,8 @@ int run(int count, char** arguments) {
   app::catch_interrupts();
   CLI::App program{
       "Hysteron identifies damper models from recordings, compares identification algorithms, and finds missing "
-      "physics."};
+      "physics.",
+      "hysteron"};
   program.set_version_flag("--version", "hysteron " HYSTERON_VERSION);
   program.require_subcommand(1);
   std::vector<std::string> plugins;
@@ -74,13 +76,15 @@ int run(int count, char** arguments) {
   app::add_manual(program);
   try {
     load_plugins(count, arguments);
-    program.parse(count, arguments);
+    std::vector<std::string> words = app::understood(program, count, arguments);
+    std::ranges::reverse(words);  // CLI11 takes them from the end
+    program.parse(words);
   } catch (const CLI::Success& success) {
     return program.exit(success);
   } catch (const CLI::ParseError& error) {
     std::string message = error.what();
     std::ranges::replace(message, '\n', ' ');
-    complain(message + " (see hysteron --help)");
+    complain(message + " (" + app::see_help(program) + ")");
     return 2;
   } catch (const InputError& error) {
     complain(error.what());

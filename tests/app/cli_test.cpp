@@ -261,6 +261,46 @@ TEST_F(Program, HelpOfEveryCommandHasAnExample) {
   EXPECT_TRUE(version.out.starts_with("hysteron ")) << version.out;
 }
 
+TEST_F(Program, HelpAndVersionAsPeopleTypeThem) {
+  const std::string help = run({"--help"}).out;
+  const std::string of_fit = run({"fit", "--help"}).out;
+  const std::string version = run({"--version"}).out;
+  EXPECT_NE(help, of_fit);
+  struct Typed {
+    std::vector<std::string> words;
+    std::string out;
+  };
+  for (const Typed& typed : {Typed{{}, help}, Typed{{"help"}, help}, Typed{{"help", "fit"}, of_fit},
+                             Typed{{"version"}, version}, Typed{{"-h"}, help}}) {
+    const Outcome outcome = run(typed.words);
+    EXPECT_EQ(outcome.status, 0);
+    EXPECT_EQ(outcome.out, typed.out);
+    EXPECT_EQ(outcome.err, "");
+  }
+}
+
+TEST_F(Program, MistypedWordsAreToldWithTheNearestOne) {
+  struct Typed {
+    std::vector<std::string> words;
+    std::string says;
+  };
+  const Typed cases[] = {
+      {{"fot", "data"}, "error: there is no command 'fot' (did you mean 'fit'?), see hysteron --help\n"},
+      {{"help", "dignose"}, "error: there is no command 'dignose' (did you mean 'diagnose'?), see hysteron --help\n"},
+      {{"fit", "data", "--budgt", "5"},
+       "error: fit has no option '--budgt' (did you mean '--budget'?), see hysteron fit --help\n"},
+      {{"fit", "data", "--budgt=5"},
+       "error: fit has no option '--budgt' (did you mean '--budget'?), see hysteron fit --help\n"},
+      {{"fit", "data"}, "error: --out is required (see hysteron fit --help)\n"},
+  };
+  for (const Typed& typed : cases) {
+    const Outcome outcome = run(typed.words);
+    EXPECT_EQ(outcome.status, 2);
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_EQ(outcome.err, typed.says);
+  }
+}
+
 // ---- Wrong input ----
 
 struct Wrong {
@@ -296,7 +336,6 @@ std::string spoiled(int row, const std::string& replacement) {
 
 std::vector<Wrong> wrong_command_lines() {
   return {
-      {"no command", {}},
       {"unknown command", {"fitt"}},
       {"unknown option", fit_with({"--budgets", "5"})},
       {"unknown model", {"fit", "data", "--model", "bouc-wem", "--out", "out"}},
