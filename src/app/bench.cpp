@@ -94,6 +94,7 @@ void run_together(const std::string& study, const std::string& out, RunOptions o
 void add_bench(CLI::App& program) {
   struct Options {
     std::string study;
+    std::vector<std::string> solver_commands;
     std::string out;
     std::string shard;
     int threads = 0;
@@ -108,6 +109,7 @@ void add_bench(CLI::App& program) {
   command->add_option("--threads", options->threads, "runs beside each other; 0 takes OMP_NUM_THREADS or all cores")
       ->transform(whole_number(0, 1024))
       ->capture_default_str();
+  add_solver_option(*command, options->solver_commands);
   command->add_option("--shard", options->shard, "I/N: only the I-th of N parts of the runs, see `hysteron merge`");
   command->add_flag("--dry-run", options->dry, "says what would be run and writes nothing");
   command->add_flag("--quiet", options->quiet, "no progress on standard error");
@@ -118,6 +120,7 @@ void add_bench(CLI::App& program) {
       "  mpirun -n 64 hysteron bench study.toml --out out\n"
       "Ctrl-C keeps the finished runs; the same command continues.");
   command->callback([options] {
+    add_solver_commands(options->solver_commands);
     RunOptions run;
     run.threads = options->threads;
     if (!options->shard.empty()) {

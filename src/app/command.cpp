@@ -11,9 +11,13 @@
 #include "app/values.hpp"
 #include "core/error.hpp"
 #include "core/printable.hpp"
+#include "fit/external_solver.hpp"
+#include "fit/line_program.hpp"
 #include "fit/parallel.hpp"
 #include "io/campaign.hpp"
 #include "io/campaign_file.hpp"
+#include "io/file.hpp"
+#include "io/sha256.hpp"
 
 namespace hysteron::app {
 namespace {
@@ -116,6 +120,28 @@ std::map<std::string, int> parse_orders(const std::string& option, const std::st
     begin = end + 1;
   }
   return result;
+}
+
+void add_solver_option(CLI::App& command, std::vector<std::string>& commands) {
+  command
+      .add_option("--solver-command", commands,
+                  "NAME=COMMAND: a solver that is a program of your own, see docs/own-solver.md; repeatable")
+      ->allow_extra_args(false);
+}
+
+void add_solver_commands(const std::vector<std::string>& commands) {
+  for (const std::string& text : commands) {
+    const std::size_t equals = text.find('=');
+    if (equals == std::string::npos || equals == 0) {
+      throw InputError("--solver-command: '" + text +
+                       "' is wrong, expected NAME=COMMAND, e.g. mine=\"python3 mine.py\"");
+    }
+    ExternalProgram program{words_of_command(text.substr(equals + 1)), {}};
+    for (const std::string& word : program.words) {
+      if (std::filesystem::is_regular_file(word)) program.files[word] = sha256_hex(read_file(word));
+    }
+    add_external_solver(text.substr(0, equals), std::move(program));
+  }
 }
 
 bool interrupted() { return interrupt_seen != 0; }

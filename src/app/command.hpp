@@ -38,6 +38,11 @@ ObjectiveOptions objective_options(const CommonOptions& options);
 // "alpha:1,c0:2" -> orders; InputError naming the option and the word that is wrong.
 std::map<std::string, int> parse_orders(const std::string& option, const std::string& text);
 
+// --solver-command NAME=COMMAND: solvers that are programs of the user's own (fit/external_solver.hpp), to be added
+// before their names are looked for.
+void add_solver_option(CLI::App& command, std::vector<std::string>& commands);
+void add_solver_commands(const std::vector<std::string>& commands);
+
 // Ends the program with a status, when all has been said: by another process where several work together.
 struct Ended {
   int status;
@@ -83,6 +88,7 @@ void add_score(CLI::App& program);
 void add_export(CLI::App& program);
 void add_manual(CLI::App& program);
 void add_profile(CLI::App& program);
+void add_minimise(CLI::App& program);
 void add_compare(CLI::App& program);
 void add_respond(CLI::App& program);
 void add_catalogue(CLI::App& program);

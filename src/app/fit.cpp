@@ -28,6 +28,7 @@ struct FitOptions {
   CommonOptions common;
   std::string model;
   std::vector<std::string> solvers;
+  std::vector<std::string> solver_commands;  // NAME=COMMAND
   std::vector<std::string> effects;
   std::size_t budget = 20000;
   std::string by_current;
@@ -59,6 +60,7 @@ std::pair<std::string, std::string> split_pair(const std::string& option, const 
 
 IdentifyOptions identify_options(const FitOptions& options, const Campaign& campaign) {
   IdentifyOptions result;
+  add_solver_commands(options.solver_commands);
   refuse_repeats("--solver", options.solvers);
   refuse_repeats("--effects", options.effects);
   if (!options.solvers.empty()) {
@@ -382,6 +384,7 @@ void add_fit(CLI::App& program) {
   command->add_option("--solver", options->solvers, "solvers, compared when several; default multistart-lm")
       ->delimiter(',')
       ->allow_extra_args(false);
+  add_solver_option(*command, options->solver_commands);
   command->add_option("--budget", options->budget, "evaluations each solver may use")
       ->transform(whole_number(1, 1000000000))
       ->capture_default_str();
@@ -407,7 +410,8 @@ void add_fit(CLI::App& program) {
   command->footer(
       "Example:\n  hysteron fit recordings/ --model bouc-wen --by-current alpha:1,c0:1 --out out\n"
       "  hysteron fit recordings/ --model modified-bouc-wen --effects offset-force --solver pso,ga,multistart-lm --out "
-      "out");
+      "out\n"
+      "  hysteron fit recordings/ --model bouc-wen --solver mine --solver-command \"mine=python3 mine.py\" --out out");
   command->callback([options] { run(*options); });
 }
 

@@ -51,7 +51,8 @@ int run(int count, char** arguments) {
       "  hysteron generate rd8040-twin --only 2.0Hz --out twin\n"
       "  hysteron fit twin --model bouc-wen --by-current alpha:2,c0:2 --out out\n"
       "  hysteron diagnose twin --model bouc-wen --by-current alpha:2,c0:2 --out diagnosis\n"
-      "The last two write report.html, a page to open. With recordings of your own, a folder of CSV files takes the place\n"
+      "The last two write report.html, a page to open. With recordings of your own, a folder of CSV files takes the "
+      "place\n"
       "of twin. Every command has its own --help, with examples.");
   // Of several processes with one command line the first speaks.
   const auto started = launched();
@@ -72,6 +73,7 @@ int run(int count, char** arguments) {
   app::add_report(program);
   app::add_merge(program);
   app::add_reproduce(program);
+  app::add_minimise(program);
   app::add_profile(program);
   app::add_manual(program);
   try {

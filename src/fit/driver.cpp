@@ -119,7 +119,12 @@ RunResult run_solver(const SolverEntry& entry, const Problem& problem, const Eva
     return result;
   };
   while (true) {
-    Request request = solver->ask();
+    Request request;
+    try {
+      request = solver->ask();
+    } catch (const Stopped&) {  // while a program of the user's own was waited for
+      return end("interrupted");
+    }
     if (request.points.empty()) {
       return end(solver->stopped_because());
     }

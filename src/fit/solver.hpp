@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -119,7 +120,7 @@ struct SolverEntry {
   std::string_view description;  // a few lines: operators, deviations from the source
   bool uses_derivatives = false;
   std::span<const Setting> settings;
-  std::unique_ptr<Solver> (*make)(const Problem&) = nullptr;
+  std::function<std::unique_ptr<Solver>(const Problem&)> make;
   // A family (id "nlopt:*") has its members instead of a maker: one entry each, found by their own ids.
   std::span<const SolverEntry* const> (*members)() = nullptr;
 };

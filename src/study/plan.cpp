@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "datasets/dataset.hpp"
+#include "fit/external_solver.hpp"
 #include "io/campaign.hpp"
 #include "io/sha256.hpp"
 
@@ -182,6 +183,10 @@ Plan make_plan(const Study& study, const std::string& version) {
                          {"start", study.start == StartPoint::card ? "card" : "random"},
                          {"version", version}};
           if (study.solvers[s].project) config["project"] = true;
+          if (const ExternalProgram* program = external_program(study.solvers[s].id)) {
+            config["program"] = program->words;
+            config["program_files"] = program->files;
+          }
           PlannedRun run;
           run.config = config.dump();
           run.key = sha256_hex(run.config);

@@ -1,0 +1,258 @@
+// hysteron minimise: the solvers on an objective of the user's own, a program that is told points and answers with
+// their costs, by lines of JSON (docs/own-solver.md).
+#include <fmt/format.h>
+
+#include <cmath>
+#include <memory>
+
+#include "app/command.hpp"
+#include "app/values.hpp"
+#include "core/error.hpp"
+#include "core/suggest.hpp"
+#include "fit/driver.hpp"
+#include "fit/line_program.hpp"
+#include "io/output.hpp"
+#include "report/terminal.hpp"
+
+namespace hysteron::app {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::size_t most_shown = 80;
+
+struct Options {
+  std::string objective;
+  std::vector<std::string> box;  // NAME=LOWER:UPPER
+  std::vector<std::string> solvers{"cma-es"};
+  std::vector<std::string> settings;
+  std::size_t budget = 1000;
+  std::uint64_t seed = 1;
+  std::string out;
+  bool quiet = false;
+};
+
+struct Coordinate {
+  std::string name;
+  double lower = 0.0;
+  double upper = 1.0;
+
+  [[nodiscard]] double at(double unit) const { return lower + unit * (upper - lower); }
+};
+
+double number_in(const std::string& text, const std::string& whole) {
+  const char* begin = text.c_str();
+  char* end = nullptr;
+  const double value = std::strtod(begin, &end);
+  if (end == begin || *end != '\0' || !std::isfinite(value)) {
+    throw InputError("--box: '" + whole + "' is wrong, expected NAME=LOWER:UPPER, e.g. stiffness=0:1e5");
+  }
+  return value;
+}
+
+std::vector<Coordinate> box_of(const std::vector<std::string>& words) {
+  std::vector<Coordinate> result;
+  for (const std::string& word : words) {
+    const std::size_t equals = word.find('=');
+    const std::size_t colon = word.find(':', equals == std::string::npos ? 0 : equals);
+    if (equals == std::string::npos || equals == 0 || colon == std::string::npos) number_in("", word);
+    Coordinate one{word.substr(0, equals), number_in(word.substr(equals + 1, colon - equals - 1), word),
+                   number_in(word.substr(colon + 1), word)};
+    if (!(one.lower < one.upper)) throw InputError("--box: '" + word + "' is empty, expected LOWER below UPPER");
+    for (const Coordinate& other : result) {
+      if (other.name == one.name) throw InputError("--box: '" + one.name + "' is given twice, expected each once");
+    }
+    result.push_back(std::move(one));
+  }
+  return result;
+}
+
+std::map<std::string, double> settings_of(const std::vector<std::string>& words) {
+  std::map<std::string, double> result;
+  for (const std::string& word : words) {
+    const std::size_t equals = word.find('=');
+    const std::string number = equals == std::string::npos ? "" : word.substr(equals + 1);
+    char* end = nullptr;
+    const double value = std::strtod(number.c_str(), &end);
+    if (equals == 0 || number.empty() || *end != '\0' || !std::isfinite(value)) {
+      throw InputError("--set: '" + word + "' is wrong, expected SETTING=NUMBER, see `hysteron describe SOLVER`");
+    }
+    if (!result.emplace(word.substr(0, equals), value).second) {
+      throw InputError("--set: '" + word.substr(0, equals) + "' is given twice, expected each setting once");
+    }
+  }
+  return result;
+}
+
+const SolverEntry& solver_of(const std::string& id) {
+  const SolverEntry* entry = find_solver(id);
+  if (entry == nullptr) {
+    std::vector<std::string> known;
+    for (const SolverEntry* one : solver_catalogue()) known.emplace_back(one->id);
+    throw InputError("--solver: unknown solver '" + id + "'" + suggestion(id, known) + ", see `hysteron list solvers`");
+  }
+  if (entry->uses_derivatives) {
+    throw InputError("--solver: '" + id + "' asks for derivatives, which a program does not give, expected another");
+  }
+  return *entry;
+}
+
+// The user's program.
+class Objective {
+ public:
+  Objective(const std::string& command, const std::vector<Coordinate>& box)
+      : box_(box), program_(words_of_command(command)) {
+    json begin = {{"protocol", "hysteron.evaluate/1"}, {"parameters", json::array()}};
+    for (const Coordinate& one : box) {
+      begin["parameters"].push_back({{"name", one.name}, {"lower", one.lower}, {"upper", one.upper}});
+    }
+    program_.write(begin.dump());
+  }
+
+  Response evaluate(const Request& request) {
+    if (request.derivatives || request.window) {
+      throw InputError("--solver: this one follows recordings, which there are none of, expected another");
+    }
+    const std::size_t d = box_.size();
+    json points = json::array();
+    for (std::size_t k = 0; k < request.points.size(); k += d) {
+      json row = json::array();
+      for (std::size_t c = 0; c < d; ++c) row.push_back(box_[c].at(request.points[k + c]));
+      points.push_back(std::move(row));
+    }
+    program_.write(json{{"evaluate", points}}.dump());
+    const std::string line = program_.read();
+    const json answer = json::parse(line, nullptr, false);
+    const auto wrong = [&](const std::string& expected) {
+      return WorkError("the objective printed '" + line.substr(0, most_shown) +
+                       (line.size() > most_shown ? "...'" : "'") + ", expected " + expected);
+    };
+    if (!answer.is_object() || !answer.contains("costs") || !answer.at("costs").is_array()) {
+      throw wrong(R"({"costs": [...]})");
+    }
+    const json& costs = answer.at("costs");
+    if (costs.size() != points.size()) {
+      throw wrong(fmt::format("{} costs, got {}", points.size(), costs.size()));
+    }
+    Response response;
+    for (const json& cost : costs) {
+      if (!cost.is_number() && !cost.is_null()) throw wrong("numbers, or null where there is no cost");
+      response.cost.push_back(cost.is_null() ? diverged_cost : std::min(cost.get<double>(), diverged_cost));
+    }
+    return response;
+  }
+
+ private:
+  const std::vector<Coordinate>& box_;
+  LineProgram program_;
+};
+
+json record_of(const RunResult& run, const std::vector<Coordinate>& box) {
+  json parameters = json::object();
+  for (std::size_t c = 0; c < run.best.size(); ++c) parameters[box[c].name] = box[c].at(run.best[c]);
+  json trace = json::array();
+  for (const TracePoint& point : run.trace) {
+    if (point.best < diverged_cost) trace.push_back({point.evaluations, point.best});
+  }
+  const bool found = !run.best.empty() && run.cost < diverged_cost;
+  return {{"solver", run.solver},
+          {"cost", found ? json(run.cost) : json()},
+          {"parameters", found ? parameters : json::object()},
+          {"evaluations", run.evaluations},
+          {"without_cost", run.diverged},
+          {"stopped", run.stopped},
+          {"trace", trace}};
+}
+
+void run(const Options& options) {
+  const std::vector<Coordinate> box = box_of(options.box);
+  refuse_repeats("--solver", options.solvers);
+  std::vector<const SolverEntry*> entries;
+  for (const std::string& id : options.solvers) entries.push_back(&solver_of(id));
+  const std::map<std::string, double> settings = settings_of(options.settings);
+  json record = {{"schema", "hysteron.minimum/1"},
+                 {"command", command_line()},
+                 {"seed", options.seed},
+                 {"budget", options.budget},
+                 {"runs", json::array()}};
+  std::vector<std::string> head{"solver", "cost", "evaluations"};
+  for (const Coordinate& one : box) head.push_back(one.name);
+  std::vector<std::vector<std::string>> rows;
+  bool found = false;
+  ProgressLine progress(options.quiet);
+  for (const SolverEntry* entry : entries) {
+    Objective objective(options.objective, box);
+    Problem problem;
+    problem.dimension = box.size();
+    problem.budget = options.budget;
+    problem.linear.assign(box.size(), false);
+    // Without the solver's name: solvers that draw a first population alike draw the same one.
+    problem.stream = Stream(options.seed).child("minimise");
+    for (const auto& [name, value] : settings) {
+      const bool knows = std::ranges::any_of(entry->settings, [&](const Setting& one) { return one.name == name; });
+      if (knows) problem.settings[name] = value;
+      if (!knows && entries.size() == 1) {
+        throw InputError("--set: '" + options.solvers.front() + "' has no setting '" + name +
+                         "', see `hysteron describe " + options.solvers.front() + "`");
+      }
+    }
+    const RunResult result = run_solver(
+        *entry, problem, [&](const Request& request) { return objective.evaluate(request); },
+        [&](const RunResult& now) {
+          progress.show(std::string(entry->id), static_cast<double>(now.evaluations) / static_cast<double>(now.budget),
+                        fmt::format("{} of {} evaluations, best {:.6g}", now.evaluations, now.budget, now.cost));
+          return !interrupted();
+        });
+    progress.finish();
+    record["runs"].push_back(record_of(result, box));
+    const json& parameters = record["runs"].back()["parameters"];
+    std::vector<std::string> row{result.solver, parameters.empty() ? "none" : fmt::format("{:.9g}", result.cost),
+                                 std::to_string(result.evaluations)};
+    for (const Coordinate& one : box) {
+      row.push_back(parameters.empty() ? "" : fmt::format("{:.9g}", parameters.at(one.name).get<double>()));
+    }
+    rows.push_back(std::move(row));
+    found = found || !parameters.empty();
+    if (interrupted()) break;
+  }
+  if (!options.out.empty()) write_file_atomically(options.out, json_text(record));
+  fmt::print("{}", table(head, rows));
+  if (!found) throw WorkError("the objective gave no point a cost");
+}
+
+}  // namespace
+
+void add_minimise(CLI::App& program) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command =
+      program.add_subcommand("minimise", "the solvers on an objective of your own, a program in any language");
+  command
+      ->add_option("--objective", options->objective,
+                   "program that reads points and prints their costs, see docs/own-solver.md")
+      ->required();
+  command->add_option("--box", options->box, "NAME=LOWER:UPPER of each parameter")
+      ->required()
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  command->add_option("--solver", options->solvers, "solvers, compared when several")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->capture_default_str();
+  command->add_option("--budget", options->budget, "evaluations each solver may use")
+      ->transform(whole_number(1, 1000000000))
+      ->capture_default_str();
+  command->add_option("--set", options->settings, "SETTING=NUMBER of the solver; repeatable")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  command->add_option("--seed", options->seed, "seed of every random stream")
+      ->transform(seed_number())
+      ->capture_default_str();
+  command->add_option("--out", options->out, "JSON file to write");
+  command->add_flag("--quiet", options->quiet, "no progress on standard error");
+  command->footer(
+      "Example:\n  hysteron minimise --objective \"python3 examples/solver/objective.py\" --box x=-2:2,y=-1:3 "
+      "--solver cma-es,pso --budget 2000");
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace hysteron::app

@@ -1,0 +1,167 @@
+#include "fit/line_program.hpp"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <pthread.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+#include <thread>
+
+#include "core/error.hpp"
+#include "fit/solver.hpp"
+
+extern char** environ;
+
+namespace hysteron {
+namespace {
+
+constexpr std::size_t longest_line = std::size_t{1} << 28;
+constexpr int waits = 200;
+constexpr std::chrono::milliseconds wait{10};
+
+// A pipe that ends for its reader is an error of writing it here, not a signal that ends the program.
+class NoPipeSignal {
+ public:
+  NoPipeSignal() {
+    sigemptyset(&pipe_);
+    sigaddset(&pipe_, SIGPIPE);
+    pthread_sigmask(SIG_BLOCK, &pipe_, &before_);
+  }
+  ~NoPipeSignal() {
+    const timespec none{};
+    while (sigtimedwait(&pipe_, nullptr, &none) == -1 && errno == EINTR) {
+    }
+    pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+  }
+  NoPipeSignal(const NoPipeSignal&) = delete;
+  NoPipeSignal& operator=(const NoPipeSignal&) = delete;
+  NoPipeSignal(NoPipeSignal&&) = delete;
+  NoPipeSignal& operator=(NoPipeSignal&&) = delete;
+
+ private:
+  sigset_t pipe_{};
+  sigset_t before_{};
+};
+
+}  // namespace
+
+std::vector<std::string> words_of_command(const std::string& command) {
+  std::vector<std::string> words;
+  bool within = false;
+  char quote = 0;
+  for (std::size_t k = 0; k < command.size(); ++k) {
+    const char c = command[k];
+    if (quote == 0 && (c == ' ' || c == '\t')) {
+      within = false;
+      continue;
+    }
+    if (!within) {
+      words.emplace_back();
+      within = true;
+    }
+    if (quote == 0 && (c == '\'' || c == '"')) {
+      quote = c;
+    } else if (c == quote && quote != 0) {
+      quote = 0;
+    } else if (c == '\\' && quote != '\'' && k + 1 < command.size()) {
+      words.back() += command[++k];
+    } else {
+      words.back() += c;
+    }
+  }
+  if (quote != 0) throw InputError("command '" + command + "': a quote is not closed");
+  if (words.empty() || words.front().empty()) {
+    throw InputError("command '" + command + "' is empty, expected a program and its words");
+  }
+  return words;
+}
+
+LineProgram::LineProgram(const std::vector<std::string>& words) : words_(words) {
+  std::array<int, 2> in{};
+  std::array<int, 2> out{};
+  if (pipe2(in.data(), O_CLOEXEC) != 0) throw WorkError("no pipe to " + name() + ": " + std::strerror(errno));
+  if (pipe2(out.data(), O_CLOEXEC) != 0) {
+    close(in[0]);
+    close(in[1]);
+    throw WorkError("no pipe from " + name() + ": " + std::strerror(errno));
+  }
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_adddup2(&actions, in[0], STDIN_FILENO);
+  posix_spawn_file_actions_adddup2(&actions, out[1], STDOUT_FILENO);
+  std::vector<char*> arguments;
+  for (std::string& word : words_) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  const int failed = posix_spawnp(&child_, arguments.front(), &actions, nullptr, arguments.data(), environ);
+  posix_spawn_file_actions_destroy(&actions);
+  close(in[0]);
+  close(out[1]);
+  to_ = in[1];
+  from_ = out[0];
+  if (failed != 0) {
+    close(to_);
+    close(from_);
+    throw InputError(name() + " cannot be started: " + std::strerror(failed) + ", expected a program in PATH");
+  }
+}
+
+LineProgram::~LineProgram() {
+  close(to_);
+  close(from_);
+  for (int k = 0; k < waits; ++k) {
+    if (waitpid(child_, nullptr, WNOHANG) != 0) return;
+    std::this_thread::sleep_for(wait);
+  }
+  kill(child_, SIGKILL);
+  while (waitpid(child_, nullptr, 0) == -1 && errno == EINTR) {
+  }
+}
+
+void LineProgram::write(const std::string& line) {
+  const NoPipeSignal guard;
+  const std::string text = line + "\n";
+  std::size_t written = 0;
+  while (written < text.size()) {
+    const ssize_t count = ::write(to_, text.data() + written, text.size() - written);
+    if (count >= 0) {
+      written += static_cast<std::size_t>(count);
+    } else if (errno == EINTR) {
+      throw Stopped{};
+    } else {
+      throw WorkError(name() + " reads no more (" + std::strerror(errno) + "): what it said is above, if anything");
+    }
+  }
+}
+
+std::string LineProgram::read() {
+  while (true) {
+    const std::size_t end = pending_.find('\n');
+    if (end != std::string::npos) {
+      std::string line = pending_.substr(0, end);
+      pending_.erase(0, end + 1);
+      if (line.find_first_not_of(" \t\r") != std::string::npos) return line;
+      continue;
+    }
+    if (pending_.size() > longest_line) throw WorkError(name() + " printed a line of more than 256 MB");
+    std::array<char, 65536> buffer{};
+    const ssize_t count = ::read(from_, buffer.data(), buffer.size());
+    if (count > 0) {
+      pending_.append(buffer.data(), static_cast<std::size_t>(count));
+    } else if (count == 0) {
+      throw WorkError(name() + " ended without an answer: what it said is above, if anything");
+    } else if (errno == EINTR) {
+      throw Stopped{};
+    } else {
+      throw WorkError(name() + " cannot be read: " + std::strerror(errno));
+    }
+  }
+}
+
+}  // namespace hysteron

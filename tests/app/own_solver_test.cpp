@@ -1,0 +1,201 @@
+// Solvers and objectives that are programs of the user's own. The programs are small shell and Python ones; every test
+// runs HYSTERON_PROGRAM in a temporary folder of its own.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "app/program_fixture.hpp"
+
+namespace hysteron {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using testing::Outcome;
+using testing::Program;
+using testing::read;
+using testing::write;
+
+const std::string examples = HYSTERON_SOURCE_DIR "/examples/solver/";
+
+class OwnSolver : public Program {
+ protected:
+  // A shell script that speaks for a solver.
+  std::string script(const std::string& text) {
+    write(folder_ / "solver.sh", text);
+    return "mine=sh solver.sh";
+  }
+  Outcome fitted(const std::string& command, const std::string& budget = "50") {
+    return run({"fit", "data", "--model", "viscous", "--solver", "mine", "--solver-command", command, "--budget",
+                budget, "--quiet", "--out", "out"});
+  }
+};
+
+TEST_F(OwnSolver, IsAskedAndToldWithinTheBudget) {
+  // What it is told is kept in a file.
+  const Outcome outcome = fitted(script("read first; echo \"$first\" > first.json\n"
+                                        "for k in 1 2 3 4; do\n"
+                                        "  echo '{\"ask\": [[0.1, 0.2, 0.3], [0.3, 0.4, 0.5], [0.5, 0.6, 0.7]]}'\n"
+                                        "  read answer || exit 0\n"
+                                        "  echo \"$answer\" >> told.json\n"
+                                        "done\n"),
+                                 "8");
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const json first = json::parse(read(folder_ / "first.json"));
+  EXPECT_EQ(first.at("protocol"), "hysteron.ask-tell/1");
+  EXPECT_EQ(first.at("dimension"), 3);
+  EXPECT_EQ(first.at("budget"), 8);
+  EXPECT_LT(first.at("seed").get<double>(), 2147483648.0);
+  const json fit = json::parse(read(folder_ / "out/fit.json"));
+  const json& solver = fit.at("solvers").at(0);
+  EXPECT_EQ(solver.at("id"), "mine");
+  EXPECT_EQ(solver.at("evaluations"), 8);
+  EXPECT_EQ(solver.at("stopped"), "budget");
+  // Two answers of three costs; the last question was answered in part and ended the run.
+  const std::string told = read(folder_ / "told.json");
+  ASSERT_EQ(std::ranges::count(told, '\n'), 2);
+  const json costs = json::parse(told.substr(0, told.find('\n'))).at("tell");
+  ASSERT_EQ(costs.size(), 3U);
+  double least = 1e300;
+  for (const json& cost : costs) least = std::min(least, cost.get<double>());
+  EXPECT_EQ(solver.at("cost").get<double>(), least);
+}
+
+TEST_F(OwnSolver, MayEndByItself) {
+  const Outcome outcome =
+      fitted(script("read first; echo '{\"ask\": [[0.1, 0.2, 0.3]]}'; read answer\n"
+                    "echo; echo '{\"stop\": \"near enough\"}'\n"));
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(json::parse(read(folder_ / "out/fit.json")).at("solvers").at(0).at("stopped"), "near enough");
+}
+
+TEST_F(OwnSolver, WhatItSaysWronglyIsOneLine) {
+  struct Case {
+    std::string says;
+    std::string expected;
+  };
+  const Case cases[] = {
+      {"hello",
+       "solver 'mine' printed 'hello', expected {\"ask\": [[...], ...]} with at least one point, or {\"stop\": "
+       "\"why\"}"},
+      {"{\"ask\": []}",
+       "solver 'mine' printed '{\"ask\": []}', expected {\"ask\": [[...], ...]} with at least one point, "
+       "or {\"stop\": \"why\"}"},
+      {"{\"ask\": [[0.1]]}", "solver 'mine' printed '{\"ask\": [[0.1]]}', expected points of 3 numbers"},
+      {"{\"ask\": [[0.1, 0.2, 1.5]]}",
+       "solver 'mine' printed '{\"ask\": [[0.1, 0.2, 1.5]]}', expected coordinates from 0 to 1"},
+      {"{\"ask\": [[0.1, 0.2, null]]}",
+       "solver 'mine' printed '{\"ask\": [[0.1, 0.2, null]]}', expected coordinates from 0 to 1"},
+  };
+  for (const Case& one : cases) {
+    const Outcome outcome = fitted(script("read first; echo '" + one.says + "'; read answer\n"));
+    EXPECT_EQ(outcome.status, 1) << one.says;
+    EXPECT_EQ(outcome.err, "error: " + one.expected + "\n");
+    EXPECT_FALSE(fs::exists(folder_ / "out"));
+  }
+  const Outcome silent = fitted("mine=true");
+  EXPECT_EQ(silent.status, 1);
+  EXPECT_EQ(std::ranges::count(silent.err, '\n'), 1) << silent.err;
+}
+
+TEST_F(OwnSolver, WrongCommandsAreRefused) {
+  struct Case {
+    std::string command;
+    std::string says;
+  };
+  const Case cases[] = {
+      {"mine", "--solver-command: 'mine' is wrong, expected NAME=COMMAND"},
+      {"mine=", "command '' is empty"},
+      {"mine=sh 'open", "a quote is not closed"},
+      {"pso=true", "solver 'pso' exists already"},
+      {"mine=no-such-program-at-all", "'no-such-program-at-all' cannot be started"},
+  };
+  for (const Case& one : cases) {
+    const Outcome outcome = fitted(one.command);
+    EXPECT_EQ(outcome.status, 2) << one.command;
+    EXPECT_NE(outcome.err.find(one.says), std::string::npos) << outcome.err;
+    EXPECT_FALSE(fs::exists(folder_ / "out"));
+  }
+}
+
+TEST_F(OwnSolver, TheExampleRunsInAStudyToTheSameBytes) {
+  const auto study = [&](const std::string& out, const std::string& threads) {
+    const Outcome outcome = run({"bench", examples + "own-solver.toml", "--out", out, "--threads", threads, "--quiet",
+                                 "--solver-command", "random-walk=python3 " + examples + "random_walk.py"});
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_EQ(run({"report", out, "--out", out + "-report"}).status, 0);
+    return read(folder_ / (out + "-report") / "runs.csv");
+  };
+  const std::string one = study("one", "1");
+  EXPECT_EQ(std::ranges::count(one, '\n'), 1 + 2 * 3 * 5);
+  EXPECT_NE(one.find("random-walk"), std::string::npos);
+  EXPECT_EQ(study("two", "2"), one);
+}
+
+TEST_F(OwnSolver, AStudyAloneStartsNothing) {
+  const Outcome outcome = run({"bench", examples + "own-solver.toml", "--out", "out", "--quiet"});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_NE(outcome.err.find("unknown solver 'random-walk'"), std::string::npos) << outcome.err;
+}
+
+TEST_F(OwnSolver, OctaveSpeaksTheSameProtocol) {
+  if (std::system("command -v octave-cli > /dev/null") != 0) GTEST_SKIP() << "octave-cli is not installed";
+  const Outcome outcome = fitted("mine=octave-cli " + examples + "random_walk.m", "100");
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(json::parse(read(folder_ / "out/fit.json")).at("solvers").at(0).at("evaluations"), 100);
+}
+
+using Minimise = OwnSolver;
+
+TEST_F(Minimise, FindsTheMinimumOfAnObjectiveInPython) {
+  const Outcome outcome =
+      run({"minimise", "--objective", "python3 " + examples + "objective.py", "--box", "x=-2:2,y=-1:3", "--solver",
+           "cma-es,random-search", "--budget", "1000", "--quiet", "--out", "found.json"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const json found = json::parse(read(folder_ / "found.json"));
+  const json& best = found.at("runs").at(0);
+  EXPECT_EQ(best.at("evaluations"), 1000);
+  EXPECT_LT(best.at("cost").get<double>(), 1e-10);
+  EXPECT_NEAR(best.at("parameters").at("x").get<double>(), 1.0, 1e-4);
+  EXPECT_NEAR(best.at("parameters").at("y").get<double>(), 1.0, 1e-4);
+  EXPECT_EQ(best.at("trace").back().at(1), best.at("cost"));
+  EXPECT_GT(found.at("runs").at(1).at("cost").get<double>(), 1e-6);
+}
+
+TEST_F(Minimise, PointsWithoutACostAreNoSuccess) {
+  write(folder_ / "none.sh", "read first\nwhile read points; do echo '{\"costs\": [null]}'; done\n");
+  const Outcome outcome = run({"minimise", "--objective", "sh none.sh", "--box", "x=0:1", "--solver", "nelder-mead",
+                               "--budget", "1", "--quiet", "--out", "found.json"});
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_EQ(outcome.err, "error: the objective gave no point a cost\n");
+  EXPECT_EQ(json::parse(read(folder_ / "found.json")).at("runs").at(0).at("cost"), json());
+}
+
+TEST_F(Minimise, WrongWordsAreRefused) {
+  const std::string objective = "python3 " + examples + "objective.py";
+  const std::vector<std::vector<std::string>> cases = {
+      {"--box", "x"},
+      {"--box", "x=1"},
+      {"--box", "x=1:0"},
+      {"--box", "x=0:nan"},
+      {"--box", "x=0:1,x=0:1"},
+      {"--box", "x=0:1", "--solver", "psoo"},
+      {"--box", "=0:1"},
+      {"--box", "x=0:1", "--solver", "lm"},
+      {"--box", "x=0:1", "--set", "steps=5"},
+  };
+  for (std::vector<std::string> words : cases) {
+    words.insert(words.begin(), {"minimise", "--objective", objective, "--quiet", "--out", "found.json"});
+    const Outcome outcome = run(words);
+    EXPECT_EQ(outcome.status, 2) << words.back();
+    EXPECT_EQ(std::ranges::count(outcome.err, '\n'), 1) << outcome.err;
+    EXPECT_FALSE(fs::exists(folder_ / "found.json"));
+  }
+}
+
+}  // namespace
+}  // namespace hysteron

@@ -1,0 +1,41 @@
+#include "fit/line_program.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+
+namespace hysteron {
+namespace {
+
+using Words = std::vector<std::string>;
+
+TEST(LineProgram, CommandsArePartedAsAShellDoes) {
+  EXPECT_EQ(words_of_command("python3 mine.py --n 3"), (Words{"python3", "mine.py", "--n", "3"}));
+  EXPECT_EQ(words_of_command("  a\t b "), (Words{"a", "b"}));
+  EXPECT_EQ(words_of_command("'a b' \"c d\"e \"\" f\\ g"), (Words{"a b", "c de", "", "f g"}));
+  EXPECT_EQ(words_of_command("'a\\b' \"q\\\"q\" $HOME *"), (Words{"a\\b", "q\"q", "$HOME", "*"}));
+  EXPECT_THROW(words_of_command(" "), InputError);
+  EXPECT_THROW(words_of_command("a 'b"), InputError);
+}
+
+TEST(LineProgram, LinesGoBothWays) {
+  LineProgram echo({"cat"});
+  const std::string megabyte(1 << 20, 'x');
+  for (const std::string& line : {std::string("one"), std::string("two words"), std::string("\xc3\xa9")}) {
+    echo.write(line);
+    EXPECT_EQ(echo.read(), line);
+  }
+  LineProgram counts({"sh", "-c", "while read line; do echo; echo ${#line}; done"});
+  counts.write(megabyte);
+  EXPECT_EQ(counts.read(), std::to_string(megabyte.size()));
+}
+
+TEST(LineProgram, AnEndIsAnErrorAndNoSignal) {
+  EXPECT_THROW(LineProgram({"no-such-program-at-all"}), InputError);
+  LineProgram ended({"true"});
+  EXPECT_THROW(static_cast<void>(ended.read()), WorkError);
+  EXPECT_THROW(ended.write("to nobody"), WorkError);
+}
+
+}  // namespace
+}  // namespace hysteron
