@@ -166,14 +166,14 @@ class Command(unittest.TestCase):
 
     def test_goes_on_and_says_what_failed_or_took_too_long(self):
         (self.folder / "campaigns/one/b/idles").touch()
-        outcome = self.run_command("--jobs", 2, "--limit", 1, "--label", "abc", "--page", self.folder / "page.md")
+        outcome = self.run_command("--jobs", 2, "--limit", 3, "--label", "abc", "--page", self.folder / "page.md")
         self.assertEqual(outcome.returncode, 0, outcome.stderr)
         self.assertEqual((self.score()["diagnosed"], self.score()["limit"], self.score()["failed"]), (1, 1, 1))
         self.assertIn("3 of 3", outcome.stderr)
         self.assertIn("1 of 3, 1 at the time limit, 1 failed", (self.folder / "page.md").read_text())
         # What is there is not made again, but what a lower limit ended.
         (self.folder / "campaigns/one/b/idles").unlink()
-        self.assertEqual(self.run_command("--limit", 1).returncode, 0)
+        self.assertEqual(self.run_command("--limit", 3).returncode, 0)
         self.assertEqual([self.calls(case) for case in self.answers], [1, 1, 1])
         self.assertEqual(self.run_command("--limit", 60).returncode, 0)
         self.assertEqual([self.calls(case) for case in self.answers], [1, 2, 1])
