@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
 # Installs the Debian packages Hysteron is built from, only those that are missing. Root or sudo.
+#     scripts/setup.sh [PACKAGE ...]     further ones
 set -euo pipefail
 packages=(g++ cmake ninja-build pkg-config npm libeigen3-dev libfmt-dev libcli11-dev nlohmann-json3-dev
   libtomlplusplus-dev zlib1g-dev libhdf5-dev libmatio-dev libnlopt-dev libboost-dev libsqlite3-dev libzip-dev
-  librandom123-dev libgtest-dev libbenchmark-dev python3)
+  librandom123-dev libgtest-dev libbenchmark-dev python3 "$@")
 missing=()
 for package in "${packages[@]}"; do
   # npm may also come with another installation of Node.js.

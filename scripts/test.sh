@@ -3,7 +3,8 @@
 # headless Chromium where it is installed; screenshots are then in out/pages.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-scripts/setup.sh
+# With Open MPI, so that its tests run too.
+scripts/setup.sh libopenmpi-dev openmpi-bin
 cmake --preset release -DHYSTERON_TESTS=ON -DHYSTERON_BENCH=ON
 cmake --build --preset release
 ctest --preset release --no-tests=error "$@"

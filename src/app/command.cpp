@@ -4,7 +4,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
 #include <csignal>
 #include <cstdlib>
 
@@ -24,8 +23,6 @@ namespace {
 
 volatile std::sig_atomic_t interrupt_seen = 0;
 std::string typed;
-
-double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 }  // namespace
 
@@ -153,43 +150,6 @@ void catch_interrupts() {
   sigaction(SIGTERM, &action, nullptr);
   // A file beyond the limit of its size is then an error of writing it, and no temporary file is left.
   std::signal(SIGXFSZ, SIG_IGN);
-}
-
-ProgressLine::ProgressLine(bool quiet) : quiet_(quiet), terminal_(isatty(STDERR_FILENO) == 1) {}
-
-ProgressLine::~ProgressLine() { finish(); }
-
-void ProgressLine::show(const std::string& stage, double share, const std::string& detail) {
-  if (quiet_) {
-    return;
-  }
-  const double time = now();
-  const bool fresh = stage != stage_;
-  if (fresh) {
-    finish();
-    stage_ = stage;
-    begun_ = time;
-    shown_ = 0.0;
-    if (!terminal_) {
-      fmt::print(stderr, "{}\n", stage);
-    }
-  }
-  if (!terminal_ || time - shown_ < 0.1) {
-    return;
-  }
-  shown_ = time;
-  const double spent = time - begun_;
-  const double left = share > 0.0 ? spent * (1.0 - share) / share : 0.0;
-  fmt::print(stderr, "\r\033[K{}  {:3.0f} %  {}  at most {:.0f} s left", stage, 100.0 * share, detail, left);
-  std::fflush(stderr);
-}
-
-void ProgressLine::finish() {
-  if (!quiet_ && terminal_ && !stage_.empty()) {
-    fmt::print(stderr, "\r\033[K");
-    std::fflush(stderr);
-  }
-  stage_.clear();
 }
 
 std::string json_text(const nlohmann::json& value) {

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "app/progress_line.hpp"
 #include "core/recording.hpp"
 #include "fit/identify.hpp"
 #include "io/channels.hpp"
@@ -51,26 +52,6 @@ struct Ended {
 // Set by SIGINT and SIGTERM; long work checks it between generations.
 bool interrupted();
 void catch_interrupts();
-
-// Progress on standard error: a line rewritten in place on a terminal, one plain line a stage otherwise.
-class ProgressLine {
- public:
-  explicit ProgressLine(bool quiet);
-  ~ProgressLine();
-  ProgressLine(const ProgressLine&) = delete;
-  ProgressLine& operator=(const ProgressLine&) = delete;
-  ProgressLine(ProgressLine&&) = delete;
-  ProgressLine& operator=(ProgressLine&&) = delete;
-  void show(const std::string& stage, double share, const std::string& detail);
-  void finish();
-
- private:
-  bool quiet_;
-  bool terminal_;
-  std::string stage_;
-  double begun_ = 0.0;
-  double shown_ = 0.0;
-};
 
 // JSON text of a result file: two-space indent, shortest round-trip numbers, final newline.
 std::string json_text(const nlohmann::json& value);

@@ -135,7 +135,7 @@ void run(const Options& options) {
   std::unique_ptr<Diagnosis> diagnosis;
   try {
     diagnosis = diagnose(campaign, diagnose_with, [&](double share, const std::string& stage) {
-      progress.show(stage, share, fmt::format("{:.0f} %", 100.0 * share));
+      progress.show(stage, share, "");
       if (interrupted()) {
         throw Stopped{};
       }

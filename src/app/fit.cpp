@@ -14,6 +14,7 @@
 #include "app/values.hpp"
 #include "core/error.hpp"
 #include "core/printable.hpp"
+#include "core/unit_text.hpp"
 #include "io/output.hpp"
 #include "report/html.hpp"
 #include "report/terminal.hpp"
@@ -334,7 +335,8 @@ void run(const FitOptions& options) {
       remark += (remark.empty() ? "" : ", ") + std::string("not identifiable");
     }
     table_rows.push_back({estimate.name, format_number(estimate.term.value, 4),
-                          estimate.std_error ? format_number(*estimate.std_error, 2) : "-", estimate.unit, remark});
+                          estimate.std_error ? format_number(*estimate.std_error, 2) : "-", unit_text(estimate.unit),
+                          remark});
   }
   fmt::print("{}\n", table({"parameter", "value", "std error", "unit", "remark"}, table_rows));
   table_rows.clear();

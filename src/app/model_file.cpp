@@ -12,6 +12,7 @@
 #include "core/error.hpp"
 #include "core/printable.hpp"
 #include "core/suggest.hpp"
+#include "core/unit_text.hpp"
 #include "io/file.hpp"
 
 namespace hysteron::app {
@@ -73,14 +74,6 @@ json model_json(const Identification& result, const Campaign& campaign, const Id
 }
 
 namespace {
-
-// Of a term of a parameter: "N/m", "N/m/A", "N/m/A/A/Hz".
-std::string unit_of(const Parameter& card, int drive_power, int frequency_power, DriveKind drive) {
-  std::string unit(card.unit);
-  for (int k = 0; k < drive_power; ++k) unit += drive == DriveKind::voltage ? "/V" : "/A";
-  for (int k = 0; k < frequency_power; ++k) unit += "/Hz";
-  return unit;
-}
 
 // A power of the drive or the frequency: a whole number from 0 to 9.
 int power_of(const json& entry, const char* key, const std::string& name) {
@@ -201,11 +194,12 @@ StoredModel read_model(const std::string& path) {
           })) {
         throw InputError("parameter '" + term_name(name, drive_power, frequency_power) + "' is given twice");
       }
-      const std::string unit = entry.value("unit", unit_of(cards[index], drive_power, frequency_power, result.drive));
+      const std::string unit =
+          entry.value("unit", term_unit(cards[index].unit, drive_power, frequency_power, result.drive));
       if (drive_power > 0 && result.drive == DriveKind::none) {
         result.drive = unit.find("/V") == std::string::npos ? DriveKind::current : DriveKind::voltage;
       }
-      const std::string expected = unit_of(cards[index], drive_power, frequency_power, result.drive);
+      const std::string expected = term_unit(cards[index].unit, drive_power, frequency_power, result.drive);
       if (unit != expected) {
         throw InputError("parameter '" + term_name(name, drive_power, frequency_power) + "' has the unit '" + unit +
                          "', expected '" + expected + "'");

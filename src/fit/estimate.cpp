@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/unit_text.hpp"
 #include "fit/correlation.hpp"
 #include "fit/identify.hpp"
 #include "fit/jackknife.hpp"
@@ -166,13 +167,7 @@ void estimate(Identification& result, const Objective& objective, const std::vec
       Estimate estimate;
       estimate.term = term;
       estimate.name = term_name(layout.names()[law.parameter], term.drive_power, term.frequency_power);
-      estimate.unit = std::string(card.unit);
-      for (int power = 0; power < term.drive_power; ++power) {
-        estimate.unit += drive_kind == DriveKind::voltage ? "/V" : "/A";
-      }
-      for (int power = 0; power < term.frequency_power; ++power) {
-        estimate.unit += "/Hz";
-      }
+      estimate.unit = term_unit(card.unit, term.drive_power, term.frequency_power, drive_kind);
       estimate.meaning = std::string(card.meaning);
       estimate.lower = card.box.lower;
       estimate.upper = card.box.upper;

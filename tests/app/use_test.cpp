@@ -1,14 +1,20 @@
 // The program in surroundings that are not as they should be. Every test runs HYSTERON_PROGRAM in a temporary folder of
 // its own.
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <stdlib.h>
+#include <sys/ioctl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <filesystem>
+#include <sstream>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "app/program_fixture.hpp"
+#include "app/progress_line.hpp"
 
 namespace hysteron {
 namespace {
@@ -49,6 +55,50 @@ TEST_F(Use, OnlyFilesAreRead) {
   }
   fs::create_symlink("/dev/zero", folder_ / "data/campaign.toml");
   EXPECT_EQ(run({"fit", "data", "--model", "viscous", "--out", "out"}, [] { alarm(20); }).status, 2);
+}
+
+TEST_F(Use, ProgressIsOneLineNoWiderThanTheTerminal) {
+  const int master = posix_openpt(O_RDWR | O_NOCTTY);
+  ASSERT_GE(master, 0);
+  ASSERT_EQ(grantpt(master), 0);
+  ASSERT_EQ(unlockpt(master), 0);
+  const std::string slave = ptsname(master);
+  const int held = open(slave.c_str(), O_RDWR | O_NOCTTY);  // so that the end of the program is no error of reading
+  constexpr winsize size{24, 40, 0, 0};
+  ASSERT_EQ(ioctl(held, TIOCSWINSZ, &size), 0);
+  std::string shown;
+  std::thread reader([&] {
+    char buffer[4096];
+    for (ssize_t count = 0; !shown.ends_with('#') && (count = ::read(master, buffer, sizeof buffer)) > 0;) {
+      shown.append(buffer, static_cast<std::size_t>(count));
+    }
+  });
+  const Outcome outcome =
+      run({"fit", "data", "--model", "bouc-wen", "--solver", "pso", "--budget", "5000", "--out", "out"},
+          [&] { dup2(open(slave.c_str(), O_WRONLY | O_NOCTTY), STDERR_FILENO); });
+  ASSERT_EQ(::write(held, "#", 1), 1);
+  reader.join();
+  close(held);
+  close(master);
+  ASSERT_EQ(outcome.status, 0);
+  std::size_t lines = 0;
+  std::stringstream parts(shown.substr(0, shown.rfind("\r\033[K")));
+  for (std::string part; std::getline(parts, part, '\r');) {
+    if (!part.starts_with("\033[K")) continue;
+    EXPECT_LE(part.size() - 3, 39U) << part;
+    EXPECT_EQ(part.find('\n'), std::string::npos) << part;
+    ++lines;
+  }
+  EXPECT_GT(lines, 1U) << shown;
+}
+
+TEST(ProgressText, SaysWhatHowFarHowLong) {
+  using app::progress_text;
+  EXPECT_EQ(progress_text("pso", 0.25, "250 of 1000", 10.0, 80), "pso  25 %  250 of 1000  10 s, about 30 s left");
+  EXPECT_EQ(progress_text("pso", 0.25, "", 400.0, 80), "pso  25 %  7 min, about 20 min left");
+  EXPECT_EQ(progress_text("pso", 0.0, "", 5.0, 80), "pso  0 %  5 s") << "nothing is known of what is left";
+  EXPECT_EQ(progress_text("pso", 0.5, "", 1.0, 80), "pso  50 %  1 s");
+  EXPECT_EQ(progress_text("\xc3\xa9\xc3\xa9\xc3\xa9", 0.5, "", 1.0, 2), "\xc3\xa9\xc3\xa9") << "characters, not bytes";
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/unit_text.hpp"
 #include "diagnose/search/relatives.hpp"
 #include "simulate/part.hpp"
 
@@ -23,22 +24,6 @@ std::string number_text(double value, int digits) {
     return text.substr(0, at) + exponent;
   }
   return fmt::format("{:.{}f}", value, std::max(digits - before, 0));
-}
-
-// Newtons per ampere are no "N/A": N A^-1.
-std::string unit_text(const std::string& unit) {
-  const std::size_t at = unit.find_last_of('/');
-  if (at == std::string::npos || at == 0 || (unit.substr(at) != "/A" && unit.substr(at) != "/V")) {
-    return unit;
-  }
-  std::string head = unit;
-  int power = 0;
-  const std::string tail = unit.substr(at);
-  while (head.ends_with(tail)) {
-    head.resize(head.size() - tail.size());
-    ++power;
-  }
-  return fmt::format("{} {}^-{}", head, tail.substr(1), power);
 }
 
 }  // namespace

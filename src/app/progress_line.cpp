@@ -1,0 +1,97 @@
+#include "app/progress_line.hpp"
+
+#include <fmt/format.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <cstdio>
+
+namespace hysteron::app {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::chrono::milliseconds tick{500};
+constexpr std::chrono::milliseconds fastest{100};
+// Before, what is left is a guess.
+constexpr double least_spent = 2.0;
+constexpr double least_share = 0.03;
+
+std::size_t terminal_width() {
+  winsize size{};
+  return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
+}
+
+std::string duration_text(double seconds) {
+  if (seconds < 100.0) return fmt::format("{:.0f} s", seconds);
+  if (seconds < 6000.0) return fmt::format("{:.0f} min", seconds / 60.0);
+  return fmt::format("{:.1f} h", seconds / 3600.0);
+}
+
+// The first `width` characters of UTF-8 text.
+std::string cut(const std::string& text, std::size_t width) {
+  std::size_t characters = 0;
+  for (std::size_t k = 0; k < text.size(); ++k) {
+    const bool begins = (static_cast<unsigned char>(text[k]) & 0xc0U) != 0x80U;
+    if (begins && characters++ == width) return text.substr(0, k);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string progress_text(const std::string& stage, double share, const std::string& detail, double spent,
+                          std::size_t width) {
+  std::string text = fmt::format("{}  {:.0f} %", stage, 100.0 * share);
+  if (!detail.empty()) text += "  " + detail;
+  text += "  " + duration_text(spent);
+  if (spent >= least_spent && share >= least_share) {
+    text += ", about " + duration_text(spent * (1.0 - share) / share) + " left";
+  }
+  return cut(text, width);
+}
+
+ProgressLine::ProgressLine(bool quiet) : quiet_(quiet), terminal_(isatty(STDERR_FILENO) == 1) {
+  if (quiet_ || !terminal_) return;
+  ticker_ = std::jthread([this](const std::stop_token& stop) {
+    std::unique_lock lock(mutex_);
+    while (!over_.wait_for(lock, stop, tick, [&] { return stop.stop_requested(); })) {
+      if (!stage_.empty()) draw();
+    }
+  });
+}
+
+ProgressLine::~ProgressLine() { finish(); }
+
+void ProgressLine::draw() {
+  drawn_ = Clock::now();
+  const double spent = std::chrono::duration<double>(drawn_ - begun_).count();
+  // The last column stays free: some terminals begin a new line behind it.
+  fmt::print(stderr, "\r\033[K{}", progress_text(stage_, share_, detail_, spent, terminal_width() - 1));
+  std::fflush(stderr);
+}
+
+void ProgressLine::show(const std::string& stage, double share, const std::string& detail) {
+  if (quiet_) return;
+  const std::scoped_lock lock(mutex_);
+  const bool fresh = stage != stage_;
+  if (fresh && !terminal_) fmt::print(stderr, "{}\n", stage);
+  if (stage_.empty() || share < share_) begun_ = Clock::now();
+  stage_ = stage;
+  detail_ = detail;
+  share_ = share;
+  if (terminal_ && (fresh || Clock::now() - drawn_ > fastest)) draw();
+}
+
+void ProgressLine::finish() {
+  if (quiet_) return;
+  const std::scoped_lock lock(mutex_);
+  if (terminal_ && !stage_.empty()) {
+    fmt::print(stderr, "\r\033[K");
+    std::fflush(stderr);
+  }
+  stage_.clear();
+  share_ = 0.0;
+}
+
+}  // namespace hysteron::app

@@ -1,0 +1,18 @@
+// Units as people write them. Stored units of a parameter law are those of its parameter over the drive's, "N/A", which
+// reads as "not available".
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "core/recording.hpp"
+
+namespace hysteron {
+
+// As stored, of the term of a parameter that is multiplied by these powers of drive and frequency: "N/m", "N/m/A/A/Hz".
+std::string term_unit(std::string_view unit, int drive_power, int frequency_power, DriveKind drive);
+
+// "N/A" -> "N A^-1", "N s/m/A/A" -> "N s/m A^-2"; any other unit as it is.
+std::string unit_text(const std::string& unit);
+
+}  // namespace hysteron
