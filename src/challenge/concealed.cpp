@@ -472,8 +472,11 @@ Concealed make_concealed(const Task& task, std::uint64_t seed) {
   constexpr std::uint64_t attempts = 8;
   for (const bool strict : {true, false}) {
     for (std::uint64_t k = 0; k < attempts; ++k) {
-      std::optional<Concealed> c = attempt(task, stream.child(k), strict);
-      if (c && runs(*c)) return *std::move(c);
+      try {
+        std::optional<Concealed> c = attempt(task, stream.child(k), strict);
+        if (c && runs(*c)) return *std::move(c);
+      } catch (const TooStiff&) {  // another draw
+      }
     }
   }
   throw WorkError(fmt::format("campaign {}: no damper with these causes runs", task.number));

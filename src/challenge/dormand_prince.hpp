@@ -12,10 +12,10 @@ namespace hysteron::challenge {
 
 // Advances y from t to end by y' = rate(t, y). `step` is the trial step, kept between calls; `scale` the size of each
 // state at which an error of `tolerance` is allowed. Steps never fall below 1e-9 of a second, so that a jump of the
-// right-hand side is crossed in bounded work.
+// right-hand side is crossed in bounded work. Returns the steps it took.
 // State: an array of numbers with size().
 template <class State, class Rate>
-void advance(State& y, double t, double end, double& step, double tolerance, const State& scale, Rate&& rate) {
+std::size_t advance(State& y, double t, double end, double& step, double tolerance, const State& scale, Rate&& rate) {
   constexpr double smallest = 1e-9;
   const std::size_t size = y.size();
   const auto combine = [size](const State& from, double h,
@@ -27,7 +27,9 @@ void advance(State& y, double t, double end, double& step, double tolerance, con
     return result;
   };
   State k1 = rate(t, y);
+  std::size_t steps = 0;
   while (t < end) {
+    ++steps;
     const bool last = t + step >= end * (1.0 - 1e-15);
     const double h = last ? end - t : step;
     const State k2 = rate(t + h / 5.0, combine(y, h, {{1.0 / 5.0, &k1}}));
@@ -68,6 +70,7 @@ void advance(State& y, double t, double end, double& step, double tolerance, con
     // A step cut short by the end says nothing about how long the next may be.
     if (!last || !accepted || factor < 1.0) step = std::max(h * factor, smallest);
   }
+  return steps;
 }
 
 }  // namespace hysteron::challenge

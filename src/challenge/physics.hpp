@@ -58,6 +58,9 @@ struct Track {
   std::vector<double> x, v, drive, force;
 };
 
+// Thrown where a damper takes hundreds of times as many steps as others: parts that chatter or are too stiff together.
+struct TooStiff {};
+
 // Simulates one test; `rate` is the grid's, in Hz.
 [[nodiscard]] Track simulate(const Physics& physics, const Run& test, double rate);
 

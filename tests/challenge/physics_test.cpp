@@ -110,6 +110,12 @@ TEST(Truth, ModifiedBoucWenTurnsIntoBoucWenForAStiffDashpot) {
   EXPECT_LT(largest_difference(simulate(modified, test, rate).force, simulate(bouc_wen(), test, rate).force), 0.5);
 }
 
+TEST(Truth, ADamperThatIsTooStiffIsGivenUp) {
+  Physics stiff = bouc_wen();
+  stiff.A *= 1e9;  // a yield displacement of femtometres
+  EXPECT_THROW(simulate(stiff, sine(5e-3, 2.0, 1.0), rate), TooStiff);
+}
+
 TEST(Truth, ResultDoesNotHangOnTheGrid) {
   Physics p = bouc_wen();
   add<DampedContact>(p, 4e-4, 1e7, 2e3);
