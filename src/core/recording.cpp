@@ -1,6 +1,8 @@
 #include "core/recording.hpp"
 
 #include <algorithm>
+#include <numeric>
+#include <optional>
 
 #include "core/drive.hpp"
 
@@ -19,6 +21,36 @@ Recording every_kth(const Recording& recording, std::size_t k) {
       (*channel)[kept++] = (*channel)[n];
     }
     channel->resize(kept);
+  }
+  return result;
+}
+
+std::vector<UnusedOfAll> unused_of_all(const std::vector<Recording>& recordings) {
+  std::vector<UnusedOfAll> result;
+  if (recordings.empty()) {
+    return result;
+  }
+  const auto add = [&](const std::string& name, const auto& mean_of) {
+    UnusedOfAll column{name, {}};
+    for (const Recording& recording : recordings) {
+      if (const std::optional<double> mean = mean_of(recording)) {
+        column.means.push_back(*mean);
+      }
+    }
+    if (column.means.size() == recordings.size()) {
+      result.push_back(std::move(column));
+    }
+  };
+  add("temperature [degC]", [](const Recording& of) {
+    return of.temperature.empty() ? std::nullopt
+                                  : std::optional(std::accumulate(of.temperature.begin(), of.temperature.end(), 0.0) /
+                                                  static_cast<double>(of.temperature.size()));
+  });
+  for (const UnusedColumn& column : recordings.front().unused) {
+    add(column.name, [&](const Recording& of) {
+      const auto own = std::ranges::find(of.unused, column.name, &UnusedColumn::name);
+      return own == of.unused.end() ? std::nullopt : std::optional(own->mean);
+    });
   }
   return result;
 }

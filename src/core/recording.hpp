@@ -16,6 +16,12 @@ enum class DriveKind { none, current, voltage };
 // nothing, as that of a damper that was at rest in the first sample's position (start_of, fit/start.hpp).
 enum class Start { unknown, in_cycle, from_nothing };
 
+// A recorded column that no channel takes, as one number of its recording: a pressure, a temperature of the oil.
+struct UnusedColumn {
+  std::string name;  // as in the file, with its unit
+  double mean = 0.0;
+};
+
 // One test of one damper. All channels have the length of `time`; absent optional channels are empty.
 struct Recording {
   std::string file;                          // as the user named it, relative to the campaign folder, forward slashes
@@ -28,6 +34,7 @@ struct Recording {
   std::vector<double> derived_acceleration;  // m/s^2, slope of the velocity, smoothed as its noise asks; may be empty
   std::vector<double> drive;                 // A or V, optional
   std::vector<double> temperature;           // degC, optional
+  std::vector<UnusedColumn> unused;          // numbers all along, in the order of the file
   DriveKind drive_kind = DriveKind::none;
   bool velocity_measured = false;
   Start start = Start::unknown;  // known of copies with fewer samples, which no longer show it
@@ -37,6 +44,13 @@ struct Recording {
 
 // All channels, absent ones too.
 std::array<std::vector<double>*, 8> channels_of(Recording& recording);
+// The columns that no model uses and that every recording has, a temperature among them: name and mean of each
+// recording.
+struct UnusedOfAll {
+  std::string name;
+  std::vector<double> means;
+};
+std::vector<UnusedOfAll> unused_of_all(const std::vector<Recording>& recordings);
 // Every k-th sample of every channel, from the first on; k > 0.
 Recording every_kth(const Recording& recording, std::size_t k);
 // Whether the drive moves, by more than its noise (core/drive.hpp); false when there is none.

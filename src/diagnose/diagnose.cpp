@@ -463,6 +463,7 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const Split& split
           locate(diagnosis.bench.split().fit, diagnosis.bench.residuals(diagnosis.search.augmented));
     }
   }
+  diagnosis.column = unused_column(benches.every, diagnosis.search.base);
   diagnosis.drift_of_base = drift_of(fine, diagnosis.search.base);
   diagnosis.drift_of_augmented = drift_of(fine, diagnosis.search.augmented);
   for (const Named& named : names) {

@@ -24,7 +24,7 @@ struct DiagnoseOptions {
   ObjectiveOptions objective;
   std::uint64_t seed = 1;
   int most_effects = 5;
-  std::vector<std::string> candidates;  // empty: every effect of the catalogue
+  std::vector<std::string> candidates;                // empty: every effect of the catalogue
   std::vector<std::string> laws = comparable_laws();  // that the base law is set against
   // Asked often while fitting; once true the fits end soon and the progress is told, which may throw.
   std::function<bool()> stopped = [] { return false; };
@@ -40,7 +40,8 @@ struct Diagnosis {
 
   Workbench bench;
   Search search;
-  std::optional<Belonging> belonging;  // groups of the recordings, where some stand out
+  std::optional<Belonging> belonging;      // groups of the recordings, where some stand out
+  std::optional<UnusedColumnTold> column;  // that the parameters follow and no model uses
   Evidence evidence;
   Verdict verdict;
   double noise_floor = 0.0;          // of the force, NRMSE over the fitted recordings

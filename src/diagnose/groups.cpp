@@ -131,14 +131,14 @@ double squares_of(const std::vector<Quadratic>& quadratics, const std::vector<Gr
 
 // What is known that parts two groups of which each holds more than one recording; empty where two stand that nothing
 // parts.
-std::string parted_by_conditions(const std::vector<Condition>& conditions, const std::vector<Group>& groups) {
+std::string parted_by_conditions(const std::vector<RecordedCondition>& conditions, const std::vector<Group>& groups) {
   std::string result;
   for (std::size_t a = 0; a < groups.size(); ++a) {
     for (std::size_t b = a + 1; b < groups.size(); ++b) {
       if (groups[a].size() < 2 || groups[b].size() < 2) {
         continue;
       }
-      const Condition* condition = parted_by(conditions, groups[a], groups[b]);
+      const RecordedCondition* condition = parted_by(conditions, groups[a], groups[b]);
       if (condition == nullptr) {
         return {};
       }
@@ -201,7 +201,7 @@ struct Parted {
 
 // Groups that hold together so well that scatter from recording to recording does not explain them.
 std::optional<Parted> parted_clearly(const std::optional<Partition>& clearest, const std::vector<Quadratic>& quadratics,
-                                     const std::vector<Condition>& conditions) {
+                                     const std::vector<RecordedCondition>& conditions) {
   if (!clearest || clearest->chance > surely) {
     return {};
   }
@@ -216,7 +216,7 @@ std::optional<Parted> parted_clearly(const std::optional<Partition>& clearest, c
 // Recordings of the same motion and drive whose forces differ by more than tests of one device do: no function of what
 // was recorded gives them both.
 std::optional<Parted> parted_by_repeats(const std::vector<Quadratic>& quadratics,
-                                        const std::vector<Condition>& conditions) {
+                                        const std::vector<RecordedCondition>& conditions) {
   const std::vector<Group> cells = cells_of(conditions, quadratics.size());
   if (quadratics.size() < cells.size() + fewest_repeats) {
     return {};
@@ -287,7 +287,7 @@ std::optional<Belonging> belonging_of(const Workbench& bench, const Fit& base, c
   if (handles.empty() || !finite(quadratics)) {
     return {};
   }
-  const std::vector<Condition> conditions = conditions_of(recordings);
+  const std::vector<RecordedCondition> conditions = conditions_of(recordings);
   std::optional<Parted> parted = parted_by_repeats(quadratics, conditions);
   // What all states share, the shape of the loop, is distorted by their differences until these are taken off.
   std::optional<Partition> clearest = clearest_partition(quadratics);
@@ -324,6 +324,67 @@ std::optional<Belonging> belonging_of(const Workbench& bench, const Fit& base, c
     }
   }
   return result;
+}
+
+std::optional<UnusedColumnTold> unused_column(const Workbench& bench, const Fit& base) {
+  const std::vector<RecordedCondition> conditions = conditions_of(bench.split().fit);
+  if (std::ranges::none_of(conditions, &RecordedCondition::unused)) {
+    return {};
+  }
+  const Fit joint = bench.polished(base, rounds);
+  const std::vector<Handle> handles = handles_of(joint);
+  const std::vector<Quadratic> quadratics = quadratics_of(bench, joint, handles);
+  if (handles.empty() || !finite(quadratics)) {
+    return {};
+  }
+  const std::optional<FollowedColumn> found = followed_column(quadratics, conditions);
+  if (!found) {
+    return {};
+  }
+  UnusedColumnTold result{found->name,   found->low, found->high, std::sqrt(found->together), std::sqrt(found->along),
+                          found->chance, {}};
+  std::vector<std::size_t> order(handles.size());
+  std::iota(order.begin(), order.end(), 0U);
+  std::ranges::stable_sort(order, std::greater{},
+                           [&](std::size_t h) { return found->cost(static_cast<Eigen::Index>(h)); });
+  for (const std::size_t h : order) {
+    const auto at = static_cast<Eigen::Index>(h);
+    if (found->cost(at) > part_of_the_difference * (found->together - found->along)) {
+      const Parameter& card = joint.layout->cards()[handles[h].parameter];
+      result.changes.push_back({joint.layout->names()[handles[h].parameter], in_words(card.role),
+                                handles[h].factor ? "" : std::string(card.unit), found->change(at)});
+    }
+  }
+  return result;
+}
+
+std::string sentence_of(const UnusedColumnTold& column) {
+  std::vector<std::string> changes;
+  for (const UnusedColumnTold::Change& row : column.changes) {
+    const std::string name = row.meaning.empty() ? row.parameter : row.meaning + " (" + row.parameter + ")";
+    changes.push_back(row.unit.empty()
+                          ? fmt::format("{} {:+.0f} %", name, 100.0 * row.value)
+                          : fmt::format("{} {:+.3g}{}", name, row.value, row.unit == "1" ? "" : " " + row.unit));
+  }
+  return fmt::format(
+      "the parameters follow the recorded '{}', which no model uses: from {:.3g} to {:.3g} {}; all recordings together "
+      "NRMSE {:.2g}, with parameters that follow it about {:.2g}; dealt to the recordings by lot, it does as well with "
+      "a "
+      "probability of {:.1g}",
+      column.name, column.low, column.high, list_of(changes), column.together, column.along, column.chance);
+}
+
+nlohmann::json column_json(const UnusedColumnTold& column) {
+  nlohmann::json parameters = nlohmann::json::array();
+  for (const UnusedColumnTold::Change& row : column.changes) {
+    parameters.push_back({{"name", row.parameter},
+                          {"change", row.value},
+                          {"unit", row.unit.empty() ? nlohmann::json(nullptr) : nlohmann::json(row.unit)}});
+  }
+  return {{"name", column.name},         {"from", column.low},
+          {"to", column.high},           {"nrmse_together", column.together},
+          {"nrmse_along", column.along}, {"chance", column.chance},
+          {"parameters", parameters}};
 }
 
 bool mixed(const std::optional<Belonging>& belonging) { return belonging && belonging->explained_by.empty(); }

@@ -211,6 +211,7 @@ json diagnosis_json(const Diagnosis& diagnosis) {
           {"evidence", evidence_json(diagnosis.evidence)},
           {"drift", drift_json(diagnosis)},
           {"groups", mixed(diagnosis.belonging) ? groups_json(*diagnosis.belonging) : json(nullptr)},
+          {"followed_column", diagnosis.column ? column_json(*diagnosis.column) : json(nullptr)},
           {"next_experiment", diagnosis.next_experiment},
           {"notes", diagnosis.notes}};
 }

@@ -162,6 +162,9 @@ std::vector<std::string> summary_of(const Diagnosis& diagnosis) {
   } else if (verdict.effects.empty()) {
     add(summary, "Something is missing, and no name is sure enough: " + verdict.reason + ".");
   }
+  if (diagnosis.column) {
+    add(summary, "T" + sentence_of(*diagnosis.column).substr(1) + ".");
+  }
   for (const Grade grade : {Grade::established, Grade::supported, Grade::suggested}) {
     add(summary, sentence_of_grade(diagnosis, grade));
   }

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "fit/excitation.hpp"
+#include "fit/march_inputs.hpp"
 #include "fit/target.hpp"
 #include "simulate/march.hpp"
 
@@ -22,7 +22,7 @@ void march_window(const CompositeModel& model, const Target& target, const Param
   const std::size_t stride = target.drive_varies ? width : 0;
   std::vector<T> p(target.drive_varies ? width * (block_samples + 1) : width);
   std::vector<T> out(block_samples);
-  Excitation<T> excitation(model);
+  MarchInputs<T> excitation(model);
   const auto parameters_of = [&](const Command& command, T* values) {
     parameters_at_drive(command.drive[command.at], values);
     if (!excitation.none()) {

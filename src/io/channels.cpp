@@ -1,6 +1,7 @@
 #include "io/channels.hpp"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 #include "core/error.hpp"
@@ -213,6 +214,11 @@ Recording make_recording(Channels&& channels) {
   if (recording.drive.empty()) {
     recording.drive = take(Quantity::voltage);
     recording.drive_kind = recording.drive.empty() ? DriveKind::none : DriveKind::voltage;
+  }
+  // Beside a current, a voltage is used by nothing.
+  if (const std::vector<double> voltage = take(Quantity::voltage); !voltage.empty()) {
+    recording.unused.push_back(
+        {"voltage [V]", std::accumulate(voltage.begin(), voltage.end(), 0.0) / static_cast<double>(voltage.size())});
   }
   if (recording.displacement.empty()) return recording;  // an excitation without motion
   if (!recording.velocity_measured) recording.velocity = derive_velocity(recording.time, recording.displacement);

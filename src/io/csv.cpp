@@ -97,7 +97,11 @@ class CsvReader {
     check_text();
     read_header();
     read_rows();
+    const auto rows = static_cast<double>(channels_[0].size());
     Recording recording = make_recording(std::move(channels_));
+    for (std::size_t i = 0; i < columns_.size(); ++i) {
+      if (unused_[i].numbers) recording.unused.push_back({columns_[i].text, unused_[i].sum / rows});
+    }
     remark_on_sizes(recording, sources_, columns_, options_, file_);
     return recording;
   }
@@ -196,6 +200,9 @@ class CsvReader {
       channel = static_cast<int>(i);
       channels_[i].reserve(rows + 1);
     }
+    for (std::size_t i = 0; i < columns_.size(); ++i) {
+      unused_.push_back({0.0, channel_of[i] < 0 && !columns_[i].text.empty()});
+    }
     const bool decimal_comma = delimiter_ != ',' || has_quotes_;
     std::vector<std::string_view> fields;
     std::string_view line;
@@ -207,7 +214,13 @@ class CsvReader {
       }
       check_width(fields);
       for (std::size_t i = 0; i < columns_.size(); ++i) {
-        if (channel_of[i] >= 0) add(channel_of[i], unquoted(fields[i]), decimal_comma);
+        if (channel_of[i] >= 0) {
+          add(channel_of[i], unquoted(fields[i]), decimal_comma);
+        } else if (unused_[i].numbers) {
+          double value = 0.0;
+          unused_[i].numbers = parse_number(unquoted(fields[i]), decimal_comma, value) == NumberError::none;
+          unused_[i].sum += value;
+        }
       }
       check_time();
     }
@@ -280,6 +293,12 @@ class CsvReader {
     return {digits.data(), result.ptr};
   }
 
+  // A column that is no channel.
+  struct Unused {
+    double sum = 0.0;
+    bool numbers = false;  // in every row
+  };
+
   std::string_view text_;
   const std::string& file_;
   const ReadOptions& options_;
@@ -293,6 +312,7 @@ class CsvReader {
   std::vector<Column> columns_;
   Sources sources_;
   Channels channels_;
+  std::vector<Unused> unused_;
 };
 
 }  // namespace

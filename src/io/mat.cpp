@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -39,7 +40,10 @@ class MatReader {
       if (sources[i].column >= 0) channels[i] = read(sources[i]);
     }
     check(channels, sources);
+    const std::size_t samples = channels[0].size();
     Recording recording = make_recording(std::move(channels));
+    const std::vector<UnusedColumn> others = unused(sources, samples);
+    recording.unused.insert(recording.unused.end(), others.begin(), others.end());
     remark_on_sizes(recording, sources, columns_, options_, file_);
     return recording;
   }
@@ -125,6 +129,24 @@ class MatReader {
       values[i] = source.unit.to_si(values[i]);
     }
     return values;
+  }
+
+  // Variables that are no channel, of as many numbers as there are samples or of one.
+  [[nodiscard]] std::vector<UnusedColumn> unused(const Sources& sources, std::size_t samples) const {
+    std::vector<UnusedColumn> result;
+    for (std::size_t i = 0; i < columns_.size(); ++i) {
+      const auto taken = [&](const Source& source) { return source.column == static_cast<int>(i); };
+      const Slice& slice = slices_[i];
+      const auto& variable = variables_[slice.variable];
+      if (std::ranges::any_of(sources, taken) || variable.damaged || variable.complex ||
+          (slice.count != samples && slice.count != 1)) {
+        continue;
+      }
+      const auto first = variable.values.begin() + static_cast<std::ptrdiff_t>(slice.first);
+      const double sum = std::accumulate(first, first + static_cast<std::ptrdiff_t>(slice.count), 0.0);
+      if (std::isfinite(sum)) result.push_back({columns_[i].text, sum / static_cast<double>(slice.count)});
+    }
+    return result;
   }
 
   void check(const Channels& channels, const Sources& sources) const {

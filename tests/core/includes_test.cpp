@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <regex>
 #include <set>
 #include <string>
 
@@ -71,6 +72,29 @@ TEST(Includes, GoOneWay) {
     }
   }
   EXPECT_GT(seen, 500U);
+}
+
+// Two classes of one name in one namespace are one to the linker, whatever they hold: it keeps one copy of what both
+// generate, and the other class is destroyed by it.
+TEST(Names, OfClassesInHeadersAreTheirOwn) {
+  const std::regex opening("namespace ([A-Za-z_:]+) \\{");
+  const std::regex definition("(struct|class|enum class) ([A-Z][A-Za-z0-9]*)( final)?( : [^;]*)? \\{.*");
+  std::map<std::string, std::string> seen;
+  for (const char* folder : {"src", "models", "algorithms", "datasets", "presets"}) {
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(fs::path(HYSTERON_SOURCE_DIR) / folder)) {
+      if (entry.path().extension() != ".hpp") continue;
+      std::ifstream file(entry.path());
+      std::string space;
+      for (std::string line; std::getline(file, line);) {
+        std::smatch match;
+        if (std::regex_match(line, match, opening)) space = match[1];
+        if (!std::regex_match(line, match, definition)) continue;
+        const auto [other, fresh] = seen.emplace(space + "::" + match[2].str(), entry.path().string());
+        EXPECT_TRUE(fresh) << other->first << " in " << other->second << " and " << entry.path();
+      }
+    }
+  }
+  EXPECT_GT(seen.size(), 200U);
 }
 
 }  // namespace

@@ -88,12 +88,12 @@ TEST(Partition, SaysWhichParameterDiffers) {
   EXPECT_NEAR(costs[1], 4.0 * 2.25 * 0.875, 1e-2);
   Eigen::MatrixXd both(4, 2);
   both << 1.0, 1.0, 1.0, -1.0, 1.0, 1.0, 1.0, -1.0;
-  EXPECT_NEAR(squares_along(quadratics, both), 0.0, 1e-3);
+  EXPECT_NEAR(along(quadratics, both).squares, 0.0, 1e-3);
 }
 
 TEST(Conditions, OfFewLevelsExplainAnyFunctionOfTheirs) {
   // 1 at the ends of the drive and 2 in its middle: two tight groups, and a law of the drive.
-  const Condition drive{"drive", {0.0, 0.5, 1.0, 0.6, 0.0, 0.5, 1.0, 0.6}};
+  const RecordedCondition drive{"drive", {0.0, 0.5, 1.0, 0.6, 0.0, 0.5, 1.0, 0.6}};
   const std::vector<Quadratic> bent = parabolas({1.0, 2.0, 1.0, 2.0, 1.01, 2.01, 1.01, 2.01});
   const Followed law = followed(bent, {drive});
   EXPECT_EQ(law.name, "drive");
@@ -101,6 +101,46 @@ TEST(Conditions, OfFewLevelsExplainAnyFunctionOfTheirs) {
   // The same values at other drives follow nothing.
   const std::vector<Quadratic> mixed_up = parabolas({1.0, 2.0, 2.0, 1.0, 2.01, 1.01, 1.01, 2.01});
   EXPECT_GT(followed(mixed_up, {drive}).squares, 100.0 * clearest_partition(mixed_up)->apart);
+}
+
+TEST(Conditions, AColumnThatTheParametersFollowIsTold) {
+  const std::vector<double> oil = {41.0, 22.0, 35.0, 28.0, 20.0, 38.0, 25.0, 32.0};
+  std::vector<double> values;
+  for (const double degrees : oil) values.push_back(100.0 - degrees);
+  const RecordedCondition column{"oil [degC]", oil, false, 0.0, true};
+  const RecordedCondition stroke{"stroke", {1.0, 3.0, 2.0, 4.0, 1.5, 3.5, 2.5, 4.5}, true, 0.0, false};
+  const auto told = followed_column(parabolas(values), {stroke, column});
+  ASSERT_TRUE(told);
+  EXPECT_EQ(told->name, "oil [degC]");
+  EXPECT_EQ(told->low, 20.0);
+  EXPECT_EQ(told->high, 41.0);
+  EXPECT_NEAR(told->change(0), -21.0, 0.1);
+  EXPECT_NEAR(told->along, 0.0, 1e-3 * told->together);
+  EXPECT_NEAR(told->cost(0), told->together - told->along, 0.1 * told->together);
+  EXPECT_LE(told->chance, 0.005);
+  // What the stroke explains as well is no matter of the oil.
+  const RecordedCondition like{"stroke", oil, false, 0.0, false};
+  EXPECT_FALSE(followed_column(parabolas(values), {like, column}));
+  // Five recordings are too few to tell.
+  const RecordedCondition few{"oil [degC]", {41.0, 22.0, 35.0, 28.0, 20.0}, false, 0.0, true};
+  EXPECT_FALSE(followed_column(parabolas({59.0, 78.0, 65.0, 72.0, 80.0}), {few}));
+}
+
+TEST(Conditions, AColumnThatNothingFollowsIsSilent) {
+  const Stream draws = Stream(17).child("columns");
+  int told = 0;
+  for (std::uint64_t k = 0; k < 200; ++k) {
+    const Stream stream = draws.child(k);
+    std::vector<double> values;
+    std::vector<RecordedCondition> columns{{"a", {}, false, 0.0, true}, {"b", {}, false, 0.0, true}};
+    for (std::uint32_t r = 0; r < 10; ++r) {
+      values.push_back(stream.normal(0, r));
+      columns[0].value.push_back(stream.normal(1, r));
+      columns[1].value.push_back(stream.uniform(2, r));
+    }
+    told += followed_column(parabolas(values), columns) ? 1 : 0;
+  }
+  EXPECT_LE(told, 4) << "one in two hundred";
 }
 
 // Sines of a dashpot whose damping is that of each recording's state.
@@ -134,6 +174,30 @@ std::optional<Belonging> belonging_in(const Campaign& campaign) {
                         [] { return false; });
   const Fit base = bench.from_anywhere({"viscous", {}, {}}, 2000);
   return belonging_of(bench, base, base);
+}
+
+TEST(UnusedColumn, OfATemperatureThatThinsTheOilIsSaidWithItsSize) {
+  const std::vector<double> oil = {41.0, 22.0, 35.0, 28.0, 20.0, 38.0, 25.0, 32.0};
+  std::vector<Sine> tests;
+  for (std::size_t k = 0; k < oil.size(); ++k) {
+    tests.push_back({2000.0 * (1.0 - 0.01 * (oil[k] - 30.0)), 0.01 + 0.002 * static_cast<double>(k % 3),
+                     1.0 + 0.5 * static_cast<double>(k % 4)});
+  }
+  Campaign campaign = campaign_of(tests);
+  const auto told = [&] {
+    const Workbench bench(scale_of(campaign.recordings), {campaign.recordings, {}, {}, false}, {}, {}, 1,
+                          [] { return false; });
+    return unused_column(bench, bench.from_anywhere({"viscous", {}, {}}, 2000));
+  };
+  EXPECT_FALSE(told()) << "nothing else was recorded";
+  for (std::size_t k = 0; k < oil.size(); ++k) campaign.recordings[k].unused = {{"oil [degC]", oil[k]}};
+  const auto column = told();
+  ASSERT_TRUE(column);
+  ASSERT_EQ(column->changes.size(), 1U);
+  EXPECT_EQ(column->changes[0].parameter, "c0");
+  EXPECT_NEAR(column->changes[0].value, -2000.0 * 0.21, 40.0);
+  EXPECT_LT(column->along, 0.3 * column->together);
+  EXPECT_NE(sentence_of(*column).find("from 20 to 41 damping (c0) -4"), std::string::npos) << sentence_of(*column);
 }
 
 // Two dampers, strokes and frequencies of one within those of the other.

@@ -1,5 +1,6 @@
 #include "io/csv.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -27,6 +28,22 @@ TEST(Csv, ReadsNamesAndUnits) {
   EXPECT_EQ(r.velocity.size(), 10U);
   EXPECT_EQ(r.drive_kind, DriveKind::none);
   EXPECT_TRUE(r.drive.empty());
+}
+
+TEST(Csv, ColumnsThatAreNoChannelAreKeptAsTheirMean) {
+  std::string text = "time [s],displacement [mm],oil [degC],force [N],note,valve,gaps,current [A],voltage [V]\n";
+  for (int n = 0; n < 10; ++n) {
+    text += fmt::format("0.{},{},{},{},ok,3,{},1.5,{}\n", n, n * n, 20 + n, 10 * n, n == 4 ? "" : "1", 2 * n);
+  }
+  const auto r = parse_csv(text, "a.csv");
+  ASSERT_EQ(r.unused.size(), 3U) << "words and gaps are no numbers";
+  EXPECT_EQ(r.unused[0].name, "voltage [V]") << "beside a current";
+  EXPECT_DOUBLE_EQ(r.unused[0].mean, 9.0);
+  EXPECT_EQ(r.unused[1].name, "oil [degC]");
+  EXPECT_DOUBLE_EQ(r.unused[1].mean, 24.5);
+  EXPECT_EQ(r.unused[2].name, "valve");
+  EXPECT_DOUBLE_EQ(r.unused[2].mean, 3.0);
+  EXPECT_TRUE(parse_csv(header + ten_rows(), "a.csv").unused.empty());
 }
 
 TEST(Csv, WithoutUnitsIsSiUnlessAUnitRowFollows) {

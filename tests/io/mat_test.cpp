@@ -410,6 +410,24 @@ TEST(Fence, GivesBackWhatWasMadeAndNothingOfWhatFailed) {
 #endif
 }
 
+TEST(Mat, VariablesThatAreNoChannelAreKeptAsTheirMean) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "a.mat";
+  {
+    MatWriter mat(path, MAT_FT_MAT5);
+    const std::vector<double> numbers = {0, 1, 2, 3, 4, 5, 6, 7};
+    for (const char* name : {"t", "x", "f", "pressure"}) mat.column(name, numbers);
+    mat.column("oil", {38.5});
+    mat.column("other", {1.0, 2.0});
+  }
+  const auto r = load_recording(path);
+  ASSERT_EQ(r.unused.size(), 2U);
+  EXPECT_EQ(r.unused[0].name, "pressure");
+  EXPECT_DOUBLE_EQ(r.unused[0].mean, 3.5);
+  EXPECT_EQ(r.unused[1].name, "oil");
+  EXPECT_DOUBLE_EQ(r.unused[1].mean, 38.5);
+}
+
 TEST(Mat, NotAMatFile) {
   const TemporaryFolder folder;
   const auto path = folder.write("a.mat", "hello\n");

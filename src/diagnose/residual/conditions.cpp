@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
+#include "core/random.hpp"
 #include "fit/layout.hpp"
 
 namespace hysteron {
@@ -34,7 +36,7 @@ double peak_of(const std::vector<double>& values) {
 }
 
 // Values on a scale on which the largest difference that does not count is one.
-std::vector<double> scaled(const Condition& condition) {
+std::vector<double> scaled(const RecordedCondition& condition) {
   std::vector<double> result = condition.value;
   const double largest = std::max(peak_of(condition.value), 1e-300);
   for (double& value : result) {
@@ -44,14 +46,14 @@ std::vector<double> scaled(const Condition& condition) {
   return result;
 }
 
-bool varied(const Condition& condition) {
+bool varied(const RecordedCondition& condition) {
   const std::vector<double> values = scaled(condition);
   const auto [low, high] = std::ranges::minmax(values);
   return high - low > 1.0;
 }
 
 // From -1 to 1.
-Eigen::VectorXd column_of(const Condition& condition) {
+Eigen::VectorXd column_of(const RecordedCondition& condition) {
   const std::vector<double> values = scaled(condition);
   const auto [low, high] = std::ranges::minmax(values);
   Eigen::VectorXd result(static_cast<Eigen::Index>(values.size()));
@@ -63,10 +65,10 @@ Eigen::VectorXd column_of(const Condition& condition) {
 
 }  // namespace
 
-std::vector<Condition> conditions_of(const std::vector<Recording>& recordings) {
-  std::vector<Condition> all;
+std::vector<RecordedCondition> conditions_of(const std::vector<Recording>& recordings) {
+  std::vector<RecordedCondition> all;
   const auto add = [&](const char* name, auto value) {
-    Condition condition{name, {}, false, 0.0};
+    RecordedCondition condition{name, {}, false, 0.0, false};
     for (const Recording& recording : recordings) {
       condition.value.push_back(value(recording));
     }
@@ -90,7 +92,7 @@ std::vector<Condition> conditions_of(const std::vector<Recording>& recordings) {
   for (const Recording& recording : recordings) {
     largest = std::max(largest, half_stroke(recording));
   }
-  Condition middle{"middle of the stroke", {}, false, 0.5};
+  RecordedCondition middle{"middle of the stroke", {}, false, 0.5, false};
   for (const Recording& recording : recordings) {
     const auto [low, high] = std::ranges::minmax(recording.displacement);
     middle.value.push_back(0.5 * (low + high) / std::max(largest, 1e-300));
@@ -100,14 +102,18 @@ std::vector<Condition> conditions_of(const std::vector<Recording>& recordings) {
   }
   add("drive", [](const Recording& of) { return mean_of(of.drive); });
   add("spread of the drive", [](const Recording& of) { return spread_of(of.drive); });
-  if (std::ranges::none_of(recordings, [](const Recording& of) { return of.temperature.empty(); })) {
-    add("temperature", [](const Recording& of) { return mean_of(of.temperature); });
+  for (UnusedOfAll& column : unused_of_all(recordings)) {
+    RecordedCondition condition{column.name, std::move(column.means), false, 0.0, true};
+    condition.ratio = std::ranges::all_of(condition.value, [](double one) { return one > 0.0; });
+    if (varied(condition)) {
+      all.push_back(std::move(condition));
+    }
   }
   return all;
 }
 
-const Condition* parted_by(const std::vector<Condition>& conditions, const Group& a, const Group& b) {
-  for (const Condition& condition : conditions) {
+const RecordedCondition* parted_by(const std::vector<RecordedCondition>& conditions, const Group& a, const Group& b) {
+  for (const RecordedCondition& condition : conditions) {
     const std::vector<double> values = scaled(condition);
     const auto range = [&](const Group& group) {
       double low = values[group.front()];
@@ -127,9 +133,9 @@ const Condition* parted_by(const std::vector<Condition>& conditions, const Group
   return nullptr;
 }
 
-std::vector<Group> cells_of(const std::vector<Condition>& conditions, std::size_t recordings) {
+std::vector<Group> cells_of(const std::vector<RecordedCondition>& conditions, std::size_t recordings) {
   std::vector<std::vector<double>> values;
-  for (const Condition& condition : conditions) {
+  for (const RecordedCondition& condition : conditions) {
     values.push_back(scaled(condition));
   }
   std::vector<Group> result;
@@ -147,22 +153,22 @@ std::vector<Group> cells_of(const std::vector<Condition>& conditions, std::size_
   return result;
 }
 
-Followed followed(const std::vector<Quadratic>& quadratics, const std::vector<Condition>& conditions) {
+Followed followed(const std::vector<Quadratic>& quadratics, const std::vector<RecordedCondition>& conditions) {
   const auto count = static_cast<Eigen::Index>(quadratics.size());
-  std::vector<Condition> all = conditions;
-  Condition order{"order of the recordings", std::vector<double>(quadratics.size()), false, 0.0};
+  std::vector<RecordedCondition> all = conditions;
+  RecordedCondition order{"order of the recordings", std::vector<double>(quadratics.size()), false, 0.0, false};
   std::iota(order.value.begin(), order.value.end(), 0.0);
   all.push_back(std::move(order));
   Eigen::MatrixXd plane = Eigen::MatrixXd::Ones(count, 1);
   Followed best{"", std::numeric_limits<double>::infinity()};
   const auto keep = [&](const std::string& name, const Eigen::MatrixXd& regressors) {
     // As many functions as recordings follow anything.
-    const double squares = regressors.cols() < count - 1 ? squares_along(quadratics, regressors) : best.squares;
+    const double squares = regressors.cols() < count - 1 ? along(quadratics, regressors).squares : best.squares;
     if (squares < best.squares) {
       best = {name, squares};
     }
   };
-  for (const Condition& condition : all) {
+  for (const RecordedCondition& condition : all) {
     const Eigen::VectorXd column = column_of(condition);
     Eigen::MatrixXd regressors(count, 3);
     regressors << Eigen::VectorXd::Ones(count), column, column.cwiseProduct(column);
@@ -185,6 +191,70 @@ Followed followed(const std::vector<Quadratic>& quadratics, const std::vector<Co
   }
   keep("drive, stroke and frequency", plane);
   return best;
+}
+
+std::optional<FollowedColumn> followed_column(const std::vector<Quadratic>& quadratics,
+                                              const std::vector<RecordedCondition>& conditions) {
+  constexpr std::size_t permutations = 999;
+  // Five recordings have 120 orders: one of them is no proof.
+  constexpr Eigen::Index fewest_to_follow = 6;
+  const auto count = static_cast<Eigen::Index>(quadratics.size());
+  const auto affine = [&](const Eigen::VectorXd& column) {
+    Eigen::MatrixXd regressors(count, 2);
+    regressors << Eigen::VectorXd::Ones(count), column;
+    return along(quadratics, regressors);
+  };
+  std::vector<RecordedCondition> known{
+      {"order of the recordings", std::vector<double>(quadratics.size()), false, 0.0, false}};
+  std::iota(known.front().value.begin(), known.front().value.end(), 0.0);
+  const RecordedCondition* best = nullptr;
+  double least = std::numeric_limits<double>::infinity();
+  std::size_t columns = 0;
+  for (const RecordedCondition& condition : conditions) {
+    if (!condition.unused) {
+      known.push_back(condition);
+      continue;
+    }
+    ++columns;
+    if (const double squares = affine(column_of(condition)).squares; squares < least) {
+      least = squares;
+      best = &condition;
+    }
+  }
+  if (best == nullptr || count < fewest_to_follow) {
+    return {};
+  }
+  for (const RecordedCondition& condition : known) {
+    if (affine(column_of(condition)).squares <= least) {
+      return {};
+    }
+  }
+  Eigen::VectorXd column = column_of(*best);
+  const Along found = affine(column);
+  FollowedColumn result;
+  result.change = 2.0 * found.change.col(1);
+  result.cost = Eigen::VectorXd::Zero(result.change.size());
+  for (Eigen::Index r = 0; r < count; ++r) {
+    const Eigen::VectorXd own = column(r) * found.change.col(1);
+    result.cost += own.cwiseAbs2().cwiseProduct(quadratics[static_cast<std::size_t>(r)].hessian.diagonal());
+  }
+  const Stream stream = Stream(0).child("permutations");
+  std::size_t as_little = 1;
+  for (std::size_t p = 0; p < permutations; ++p) {
+    for (Eigen::Index k = count; k > 1; --k) {
+      const auto other = stream.below(static_cast<std::uint64_t>(k), p, static_cast<std::uint32_t>(k));
+      std::swap(column(k - 1), column(static_cast<Eigen::Index>(other)));
+    }
+    as_little += affine(column).squares <= found.squares ? 1 : 0;
+  }
+  result.name = best->name;
+  const auto [low, high] = std::ranges::minmax(best->value);
+  result.low = low;
+  result.high = high;
+  result.together = along(quadratics, Eigen::MatrixXd::Ones(count, 1)).squares;
+  result.along = found.squares;
+  result.chance = std::min(1.0, static_cast<double>(columns * as_little) / static_cast<double>(permutations + 1));
+  return result.chance <= surely ? std::optional(result) : std::nullopt;
 }
 
 }  // namespace hysteron

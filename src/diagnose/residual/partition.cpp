@@ -313,7 +313,7 @@ std::optional<Partition> coarsest_partition(const std::vector<Quadratic>& quadra
   return {};
 }
 
-double squares_along(const std::vector<Quadratic>& quadratics, const Eigen::MatrixXd& regressors) {
+Along along(const std::vector<Quadratic>& quadratics, const Eigen::MatrixXd& regressors) {
   const Eigen::Index p = quadratics.front().gradient.size();
   const Eigen::Index m = regressors.cols();
   Quadratic sum{Eigen::MatrixXd::Zero(p * m, p * m), Eigen::VectorXd::Zero(p * m), 0.0};
@@ -334,7 +334,10 @@ double squares_along(const std::vector<Quadratic>& quadratics, const Eigen::Matr
   }
   const Eigen::VectorXd change = -matrix.ldlt().solve(sum.gradient);
   const double squares = sum.squares + change.dot(2.0 * sum.gradient + sum.hessian * change);
-  return std::isfinite(squares) ? std::min(squares, sum.squares) : sum.squares;
+  if (!std::isfinite(squares) || squares > sum.squares) {
+    return {Eigen::MatrixXd::Zero(p, m), sum.squares};
+  }
+  return {change.reshaped(p, m), squares};
 }
 
 std::vector<double> cost_of_sharing(const std::vector<Quadratic>& quadratics, const std::vector<Group>& groups) {

@@ -58,7 +58,12 @@ std::optional<Partition> coarsest_partition(const std::vector<Quadratic>& quadra
 // Squares that come back, for each parameter, when it alone must be common to all groups: which parameters differ.
 std::vector<double> cost_of_sharing(const std::vector<Quadratic>& quadratics, const std::vector<Group>& groups);
 
-// Squares left when the change of the parameters is a linear function of these regressors (recordings x functions).
-double squares_along(const std::vector<Quadratic>& quadratics, const Eigen::MatrixXd& regressors);
+// The change of the parameters that is a linear function of these regressors (recordings x functions), and what it
+// leaves.
+struct Along {
+  Eigen::MatrixXd change;  // parameters x functions
+  double squares = 0.0;
+};
+Along along(const std::vector<Quadratic>& quadratics, const Eigen::MatrixXd& regressors);
 
 }  // namespace hysteron

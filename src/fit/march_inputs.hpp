@@ -11,9 +11,9 @@ namespace hysteron {
 // The effects that change the drive before the laws of the parameters are evaluated (PartOperations::recall and
 // ::excite), in time order over the samples of a recording.
 template <class T>
-class Excitation {
+class MarchInputs {
  public:
-  explicit Excitation(const CompositeModel& model) {
+  explicit MarchInputs(const CompositeModel& model) {
     model.for_links([this](const Link& link) {
       const PartOperations<T>& part = link.part->on<T>();
       // Outermost first, but what recalls the recording before all.
