@@ -11,7 +11,6 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
-#include <exception>
 #include <filesystem>
 #include <map>
 #include <set>
@@ -21,6 +20,7 @@
 #include "baselines/page.hpp"
 #include "baselines/sparse.hpp"
 #include "baselines/stepwise.hpp"
+#include "bench/program.hpp"
 #include "challenge/score.hpp"
 #include "challenge/seal.hpp"
 #include "diagnose/diagnose.hpp"
@@ -165,11 +165,4 @@ int run(int argc, char** argv) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  try {
-    return run(argc, argv);
-  } catch (const std::exception& problem) {
-    std::fprintf(stderr, "error: %s\n", problem.what());
-    return 1;
-  }
-}
+int main(int argc, char** argv) { return hysteron::bench::guarded(run, argc, argv); }

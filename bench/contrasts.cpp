@@ -16,12 +16,12 @@
 #include <cmath>
 #include <cstdio>
 #include <ctime>
-#include <exception>
 #include <map>
 #include <numbers>
 #include <string>
 #include <vector>
 
+#include "bench/program.hpp"
 #include "core/random.hpp"
 #include "diagnose/residual/contrast.hpp"
 #include "diagnose/signal/outliers.hpp"
@@ -303,11 +303,4 @@ int run(int argc, char** argv) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  try {
-    return run(argc, argv);
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "error: {}\n", error.what());
-    return 2;
-  }
-}
+int main(int argc, char** argv) { return hysteron::bench::guarded(run, argc, argv); }

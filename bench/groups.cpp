@@ -13,11 +13,11 @@
 #include <cmath>
 #include <cstdio>
 #include <ctime>
-#include <exception>
 #include <filesystem>
 #include <string>
 #include <vector>
 
+#include "bench/program.hpp"
 #include "core/drive.hpp"
 #include "core/random.hpp"
 #include "diagnose/diagnose.hpp"
@@ -235,11 +235,4 @@ int run(int argc, char** argv) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  try {
-    return run(argc, argv);
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "error: {}\n", error.what());
-    return 2;
-  }
-}
+int main(int argc, char** argv) { return hysteron::bench::guarded(run, argc, argv); }

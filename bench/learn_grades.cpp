@@ -16,13 +16,13 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <exception>
 #include <filesystem>
 #include <map>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "bench/program.hpp"
 #include "challenge/score.hpp"
 #include "challenge/seal.hpp"
 #include "diagnose/judge/features.hpp"
@@ -379,11 +379,4 @@ int run(int argc, char** argv) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  try {
-    return run(argc, argv);
-  } catch (const std::exception& problem) {
-    std::fprintf(stderr, "error: %s\n", problem.what());
-    return 1;
-  }
-}
+int main(int argc, char** argv) { return hysteron::bench::guarded(run, argc, argv); }

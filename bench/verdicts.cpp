@@ -13,18 +13,20 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
-#include <exception>
 #include <filesystem>
 #include <map>
 #include <string>
 #include <vector>
 
+#include "bench/program.hpp"
 #include "challenge/score.hpp"
 #include "challenge/seal.hpp"
 #include "core/error.hpp"
 #include "diagnose/judge/evidence.hpp"
 #include "diagnose/judge/verdict.hpp"
+#include "diagnose/search/relatives.hpp"
 #include "io/file.hpp"
 #include "io/output.hpp"
 
@@ -82,6 +84,32 @@ std::string listed(const json& names) {
   return text.empty() ? "-" : text;
 }
 
+// Whether the search refits the true effect or a related one where the first order ranks all of them: what it leaves
+// out there can be named no more.
+struct FirstLooks {
+  int campaigns = 0;
+  int held = 0;
+  std::string missed;
+
+  void count(const json& answer, const hysteron::Evidence& evidence) {
+    constexpr double seen = 10.0;
+    const json& effects = answer.at("effects");
+    if (effects.size() != 1 || effects[0].at("foreign") || effects[0].at("detectability").get<double>() < seen ||
+        evidence.first_stage.empty()) {
+      return;
+    }
+    ++campaigns;
+    const std::string cause = effects[0].at("id");
+    const bool there = std::ranges::any_of(evidence.first_stage, [&](const hysteron::FirstLook& row) {
+      return row.refitted &&
+             (row.id == cause || hysteron::is_kin(cause, row.id) ||
+              std::ranges::find(answer.at("acceptable"), json(row.id)) != answer.at("acceptable").end());
+    });
+    held += there ? 1 : 0;
+    missed += there ? "" : " " + cause;
+  }
+};
+
 int run(int argc, char** argv) {
   CLI::App program("verdicts of a challenge once more, from the evidence of its diagnoses");
   std::vector<std::string> folders;
@@ -105,6 +133,8 @@ int run(int argc, char** argv) {
   }
 
   std::map<std::string, std::map<std::string, int>> counts;
+  json rows = json::array();
+  FirstLooks first_looks;
   int changed = 0;
   int total = 0;
   int left_out = 0;  // not diagnosed, or by a program that did not record what its verdict rests on
@@ -129,6 +159,8 @@ int run(int argc, char** argv) {
         hysteron::write_file_atomically(path, written.dump(1) + "\n");
       }
       const json row = hysteron::challenge::score_campaign(answer, again);
+      rows.push_back(row);
+      first_looks.count(answer, hysteron::evidence_from(diagnosis.at("evidence")));
       const std::string outcome = row.at("outcome");
       const std::string held = hysteron::challenge::score_campaign(answer, diagnosis).at("outcome");
       const std::string level = answer.at("level");
@@ -152,16 +184,21 @@ int run(int argc, char** argv) {
   }
   fmt::print("{} campaigns, {} of another outcome than with the verdict they hold; {} left out, without evidence\n",
              total, changed, left_out);
+  fmt::print("\nnames and suggestions, stated against found:\n");
+  for (const json& bin : hysteron::challenge::reliability_of(rows)) {
+    const json& right = bin.at("right");
+    if (right.at("trials") > 0) {
+      fmt::print("{:.2f} to {:.2f}: {:.2f} stated, {} of {} true, {:.2f} [{:.2f}, {:.2f}]\n",
+                 bin.at("from").get<double>(), bin.at("to").get<double>(), bin.at("mean_confidence").get<double>(),
+                 right.at("hits").get<int>(), right.at("trials").get<int>(), right.at("rate").get<double>(),
+                 right.at("low95").get<double>(), right.at("high95").get<double>());
+    }
+  }
+  fmt::print("\nrefitted in the first stage, of single causes that can be seen: {} of {}, they or a related effect{}\n",
+             first_looks.held, first_looks.campaigns, first_looks.missed.empty() ? "" : "; not" + first_looks.missed);
   return 0;
 }
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  try {
-    return run(argc, argv);
-  } catch (const std::exception& problem) {
-    std::fprintf(stderr, "error: %s\n", problem.what());
-    return 1;
-  }
-}
+int main(int argc, char** argv) { return hysteron::bench::guarded(run, argc, argv); }
