@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <thread>
+
 #include "core/error.hpp"
 
 namespace hysteron {
@@ -34,7 +37,14 @@ TEST(LineProgram, AnEndIsAnErrorAndNoSignal) {
   EXPECT_THROW(LineProgram({"no-such-program-at-all"}), InputError);
   LineProgram ended({"true"});
   EXPECT_THROW(static_cast<void>(ended.read()), WorkError);
-  EXPECT_THROW(ended.write("to nobody"), WorkError);
+  // It closes its output before it ends.
+  const auto until_it_has_ended = [&] {
+    for (int k = 0; k < 5000; ++k) {
+      ended.write("to nobody");
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+  };
+  EXPECT_THROW(until_it_has_ended(), WorkError);
 }
 
 }  // namespace
