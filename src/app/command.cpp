@@ -32,10 +32,13 @@ void add_data_options(CLI::App& command, DataOptions& options) {
   command
       .add_option("--column", options.columns, "channel=NAME [UNIT] of a column, e.g. force=\"CH1 [kgf]\"; repeatable")
       ->allow_extra_args(false);
+  command.add_option("--skip", options.skip, "lines at the head of every CSV file that are not read")
+      ->transform(whole_number(0, 100000));
 }
 
 ReadOptions read_options(const DataOptions& options) {
   ReadOptions read;
+  read.skip = options.skip;
   for (const std::string& mapping : options.columns) {
     const auto equals = mapping.find('=');
     if (equals == std::string::npos || equals == 0 || equals + 1 == mapping.size()) {

@@ -19,6 +19,7 @@ namespace hysteron::app {
 struct DataOptions {
   std::vector<std::string> data;
   std::vector<std::string> columns;  // force="CH1 [kgf]"
+  int skip = 0;                      // lines at the head of every CSV file
 };
 void add_data_options(CLI::App& command, DataOptions& options);
 ReadOptions read_options(const DataOptions& options);

@@ -19,6 +19,9 @@ constexpr std::pair<std::string_view, Quantity> synonyms[] = {
     {"x", Quantity::displacement},
     {"position", Quantity::displacement},
     {"stroke", Quantity::displacement},
+    {"crosshead", Quantity::displacement},
+    {"extension", Quantity::displacement},
+    {"deflection", Quantity::displacement},
     {"velocity", Quantity::velocity},
     {"vel", Quantity::velocity},
     {"v", Quantity::velocity},
@@ -31,6 +34,7 @@ constexpr std::pair<std::string_view, Quantity> synonyms[] = {
     {"force", Quantity::force},
     {"f", Quantity::force},
     {"load", Quantity::force},
+    {"load cell", Quantity::force},
     {"current", Quantity::current},
     {"i", Quantity::current},
     {"amps", Quantity::current},
@@ -85,6 +89,7 @@ class Assigner {
   Sources run() {
     for (const auto& [channel, value] : options_.columns) map(channel, value);
     for (std::size_t i = 0; i < columns_.size(); ++i) match(i);
+    match_last_words();
     require(Quantity::time);
     if (options_.displacement_required) require(Quantity::displacement);
     if (options_.force_required) require(Quantity::force);
@@ -149,6 +154,35 @@ class Assigner {
     if (mapped) return;
     fail("two columns for " + name + " (" + in_quotes(columns_[static_cast<std::size_t>(present.column)].text) +
          " and " + in_quotes(columns_[i].text) + "), expected one, or --column " + name + "=NAME to choose");
+  }
+
+  // "Total Time", "Axial_Force": a channel that no column names alone is the one column whose last word names it.
+  void match_last_words() {
+    for (const Quantity quantity : {Quantity::time, Quantity::displacement, Quantity::force, Quantity::current}) {
+      if (source(quantity).column >= 0 || (quantity == Quantity::current && source(Quantity::voltage).column >= 0)) {
+        continue;
+      }
+      std::vector<std::size_t> found;
+      for (std::size_t i = 0; i < columns_.size(); ++i) {
+        const std::string_view name = columns_[i].name;
+        const std::size_t cut = name.find_last_of(" _-.");
+        const std::string_view last = cut == std::string_view::npos ? std::string_view{} : name.substr(cut + 1);
+        // A single letter may be anything.
+        if (!taken_[i] && last.size() > 1 && quantity_of_name(last) == quantity) found.push_back(i);
+      }
+      const std::string channel(quantity_name(quantity));
+      if (found.size() > 1 && quantity != Quantity::current) {
+        fail(std::to_string(found.size()) + " columns may be the " + channel + " (" +
+             in_quotes(columns_[found[0]].text) + ", " + in_quotes(columns_[found[1]].text) +
+             "), expected one, or --column " + channel + "=NAME to choose");
+      }
+      if (found.size() != 1) continue;
+      assign(quantity, found.front(), {});
+      if (options_.remark) {
+        const std::string text = in_quotes(columns_[found.front()].text) + " is taken for the " + channel;
+        options_.remark({file_, Remark::Kind::dialect, text, text});
+      }
+    }
   }
 
   void assign(Quantity quantity, std::size_t i, const std::string& unit) {

@@ -16,7 +16,7 @@ namespace hysteron {
 
 // What a reader wants known of a file that it reads all the same.
 struct Remark {
-  enum class Kind { implausible };
+  enum class Kind { implausible, dialect };
   std::string file;
   Kind kind;
   std::string key;   // the same for the same remark on another file
@@ -29,6 +29,7 @@ struct ReadOptions {
   std::map<std::string, std::string> columns;
   bool force_required = true;
   bool displacement_required = true;
+  int skip = 0;  // lines at the head of a CSV file that are not read
   std::function<void(const Remark&)> remark = {};
 };
 

@@ -141,16 +141,92 @@ class CsvReader {
     return false;
   }
 
+  static char delimiter_of(std::string_view line) {
+    return line.find('\t') != std::string_view::npos && line.find_first_of(",;") == std::string_view::npos ? '\t'
+           : line.find(';') != std::string_view::npos                                                      ? ';'
+           : line.find('\t') != std::string_view::npos                                                     ? '\t'
+                                                                                                           : ',';
+  }
+
+  void skip_lines() {
+    for (int k = 0; k < options_.skip; ++k) {
+      const std::size_t end = position_ < text_.size() ? text_.find(line_end_, position_) : std::string_view::npos;
+      if (end == std::string_view::npos) {
+        fail(0, "--skip " + std::to_string(options_.skip) + " leaves nothing of the file, expected fewer lines");
+      }
+      position_ = end + 1;
+      ++line_;
+    }
+  }
+
+  // Cells of the next line by a delimiter, an empty last one left out; none at the end of the text.
+  std::vector<std::string_view> next_cells(char delimiter) {
+    std::vector<std::string_view> cells;
+    std::string_view line;
+    if (!next_line(line)) return cells;
+    split(line, delimiter, cells);
+    if (cells.size() > 1 && unquoted(cells.back()).empty()) cells.pop_back();
+    return cells;
+  }
+
+  // Instruments write lines of their own before the header, which is the first line of words above as many numbers,
+  // with or without a row of units between. Left where it is where there is none: what is wrong is said of the first
+  // line then.
+  void find_header() {
+    constexpr int most_lines = 200;
+    const auto mostly_numbers = [](const std::vector<std::string_view>& cells) {
+      return 2 * std::ranges::count_if(cells, is_number) >= std::ssize(cells);
+    };
+    const auto names_a_channel = [](const std::vector<std::string_view>& cells) {
+      return std::ranges::any_of(
+          cells, [](std::string_view cell) { return quantity_of_name(split_column(unquoted(cell)).name).has_value(); });
+    };
+    const auto begin = position_;
+    const auto before = line_;
+    for (int k = 0; k < most_lines; ++k) {
+      const auto here = position_;
+      const auto number = line_;
+      std::string_view line;
+      if (!next_line(line)) break;
+      const char delimiter = delimiter_of(line);
+      position_ = here;
+      line_ = number;
+      const std::vector<std::string_view> names = next_cells(delimiter);
+      if (mostly_numbers(names)) break;
+      const auto behind = position_;
+      const auto at = line_;
+      std::vector<std::string_view> below = next_cells(delimiter);
+      // A row of units below the names, or words where numbers are expected, which is said then: no title above a
+      // header.
+      if (below.size() == names.size() && !mostly_numbers(below) && names_a_channel(names)) {
+        below = next_cells(delimiter);
+      }
+      if (names.size() > 1 && below.size() == names.size() && mostly_numbers(below)) {
+        position_ = here;
+        line_ = number;
+        if (k > 0 && options_.remark) {
+          const std::string text =
+              "the header is taken from line " + std::to_string(at) + ", lines before it are not read";
+          options_.remark({file_, Remark::Kind::dialect, "header", text});
+        }
+        return;
+      }
+      position_ = behind;
+      line_ = at;
+    }
+    position_ = begin;
+    line_ = before;
+  }
+
   void read_header() {
+    skip_lines();
+    find_header();
     std::string_view line;
     if (!next_line(line)) {
       fail(0, "the file holds only blank lines and comments, expected a header row and at least 8 rows of numbers");
     }
     header_line_ = line_;
-    delimiter_ = line.find('\t') != std::string_view::npos && line.find_first_of(",;") == std::string_view::npos ? '\t'
-                 : line.find(';') != std::string_view::npos                                                      ? ';'
-                 : line.find('\t') != std::string_view::npos                                                     ? '\t'
-                                                                                                                 : ',';
+    delimiter_ = delimiter_of(line);
     std::vector<std::string_view> cells;
     split(line, delimiter_, cells);
     if (cells.size() > 1 && unquoted(cells.back()).empty()) cells.pop_back();  // a delimiter at the end of each row

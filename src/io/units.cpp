@@ -21,13 +21,29 @@ constexpr double standard_gravity = 9.80665;
 constexpr double pound_force = 4.4482216152605;
 
 constexpr BaseUnit time_units[] = {
-    {"s", 1.0, true},     {"sec", 1.0, false},  {"second", 1.0, false}, {"seconds", 1.0, false},
-    {"min", 60.0, false}, {"h", 3600.0, false}, {"msec", 1e-3, false},  {"usec", 1e-6, false},
+    {"s", 1.0, true},         {"sec", 1.0, false},      {"second", 1.0, false},        {"seconds", 1.0, false},
+    {"min", 60.0, false},     {"h", 3600.0, false},     {"msec", 1e-3, false},         {"usec", 1e-6, false},
+    {"minutes", 60.0, false}, {"hours", 3600.0, false}, {"milliseconds", 1e-3, false},
 };
 constexpr BaseUnit length_units[] = {
-    {"m", 1.0, true},        {"meter", 1.0, false}, {"meters", 1.0, false},  {"metre", 1.0, false},
-    {"metres", 1.0, false},  {"in", 0.0254, false}, {"inch", 0.0254, false}, {"inches", 0.0254, false},
-    {"mil", 2.54e-5, false}, {"ft", 0.3048, false},
+    {"m", 1.0, true},
+    {"meter", 1.0, false},
+    {"meters", 1.0, false},
+    {"metre", 1.0, false},
+    {"metres", 1.0, false},
+    {"in", 0.0254, false},
+    {"inch", 0.0254, false},
+    {"inches", 0.0254, false},
+    {"mil", 2.54e-5, false},
+    {"ft", 0.3048, false},
+    {"foot", 0.3048, false},
+    {"feet", 0.3048, false},
+    {"millimeter", 1e-3, false},
+    {"millimeters", 1e-3, false},
+    {"millimetre", 1e-3, false},
+    {"millimetres", 1e-3, false},
+    {"centimeters", 1e-2, false},
+    {"centimetres", 1e-2, false},
 };
 constexpr BaseUnit force_units[] = {
     {"N", 1.0, true},
@@ -36,13 +52,18 @@ constexpr BaseUnit force_units[] = {
     {"lbf", pound_force, false},
     {"lb", pound_force, false},
     {"lbs", pound_force, false},
+    {"pound", pound_force, false},
+    {"pounds", pound_force, false},
+    {"pounds-force", pound_force, false},
+    {"kilonewtons", 1e3, false},
     {"kip", 1000.0 * pound_force, false},
     {"kips", 1000.0 * pound_force, false},
     {"kgf", standard_gravity, false},
     {"gf", 1e-3 * standard_gravity, false},
     {"tf", 1e3 * standard_gravity, false},
 };
-constexpr BaseUnit current_units[] = {{"A", 1.0, true}, {"amp", 1.0, false}, {"amps", 1.0, false}};
+constexpr BaseUnit current_units[] = {
+    {"A", 1.0, true}, {"amp", 1.0, false}, {"amps", 1.0, false}, {"ampere", 1.0, false}, {"amperes", 1.0, false}};
 constexpr BaseUnit voltage_units[] = {{"V", 1.0, true}, {"volt", 1.0, false}, {"volts", 1.0, false}};
 constexpr BaseUnit gravity_units[] = {{"g", standard_gravity, false}, {"mg", 1e-3 * standard_gravity, false}};
 
@@ -64,6 +85,12 @@ std::optional<double> find_factor(std::span<const BaseUnit> units, std::string_v
     for (const auto& [prefix, factor] : prefixes) {
       if (head == prefix) return factor * unit.factor;
     }
+  }
+  // Words in any case; of symbols it may be the difference between milli and mega.
+  constexpr std::size_t shortest_word = 3;
+  const std::string lower = lower_case(text);
+  for (const auto& unit : units) {
+    if (!unit.prefixed && unit.symbol.size() >= shortest_word && lower == unit.symbol) return unit.factor;
   }
   return std::nullopt;
 }

@@ -30,6 +30,51 @@ TEST(Csv, ReadsNamesAndUnits) {
   EXPECT_TRUE(r.drive.empty());
 }
 
+// What the readers remark of a text, line by line.
+std::string remarks_of(const std::string& text, ReadOptions options = {}) {
+  std::string said;
+  options.remark = [&](const Remark& remark) {
+    if (remark.kind == Remark::Kind::dialect) said += remark.text + "\n";
+  };
+  EXPECT_EQ(parse_csv(text, "a.csv", options).size(), 10U);
+  return said;
+}
+
+TEST(Csv, ExportsOfRigsAreReadAsTheyAre) {
+  const std::string ten = ten_rows();
+  EXPECT_EQ(remarks_of(header + ten), "");
+  EXPECT_EQ(remarks_of("Total Time (s),Axial_Position (mm),Load (pounds)\n" + ten),
+            "'Total Time (s)' is taken for the time\n'Axial_Position (mm)' is taken for the displacement\n");
+  EXPECT_EQ(remarks_of("Time (Sec),Crosshead (Inches),Load Cell (LBF)\n" + ten), "");
+  const auto pounds = parse_csv("Total Time (s),Position (mm),Load (Pounds)\n" + ten, "a.csv");
+  EXPECT_DOUBLE_EQ(pounds.force[2], 20 * 4.4482216152605);
+  // A name of its own goes before a last word.
+  const auto both =
+      parse_csv("time [s],command position [mm],x [mm],force [N]\n" +
+                    std::string("0,9,1,2\n1,9,1,2\n2,9,1,2\n3,9,1,2\n4,9,1,2\n5,9,1,2\n6,9,1,2\n7,9,1,2\n"),
+                "a.csv");
+  EXPECT_EQ(both.displacement[0], 1e-3);
+  EXPECT_EQ(message_of<InputError>(
+                [&] { (void)parse_csv("time,command position,actual position,force\n1,2,3,4\n", "a.csv"); }),
+            "a.csv:1: 2 columns may be the displacement ('command position', 'actual position'), expected one, or "
+            "--column displacement=NAME to choose");
+}
+
+TEST(Csv, LinesBeforeTheHeaderAreNotRead) {
+  const std::string ten = ten_rows();
+  const std::string said = "the header is taken from line 5, lines before it are not read\n";
+  EXPECT_EQ(remarks_of("Station: 3\nOperator: Jane\n3/2/2024, 12:40, wet\n\n" + header + ten), said);
+}
+
+TEST(Csv, LinesAreSkippedWhereThatIsAsked) {
+  ReadOptions options;
+  options.skip = 2;
+  EXPECT_EQ(remarks_of("x,t,F\n1,2,3\n" + header + ten_rows(), options), "");
+  options.skip = 50;
+  EXPECT_EQ(message_of<InputError>([&] { (void)parse_csv(header + ten_rows(), "a.csv", options); }),
+            "a.csv: --skip 50 leaves nothing of the file, expected fewer lines");
+}
+
 TEST(Csv, ColumnsThatAreNoChannelAreKeptAsTheirMean) {
   std::string text = "time [s],displacement [mm],oil [degC],force [N],note,valve,gaps,current [A],voltage [V]\n";
   for (int n = 0; n < 10; ++n) {
@@ -168,11 +213,11 @@ TEST(Csv, WrongInputsAreOneClearLine) {
       {"no time", "x,F\n1,2\n",
        ":1: no time column, expected one named time, t, or --column time=NAME; " + present + "'x', 'F'"},
       {"no displacement", "t,F\n1,2\n",
-       ":1: no displacement column, expected one named displacement, disp, x, position, stroke, or --column "
-       "displacement=NAME; " +
+       ":1: no displacement column, expected one named displacement, disp, x, position, stroke, crosshead, extension, "
+       "deflection, or --column displacement=NAME; " +
            present + "'t', 'F'"},
       {"no force", "t [s],x [mm]\n1,2\n",
-       ":1: no force column, expected one named force, f, load, or --column force=NAME; " + present +
+       ":1: no force column, expected one named force, f, load, load cell, or --column force=NAME; " + present +
            "'t [s]', 'x [mm]'"},
       {"one column", "hello world\n1 2\n",
        ":1: no time column, expected one named time, t, or --column time=NAME; " + present + "'hello world'"},
