@@ -97,12 +97,7 @@ IdentifyOptions identify_options(const FitOptions& options, const Campaign& camp
       throw InputError("--bounds: '" + name + "' is given twice, expected each parameter once");
     }
   }
-  for (const std::string& text : options.settings) {
-    const auto [name, value] = split_pair("--set", text, "SETTING=NUMBER, see `hysteron describe SOLVER`");
-    if (!result.settings.emplace(name, parse_number("--set", value)).second) {
-      throw InputError("--set: '" + name + "' is given twice, expected each setting once");
-    }
-  }
+  result.settings = settings_of(options.settings);
   return result;
 }
 

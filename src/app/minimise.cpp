@@ -67,23 +67,6 @@ std::vector<Coordinate> box_of(const std::vector<std::string>& words) {
   return result;
 }
 
-std::map<std::string, double> settings_of(const std::vector<std::string>& words) {
-  std::map<std::string, double> result;
-  for (const std::string& word : words) {
-    const std::size_t equals = word.find('=');
-    const std::string number = equals == std::string::npos ? "" : word.substr(equals + 1);
-    char* end = nullptr;
-    const double value = std::strtod(number.c_str(), &end);
-    if (equals == 0 || number.empty() || *end != '\0' || !std::isfinite(value)) {
-      throw InputError("--set: '" + word + "' is wrong, expected SETTING=NUMBER, see `hysteron describe SOLVER`");
-    }
-    if (!result.emplace(word.substr(0, equals), value).second) {
-      throw InputError("--set: '" + word.substr(0, equals) + "' is given twice, expected each setting once");
-    }
-  }
-  return result;
-}
-
 const SolverEntry& solver_of(const std::string& id) {
   const SolverEntry* entry = find_solver(id);
   if (entry == nullptr) {

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 
 #include "app/command.hpp"
@@ -10,6 +11,7 @@
 #include "app/values.hpp"
 #include "core/error.hpp"
 #include "core/suggest.hpp"
+#include "fit/solver.hpp"
 #include "io/output.hpp"
 #include "report/markdown.hpp"
 #include "report/terminal.hpp"
@@ -25,6 +27,7 @@ struct Options {
   std::size_t seeds = 0;
   std::size_t budget = 0;
   std::vector<std::string> data;
+  std::vector<std::string> settings;
   int threads = 0;
   bool quiet = false;
   bool json = false;
@@ -69,6 +72,28 @@ std::string reproduction_markdown(const PublishedTable& entry, const Reproductio
   return text;
 }
 
+// Gives the study's solvers these settings, each to those that know it. Returns what was changed, "pso: topology = 0".
+std::vector<std::string> set(Study& study, const std::map<std::string, double>& settings) {
+  std::vector<std::string> changed;
+  for (const auto& [name, value] : settings) {
+    bool known = false;
+    for (SolverSpec& solver : study.solvers) {
+      const SolverEntry* entry = find_solver(solver.id);
+      const auto row = std::ranges::find(entry->settings, name, &Setting::name);
+      if (row == entry->settings.end()) continue;
+      if (value < row->lower || value > row->upper) {
+        throw InputError(fmt::format("--set: {} is {:g}, expected a number from {:g} to {:g} for {}", name, value,
+                                     row->lower, row->upper, solver.id));
+      }
+      known = true;
+      solver.settings[name] = value;
+      changed.push_back(fmt::format("{}: {} = {:g}", solver.label, name, value));
+    }
+    if (!known) throw InputError("--set: no solver of this table has a setting '" + name + "'");
+  }
+  return changed;
+}
+
 void run(const Options& options) {
   const PublishedTable* entry = find_published_table(options.table);
   if (entry == nullptr) {
@@ -83,7 +108,9 @@ void run(const Options& options) {
   }
   ReproduceOptions used{options.seeds > 0 ? options.seeds : entry->seeds,
                         options.budget > 0 ? options.budget : entry->budget, options.data};
-  const Plan plan = make_plan(entry->study(used), HYSTERON_VERSION);
+  Study study = entry->study(used);
+  const std::vector<std::string> changed = set(study, settings_of(options.settings));
+  const Plan plan = make_plan(study, HYSTERON_VERSION);
   const std::filesystem::path out(options.out);
   Store store = options.out.empty() ? Store::memory() : Store::open(out, Store::Mode::write);
   RunOptions how;
@@ -95,7 +122,10 @@ void run(const Options& options) {
     return;
   }
   std::vector<RunRecord> records = store.records();
-  const Reproduction result = entry->result(plan, records);
+  Reproduction result = entry->result(plan, records);
+  for (const std::string& line : changed) {
+    result.not_remade.insert(result.not_remade.begin(), "set on the command line, " + line);
+  }
   if (!options.out.empty()) {
     const StudyView view = view_of(store, std::move(records), out);
     write_study_report(out, view, false, false);
@@ -125,6 +155,9 @@ void add_reproduce(CLI::App& program) {
       ->transform(whole_number(10, 1000000000));
   command->add_option("--data", options->data, "recordings instead of the stand-in: table-v, table-vi, table-vii")
       ->allow_extra_args();
+  command->add_option("--set", options->settings, "SETTING=NUMBER of the table's solvers that have it; repeatable")
+      ->delimiter(',')
+      ->allow_extra_args(false);
   command->add_option("--out", options->out, "folder for records, report and table; an interrupted call is continued");
   command->add_option("--threads", options->threads, "runs beside each other; 0 takes OMP_NUM_THREADS or all cores")
       ->transform(whole_number(0, 1024))
@@ -132,7 +165,8 @@ void add_reproduce(CLI::App& program) {
   command->add_flag("--quiet", options->quiet, "no progress on standard error");
   command->add_flag("--json", options->json, "JSON on standard output");
   command->footer(
-      "Examples:\n  hysteron reproduce table-v\n  hysteron reproduce table-v --data recordings --seeds 31 --out real");
+      "Examples:\n  hysteron reproduce table-v\n  hysteron reproduce table-v --data recordings --seeds 31 --out real\n"
+      "  hysteron reproduce table-v --set topology=0,vmax=1");
   command->callback([options] { run(*options); });
 }
 

@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,9 @@ namespace hysteron::app {
 
 // A finite number from `low` to `high`.
 [[nodiscard]] CLI::Validator real_number(double low, double high);
+
+// Of --set, SETTING=NUMBER each; InputError for a wrong word and a setting that is given twice.
+std::map<std::string, double> settings_of(const std::vector<std::string>& words);
 
 // InputError when a word is there twice.
 void refuse_repeats(const std::string& option, const std::vector<std::string>& words);

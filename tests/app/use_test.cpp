@@ -7,6 +7,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <sstream>
 #include <string>
@@ -55,6 +56,26 @@ TEST_F(Use, OnlyFilesAreRead) {
   }
   fs::create_symlink("/dev/zero", folder_ / "data/campaign.toml");
   EXPECT_EQ(run({"fit", "data", "--model", "viscous", "--out", "out"}, [] { alarm(20); }).status, 2);
+}
+
+TEST_F(Use, APublishedTableTakesSettingsOfItsSolvers) {
+  const auto table = [&](std::vector<std::string> more) {
+    std::vector<std::string> words{"reproduce", "table-viii", "--seeds", "1", "--budget", "30", "--quiet", "--json"};
+    words.insert(words.end(), more.begin(), more.end());
+    return run(words);
+  };
+  const Outcome plain = table({});
+  const Outcome whole = table({"--set", "topology=0"});
+  ASSERT_EQ(plain.status, 0) << plain.err;
+  ASSERT_EQ(whole.status, 0) << whole.err;
+  EXPECT_EQ(plain.out.find("set on the command line"), std::string::npos);
+  EXPECT_NE(whole.out.find("topology = 0"), std::string::npos);
+  EXPECT_NE(plain.out.substr(0, plain.out.find("not_remade")), whole.out.substr(0, whole.out.find("not_remade")));
+  for (const char* wrong : {"topologi=0", "topology=9", "topology", "topology=0,topology=1"}) {
+    const Outcome outcome = table({"--set", wrong});
+    EXPECT_EQ(outcome.status, 2) << wrong;
+    EXPECT_EQ(std::ranges::count(outcome.err, '\n'), 1) << outcome.err;
+  }
 }
 
 TEST_F(Use, ProgressIsOneLineNoWiderThanTheTerminal) {
