@@ -10,8 +10,8 @@
 #include "app/values.hpp"
 #include "core/error.hpp"
 #include "core/printable.hpp"
-#include "fit/external_solver.hpp"
-#include "fit/line_program.hpp"
+#include "external/external_solver.hpp"
+#include "external/line_program.hpp"
 #include "fit/parallel.hpp"
 #include "io/campaign.hpp"
 #include "io/campaign_file.hpp"
@@ -131,16 +131,12 @@ void add_solver_option(CLI::App& command, std::vector<std::string>& commands) {
 
 void add_solver_commands(const std::vector<std::string>& commands) {
   for (const std::string& text : commands) {
-    const std::size_t equals = text.find('=');
-    if (equals == std::string::npos || equals == 0) {
-      throw InputError("--solver-command: '" + text +
-                       "' is wrong, expected NAME=COMMAND, e.g. mine=\"python3 mine.py\"");
-    }
-    ExternalProgram program{words_of_command(text.substr(equals + 1)), {}};
+    const auto [name, command] = split_pair("--solver-command", text, "NAME=COMMAND, e.g. mine=\"python3 mine.py\"");
+    ExternalProgram program{words_of_command(command), {}};
     for (const std::string& word : program.words) {
       if (std::filesystem::is_regular_file(word)) program.files[word] = sha256_hex(read_file(word));
     }
-    add_external_solver(text.substr(0, equals), std::move(program));
+    add_external_solver(name, std::move(program));
   }
 }
 

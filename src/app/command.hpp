@@ -40,7 +40,7 @@ ObjectiveOptions objective_options(const CommonOptions& options);
 // "alpha:1,c0:2" -> orders; InputError naming the option and the word that is wrong.
 std::map<std::string, int> parse_orders(const std::string& option, const std::string& text);
 
-// --solver-command NAME=COMMAND: solvers that are programs of the user's own (fit/external_solver.hpp), to be added
+// --solver-command NAME=COMMAND: solvers that are programs of the user's own (external/external_solver.hpp), to be added
 // before their names are looked for.
 void add_solver_option(CLI::App& command, std::vector<std::string>& commands);
 void add_solver_commands(const std::vector<std::string>& commands);

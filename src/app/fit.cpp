@@ -41,24 +41,6 @@ struct FitOptions {
   std::string out;
 };
 
-double parse_number(const std::string& option, const std::string& text) {
-  char* end = nullptr;
-  const double value = std::strtod(text.c_str(), &end);
-  if (text.empty() || *end != '\0' || !std::isfinite(value)) {
-    throw InputError(option + ": '" + text + "' is not a finite number");
-  }
-  return value;
-}
-
-std::pair<std::string, std::string> split_pair(const std::string& option, const std::string& text,
-                                               const std::string& expected) {
-  const auto equals = text.find('=');
-  if (equals == std::string::npos || equals == 0) {
-    throw InputError(option + ": '" + text + "' is wrong, expected " + expected);
-  }
-  return {text.substr(0, equals), text.substr(equals + 1)};
-}
-
 IdentifyOptions identify_options(const FitOptions& options, const Campaign& campaign) {
   IdentifyOptions result;
   add_solver_commands(options.solver_commands);
@@ -84,15 +66,7 @@ IdentifyOptions identify_options(const FitOptions& options, const Campaign& camp
   }
   for (const std::string& text : options.bounds) {
     const auto [name, range] = split_pair("--bounds", text, "PARAMETER=LOWER:UPPER in SI units");
-    const auto colon = range.find(':');
-    if (colon == std::string::npos) {
-      throw InputError("--bounds: '" + text + "' is wrong, expected PARAMETER=LOWER:UPPER in SI units");
-    }
-    const double lower = parse_number("--bounds", range.substr(0, colon));
-    const double upper = parse_number("--bounds", range.substr(colon + 1));
-    if (!(lower < upper)) {
-      throw InputError("--bounds: '" + text + "' is empty, expected LOWER below UPPER");
-    }
+    const auto [lower, upper] = parse_range("--bounds", range);
     if (!result.layout.bounds.emplace(name, std::pair(lower, upper)).second) {
       throw InputError("--bounds: '" + name + "' is given twice, expected each parameter once");
     }

@@ -2,15 +2,15 @@
 // their costs, by lines of JSON (docs/own-solver.md).
 #include <fmt/format.h>
 
-#include <cmath>
+#include <algorithm>
 #include <memory>
 
 #include "app/command.hpp"
 #include "app/values.hpp"
 #include "core/error.hpp"
 #include "core/suggest.hpp"
+#include "external/line_program.hpp"
 #include "fit/driver.hpp"
-#include "fit/line_program.hpp"
 #include "io/output.hpp"
 #include "report/terminal.hpp"
 
@@ -18,8 +18,6 @@ namespace hysteron::app {
 namespace {
 
 using nlohmann::json;
-
-constexpr std::size_t most_shown = 80;
 
 struct Options {
   std::string objective;
@@ -40,29 +38,15 @@ struct Coordinate {
   [[nodiscard]] double at(double unit) const { return lower + unit * (upper - lower); }
 };
 
-double number_in(const std::string& text, const std::string& whole) {
-  const char* begin = text.c_str();
-  char* end = nullptr;
-  const double value = std::strtod(begin, &end);
-  if (end == begin || *end != '\0' || !std::isfinite(value)) {
-    throw InputError("--box: '" + whole + "' is wrong, expected NAME=LOWER:UPPER, e.g. stiffness=0:1e5");
-  }
-  return value;
-}
-
 std::vector<Coordinate> box_of(const std::vector<std::string>& words) {
   std::vector<Coordinate> result;
   for (const std::string& word : words) {
-    const std::size_t equals = word.find('=');
-    const std::size_t colon = word.find(':', equals == std::string::npos ? 0 : equals);
-    if (equals == std::string::npos || equals == 0 || colon == std::string::npos) number_in("", word);
-    Coordinate one{word.substr(0, equals), number_in(word.substr(equals + 1, colon - equals - 1), word),
-                   number_in(word.substr(colon + 1), word)};
-    if (!(one.lower < one.upper)) throw InputError("--box: '" + word + "' is empty, expected LOWER below UPPER");
-    for (const Coordinate& other : result) {
-      if (other.name == one.name) throw InputError("--box: '" + one.name + "' is given twice, expected each once");
+    const auto [name, range] = split_pair("--box", word, "NAME=LOWER:UPPER, e.g. stiffness=0:1e5");
+    const auto [lower, upper] = parse_range("--box", range);
+    if (std::ranges::find(result, name, &Coordinate::name) != result.end()) {
+      throw InputError("--box: '" + name + "' is given twice, expected each once");
     }
-    result.push_back(std::move(one));
+    result.push_back({name, lower, upper});
   }
   return result;
 }
@@ -107,8 +91,7 @@ class Objective {
     const std::string line = program_.read();
     const json answer = json::parse(line, nullptr, false);
     const auto wrong = [&](const std::string& expected) {
-      return WorkError("the objective printed '" + line.substr(0, most_shown) +
-                       (line.size() > most_shown ? "...'" : "'") + ", expected " + expected);
+      return WorkError("the objective " + printed(line) + ", expected " + expected);
     };
     if (!answer.is_object() || !answer.contains("costs") || !answer.at("costs").is_array()) {
       throw wrong(R"({"costs": [...]})");

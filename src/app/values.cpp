@@ -68,18 +68,39 @@ CLI::Validator real_number(double low, double high) {
           range};
 }
 
+double parse_number(const std::string& option, const std::string& text) {
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  if (text.empty() || *end != '\0' || !std::isfinite(value)) {
+    throw InputError(option + ": '" + text + "' is not a finite number");
+  }
+  return value;
+}
+
+std::pair<std::string, std::string> split_pair(const std::string& option, const std::string& text,
+                                               const std::string& expected) {
+  const auto equals = text.find('=');
+  if (equals == std::string::npos || equals == 0) {
+    throw InputError(option + ": '" + text + "' is wrong, expected " + expected);
+  }
+  return {text.substr(0, equals), text.substr(equals + 1)};
+}
+
+std::pair<double, double> parse_range(const std::string& option, const std::string& text) {
+  const auto colon = text.find(':');
+  if (colon == std::string::npos) throw InputError(option + ": '" + text + "' is wrong, expected LOWER:UPPER");
+  const double lower = parse_number(option, text.substr(0, colon));
+  const double upper = parse_number(option, text.substr(colon + 1));
+  if (!(lower < upper)) throw InputError(option + ": '" + text + "' is empty, expected LOWER below UPPER");
+  return {lower, upper};
+}
+
 std::map<std::string, double> settings_of(const std::vector<std::string>& words) {
   std::map<std::string, double> result;
   for (const std::string& word : words) {
-    const std::size_t equals = word.find('=');
-    const std::string number = equals == std::string::npos ? "" : word.substr(equals + 1);
-    char* end = nullptr;
-    const double value = std::strtod(number.c_str(), &end);
-    if (equals == 0 || number.empty() || *end != '\0' || !std::isfinite(value)) {
-      throw InputError("--set: '" + word + "' is wrong, expected SETTING=NUMBER, see `hysteron describe SOLVER`");
-    }
-    if (!result.emplace(word.substr(0, equals), value).second) {
-      throw InputError("--set: '" + word.substr(0, equals) + "' is given twice, expected each setting once");
+    const auto [name, value] = split_pair("--set", word, "SETTING=NUMBER, see `hysteron describe SOLVER`");
+    if (!result.emplace(name, parse_number("--set", value)).second) {
+      throw InputError("--set: '" + name + "' is given twice, expected each setting once");
     }
   }
   return result;

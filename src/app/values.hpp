@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace hysteron::app {
@@ -17,6 +18,13 @@ namespace hysteron::app {
 
 // A finite number from `low` to `high`.
 [[nodiscard]] CLI::Validator real_number(double low, double high);
+
+// "NAME=VALUE" -> its two halves, the name not empty; `expected` ends the message.
+std::pair<std::string, std::string> split_pair(const std::string& option, const std::string& text,
+                                               const std::string& expected);
+// A finite number; "LOWER:UPPER" with the first below the second. InputError that names the option.
+double parse_number(const std::string& option, const std::string& text);
+std::pair<double, double> parse_range(const std::string& option, const std::string& text);
 
 // Of --set, SETTING=NUMBER each; InputError for a wrong word and a setting that is given twice.
 std::map<std::string, double> settings_of(const std::vector<std::string>& words);

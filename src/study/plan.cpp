@@ -7,7 +7,7 @@
 
 #include "core/error.hpp"
 #include "datasets/dataset.hpp"
-#include "fit/external_solver.hpp"
+#include "external/external_solver.hpp"
 #include "io/campaign.hpp"
 #include "io/sha256.hpp"
 

@@ -23,6 +23,7 @@ const Allowed& allowed() {
       {"models", {"simulate", "scalar"}},
       {"models/effects", {"models", "simulate", "scalar"}},
       {"src/fit", {"core", "scalar", "simulate"}},
+      {"src/external", {"core", "fit"}},
       {"algorithms", {"algorithms/support", "core", "fit"}},
       {"src/diagnose/signal", {"core", "fit", "io", "simulate"}},
       {"src/diagnose/residual", {"core", "diagnose/signal", "fit", "io"}},
@@ -39,7 +40,7 @@ const Allowed& allowed() {
       {"src/plugin", {"core", "fit", "simulate"}},
       {"presets", {"presets/support"}},
       {"datasets", {"core", "datasets/support", "io", "presets/support", "simulate"}},
-      {"src/study", {"core", "datasets", "fit", "io", "report", "simulate"}},
+      {"src/study", {"core", "datasets", "external", "fit", "io", "report", "simulate"}},
   };
   return table;
 }

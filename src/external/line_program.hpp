@@ -13,6 +13,9 @@ namespace hysteron {
 // Throws InputError for an empty command and an open quote.
 std::vector<std::string> words_of_command(const std::string& command);
 
+// "printed 'the line'", a long one cut, for messages about what a program said.
+std::string printed(const std::string& line);
+
 class LineProgram {
  public:
   // Starts it; the first word is looked for in PATH. Throws InputError where it cannot be started.

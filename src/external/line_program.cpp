@@ -1,7 +1,6 @@
-#include "fit/line_program.hpp"
+#include "external/line_program.hpp"
 
 #include <fcntl.h>
-#include <poll.h>
 #include <pthread.h>
 #include <signal.h>
 #include <spawn.h>
@@ -83,6 +82,11 @@ std::vector<std::string> words_of_command(const std::string& command) {
   return words;
 }
 
+std::string printed(const std::string& line) {
+  constexpr std::size_t most_shown = 80;
+  return "printed '" + line.substr(0, most_shown) + (line.size() > most_shown ? "...'" : "'");
+}
+
 LineProgram::LineProgram(const std::vector<std::string>& words) : words_(words) {
   std::array<int, 2> in{};
   std::array<int, 2> out{};
@@ -116,7 +120,8 @@ LineProgram::~LineProgram() {
   close(to_);
   close(from_);
   for (int k = 0; k < waits; ++k) {
-    if (waitpid(child_, nullptr, WNOHANG) != 0) return;
+    const pid_t ended = waitpid(child_, nullptr, WNOHANG);
+    if (ended == child_ || (ended == -1 && errno != EINTR)) return;
     std::this_thread::sleep_for(wait);
   }
   kill(child_, SIGKILL);

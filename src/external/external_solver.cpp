@@ -1,4 +1,4 @@
-#include "fit/external_solver.hpp"
+#include "external/external_solver.hpp"
 
 #include <algorithm>
 #include <deque>
@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
-#include "fit/line_program.hpp"
+#include "external/line_program.hpp"
 #include "fit/solver.hpp"
 
 namespace hysteron {
@@ -16,7 +16,6 @@ using nlohmann::json;
 
 // Seeds that a double and a signed integer of 32 bits hold.
 constexpr std::uint64_t seeds = std::uint64_t{1} << 31;
-constexpr std::size_t most_shown = 80;
 
 class ExternalSolver final : public Solver {
  public:
@@ -43,8 +42,7 @@ class ExternalSolver final : public Solver {
       return {};
     }
     const auto wrong = [&](const std::string& expected) {
-      return WorkError("solver '" + id_ + "' printed '" + line.substr(0, most_shown) +
-                       (line.size() > most_shown ? "...'" : "'") + ", expected " + expected);
+      return WorkError("solver '" + id_ + "' " + printed(line) + ", expected " + expected);
     };
     if (!answer.is_object() || !answer.contains("ask") || !answer.at("ask").is_array() || answer.at("ask").empty()) {
       throw wrong(R"({"ask": [[...], ...]} with at least one point, or {"stop": "why"})");

@@ -1,4 +1,4 @@
-#include "fit/line_program.hpp"
+#include "external/line_program.hpp"
 
 #include <gtest/gtest.h>
 
