@@ -1,5 +1,9 @@
 #include "core/unit_text.hpp"
 
+#include <algorithm>
+#include <utility>
+#include <vector>
+
 namespace hysteron {
 
 std::string term_unit(std::string_view unit, int drive_power, int frequency_power, DriveKind drive) {
@@ -10,18 +14,33 @@ std::string term_unit(std::string_view unit, int drive_power, int frequency_powe
 }
 
 std::string unit_text(const std::string& unit) {
-  const std::size_t at = unit.find_last_of('/');
-  if (at == std::string::npos || at == 0 || (unit.substr(at) != "/A" && unit.substr(at) != "/V")) {
+  if (!unit.ends_with("/A") && !unit.ends_with("/V") && !unit.ends_with("/Hz")) {
     return unit;
   }
-  std::string head = unit;
-  int power = 0;
-  const std::string tail = unit.substr(at);
-  while (head.ends_with(tail)) {
-    head.resize(head.size() - tail.size());
-    ++power;
+  // Behind a bracket what is divided by is a whole: "m/(N s)/A".
+  const std::size_t bracket = unit.find(')');
+  const std::size_t begin = unit.find('/', bracket == std::string::npos ? 0 : bracket);
+  const std::string head = unit.substr(0, begin);
+  std::vector<std::pair<std::string, int>> below;
+  for (std::size_t at = begin; at < unit.size();) {
+    const std::size_t end = std::min(unit.find('/', at + 1), unit.size());
+    const std::string part = unit.substr(at + 1, end - at - 1);
+    const std::size_t caret = part.find('^');
+    const std::string symbol = part.substr(0, caret);
+    const int power = caret == std::string::npos ? 1 : std::stoi(part.substr(caret + 1));
+    const auto known = std::ranges::find(below, symbol, &std::pair<std::string, int>::first);
+    if (known == below.end()) {
+      below.emplace_back(symbol, power);
+    } else {
+      known->second += power;
+    }
+    at = end;
   }
-  return head + " " + tail.substr(1) + "^-" + std::to_string(power);
+  std::string result = head == "1" ? "" : head;
+  for (const auto& [symbol, power] : below) {
+    result += (result.empty() ? "" : " ") + symbol + "^-" + std::to_string(power);
+  }
+  return result;
 }
 
 }  // namespace hysteron

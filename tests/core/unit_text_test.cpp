@@ -15,7 +15,11 @@ TEST(UnitText, NewtonsPerAmpereAreNotNotAvailable) {
   EXPECT_EQ(unit_text("N"), "N");
   EXPECT_EQ(unit_text("N/m"), "N/m");
   EXPECT_EQ(unit_text("N/A"), "N A^-1");
-  EXPECT_EQ(unit_text("N s/m/V/V"), "N s/m V^-2");
+  EXPECT_EQ(unit_text("N s/m/V/V"), "N s m^-1 V^-2");
+  EXPECT_EQ(unit_text("N/m^3/A"), "N m^-3 A^-1");
+  EXPECT_EQ(unit_text("1/m/A/Hz"), "m^-1 A^-1 Hz^-1");
+  EXPECT_EQ(unit_text("m/(N s)/A"), "m/(N s) A^-1");
+  EXPECT_EQ(unit_text("1/A^2/A"), "A^-3");
 }
 
 }  // namespace
