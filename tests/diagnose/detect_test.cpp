@@ -6,6 +6,7 @@
 
 #include "diagnose/search/observe.hpp"
 #include "diagnose/search/of_fit.hpp"
+#include "diagnose/search/signature.hpp"
 #include "fit/synthetic.hpp"
 
 namespace hysteron {
@@ -58,6 +59,29 @@ TEST(DetectionLimits, FollowFromForces) {
     ASSERT_NE(row, rows.end()) << id;
     EXPECT_FALSE(row->detection_limit.empty()) << id << ": " << row->reason;
   }
+}
+
+// Samples so far apart that friction which turns over in its initial length cannot be simulated from one to the next.
+TEST(DetectionLimits, AShapeThatIsTooStiffGivesWayToOneThatIsNot) {
+  const Base fine = base_of();
+  Split split = fine.bench.split();
+  for (Recording& recording : split.fit) {
+    recording = every_kth(recording, 12);
+  }
+  ObjectiveOptions comparing;
+  comparing.comparing = true;
+  const Workbench coarse(scale_of(split.fit), split, {}, comparing, 1, [] { return false; });
+  const Fit fit = coarse.scored(fine.fit);
+  const Fit initial = coarse.with_neutral(fit, "coulomb-friction");
+  ASSERT_FALSE(stacked(coarse, moved(initial, size_of(initial, "coulomb-friction"), 0.1)).allFinite());
+  const Fit neutral = at_neutral_size(coarse, fit, "coulomb-friction");
+  const auto change = [&](double size) {
+    const Eigen::VectorXd with = stacked(coarse, moved(neutral, size_of(neutral, "coulomb-friction"), size));
+    return (with - stacked(coarse, fit)).norm() / std::sqrt(static_cast<double>(with.size()));
+  };
+  // Of the peak force: next to nothing at its neutral size, and not so at a tenth of its box. No NaN passes.
+  EXPECT_LT(change(0.0), 2e-3);
+  EXPECT_GT(change(0.1), 2e-2);
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ constexpr double interior = 1e-3;
 // What the effect adds to the force beside the basis, of length one; empty where it adds nothing of its own.
 std::optional<Eigen::VectorXd> signature(const Workbench& bench, const Fit& fit, const std::string& effect,
                                          const Eigen::VectorXd& at, const Eigen::MatrixXd& basis) {
-  const Fit neutral = bench.with_neutral(fit, effect);
+  const Fit neutral = at_neutral_size(bench, fit, effect);
   const std::vector<std::size_t> coordinates = size_of(neutral, effect);
   if (coordinates.empty()) {
     return std::nullopt;

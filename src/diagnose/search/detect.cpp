@@ -70,7 +70,7 @@ Unobservable limit_of(const Workbench& bench, const Fit& fit, const Misfit& misf
                       const Eigen::VectorXd& at, const Eigen::MatrixXd& basis) {
   Unobservable result;
   result.id = effect;
-  const Fit neutral = bench.with_neutral(fit, effect);
+  const Fit neutral = at_neutral_size(bench, fit, effect);
   const std::vector<std::size_t> coordinates = size_of(neutral, effect);
   if (coordinates.empty()) {
     result.reason = "its parameters are all held";

@@ -62,4 +62,29 @@ std::vector<std::size_t> size_of(const Fit& fit, const std::string& effect) {
   return coordinates;
 }
 
+Fit at_neutral_size(const Workbench& bench, const Fit& fit, const std::string& effect) {
+  const Fit neutral = bench.with_neutral(fit, effect);
+  const std::vector<std::size_t> size = size_of(neutral, effect);
+  const auto runs = [&](const Fit& shape) {
+    const double sense = shape.point[size.front()] > 0.5 ? -1.0 : 1.0;
+    return stacked(bench, moved(shape, size, sense * effect_sizes.front())).allFinite();
+  };
+  if (size.empty() || runs(neutral)) {
+    return neutral;
+  }
+  const Starts starts = bench.starts(neutral.what, fit);
+  for (const std::vector<double>& start : starts.points) {
+    Fit shape = neutral;
+    shape.point = start;
+    for (const std::size_t c : starts.sizes) {
+      shape.point[c] = neutral.point[c];
+    }
+    shape.terms = shape.layout->terms(shape.point);
+    if (runs(shape)) {
+      return shape;
+    }
+  }
+  return neutral;
+}
+
 }  // namespace hysteron

@@ -22,6 +22,10 @@ Fit moved(Fit fit, const std::vector<std::size_t>& coordinates, double by);
 // Coordinates of the size of an effect that the fit holds; empty where it is held at a value.
 std::vector<std::size_t> size_of(const Fit& fit, const std::string& effect);
 
+// The fit with the effect beside it at its neutral size. Its shape is the initial one or, where a small size of that is
+// too stiff to be simulated on these recordings, the first of the starts of a refit that is not.
+Fit at_neutral_size(const Workbench& bench, const Fit& fit, const std::string& effect);
+
 // An orthonormal basis of what the parameters of the fit can do, to first order; `at` is stacked(bench, fit).
 Eigen::MatrixXd imitable(const Workbench& bench, const Fit& fit, const Eigen::VectorXd& at);
 
