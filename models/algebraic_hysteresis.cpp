@@ -21,6 +21,7 @@ struct AlgebraicHysteresis {
   static constexpr std::string_view equations[] = {"F = c0 v + k0 x + alpha z + f0",
                                                    "z = tanh((v + v_h tanh((x - x0) / x_s)) / v_y)"};
   static constexpr int states = 0;
+  static constexpr bool alternative = true;
   static constexpr Parameter parameters[] = {
       {.name = "alpha", .unit = "N", .meaning = "yield force", .box = {0, 3e3}, .initial = 500, .linear = true, .role = PhysicalRole::yield_force},
       {.name = "c0", .symbol = "c", .unit = "N s/m", .meaning = "viscous damping", .box = {0, 2e4}, .initial = 500, .linear = true, .role = PhysicalRole::damping},

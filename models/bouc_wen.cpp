@@ -22,6 +22,7 @@ struct BoucWen {
   static constexpr std::string_view equations[] = {"F = c0 v + k0 x + alpha z + f0",
                                                    "z' = (v - |z|^n (share |v| sgn(z) + (1 - share) v)) / x_y"};
   static constexpr int states = 1;
+  static constexpr bool alternative = true;
   static constexpr Parameter parameters[] = {
       {.name = "alpha", .unit = "N", .meaning = "yield force: force of the saturated hysteresis", .box = {0, 3e3}, .initial = 500, .linear = true, .role = PhysicalRole::yield_force},
       cards::c0,

@@ -18,6 +18,7 @@ struct HyperbolicTangent {
       "after Kwok et al., Sens. Actuators A 132 (2006) 441-451, doi 10.1016/j.sna.2006.03.015";
   static constexpr std::string_view equations[] = {"F = alpha tanh(h / v_y) + c0 v + k0 x + f0", "h' = (v - h) / tau"};
   static constexpr int states = 1;
+  static constexpr bool alternative = true;
   static constexpr Parameter parameters[] = {
       {.name = "alpha", .unit = "N", .meaning = "yield force", .box = {0, 3e3}, .initial = 500, .linear = true, .role = PhysicalRole::yield_force},
       cards::c0,

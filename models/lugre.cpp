@@ -20,6 +20,7 @@ struct LuGre {
   static constexpr std::string_view equations[] = {
       "F = alpha z + c1 u + c0 v + k0 x + f0", "u = v - |v| z / (1 + (ratio - 1) exp(-(v / v_st)^2))", "z' = u / x_y"};
   static constexpr int states = 1;
+  static constexpr bool alternative = true;
   static constexpr Parameter parameters[] = {
       {.name = "alpha", .symbol = "F_c", .unit = "N", .meaning = "Coulomb force", .box = {0, 3e3}, .initial = 500, .linear = true, .role = PhysicalRole::yield_force},
       {.name = "c0", .symbol = "sigma_2", .unit = "N s/m", .meaning = "viscous damping", .box = {0, 2e4}, .initial = 500, .linear = true, .role = PhysicalRole::damping},

@@ -22,6 +22,7 @@ struct ModifiedBoucWen {
       "F = c1 y' + k1 (x - x0)", "y' = (alpha z + c0 v + k0 (x - y)) / (c0 + c1)",
       "z' = (u - |z|^n (share |u| sgn(z) + (1 - share) u)) / x_y, u = v - y'"};
   static constexpr int states = 2;
+  static constexpr bool alternative = true;
   static constexpr Parameter parameters[] = {
       {.name = "alpha", .unit = "N", .meaning = "yield force: force of the saturated hysteresis", .box = {0, 3e3}, .initial = 500, .role = PhysicalRole::yield_force},
       {.name = "c0", .unit = "N s/m", .meaning = "viscous damping at high speed", .box = {0, 2e4}, .initial = 500, .role = PhysicalRole::damping},

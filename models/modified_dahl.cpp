@@ -15,6 +15,7 @@ struct ModifiedDahl {
   static constexpr std::string_view reference = "Zhou, Qu, Earthquake Eng. Eng. Vib. 22 (2002) 144-150";
   static constexpr std::string_view equations[] = {"F = c0 v + k0 x + alpha z + f0", "z' = (v - |v| z) / x_y"};
   static constexpr int states = 1;
+  static constexpr bool alternative = true;
   static constexpr Parameter parameters[] = {
       {.name = "alpha", .symbol = "F_d", .unit = "N", .meaning = "Coulomb force scaled by the field", .box = {0, 3e3}, .initial = 500, .linear = true, .role = PhysicalRole::yield_force},
       cards::c0,

@@ -152,6 +152,9 @@ void describe_part(const Part& part, const std::string& kind, bool as_json) {
                   {"states", part.states},
                   {"presets", presets},
                   {"parameters", cards}};
+    if (kind == "model") {
+      entry["alternative"] = part.alternative;
+    }
     if (kind == "effect") {
       entry.update(effect_card_json(std::string(part.id)));
     }
@@ -174,6 +177,9 @@ void describe_part(const Part& part, const std::string& kind, bool as_json) {
   fmt::print(
       "\nBounds are for a device of 1 kN, 25 mm half stroke and 0.3 m/s; an identification scales them to the "
       "recordings.\n");
+  if (part.alternative) {
+    fmt::print("\n`diagnose` tries it in place of another damper law.\n");
+  }
   if (const std::string known = kind == "effect" ? effect_card_text(std::string(part.id)) : ""; !known.empty()) {
     fmt::print("\n{}", known);
   }

@@ -85,8 +85,14 @@ std::vector<std::string> surprises(const Workbench& bench, const Fit& fit) {
 
 }  // namespace
 
-std::vector<std::string> comparable_laws() {
-  return {"bouc-wen", "modified-bouc-wen", "hyperbolic-tangent", "algebraic-hysteresis", "modified-dahl", "lugre"};
+std::vector<std::string> alternative_laws() {
+  std::vector<std::string> result;
+  for (const Part* law : model_catalogue()) {
+    if (law->alternative) {
+      result.emplace_back(law->id);
+    }
+  }
+  return result;
 }
 
 std::vector<Named> listed(const Verdict& verdict) {

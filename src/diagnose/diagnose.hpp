@@ -15,8 +15,8 @@
 
 namespace hysteron {
 
-// Damper laws that may stand in for one another: those of the catalogue with hysteresis and few parameters.
-std::vector<std::string> comparable_laws();
+// Damper laws whose cards say that `diagnose` tries them in place of the one asked for, of plugins too.
+std::vector<std::string> alternative_laws();
 
 struct DiagnoseOptions {
   std::string model;
@@ -24,8 +24,8 @@ struct DiagnoseOptions {
   ObjectiveOptions objective;
   std::uint64_t seed = 1;
   int most_effects = 5;
-  std::vector<std::string> candidates;                // empty: every effect of the catalogue
-  std::vector<std::string> laws = comparable_laws();  // that the base law is set against
+  std::vector<std::string> candidates;                 // empty: every effect of the catalogue
+  std::vector<std::string> laws = alternative_laws();  // that the base law is set against
   // Asked often while fitting; once true the fits end soon and the progress is told, which may throw.
   std::function<bool()> stopped = [] { return false; };
 };

@@ -308,6 +308,9 @@ constexpr Part compile() {
     static_assert(std::size(M::starts) == 8);
     part.starts = M::starts;
   }
+  if constexpr (requires { M::alternative; }) {
+    part.alternative = M::alternative;
+  }
   if constexpr (requires { M::knowledge; }) {
     static_assert(knows_its_parameters<M>(), "knowledge names a parameter that the effect does not have");
     part.knowledge = &M::knowledge;

@@ -119,6 +119,7 @@ struct Part {
   // that do nothing below a threshold. Empty for the usual ones.
   std::span<const double> starts;
   bool bends = false;  // the force is not affine in the force below, so that parameters below are not linear
+  bool alternative = false;  // a damper law that `diagnose` tries in place of the one asked for
   const Knowledge* knowledge = nullptr;  // of an effect that says something of itself
   PartOperations<double> on_double;
   PartOperations<Lanes> on_lanes;
