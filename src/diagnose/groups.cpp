@@ -15,7 +15,7 @@
 namespace hysteron {
 namespace {
 
-constexpr int rounds = 10;
+constexpr int rounds = 10;  // of a descent
 // In which the states are found and what they share is fitted without their differences.
 constexpr int passes = 2;
 // Of the largest force: tests of one device differ by less from day to day.

@@ -13,7 +13,7 @@
 namespace hysteron {
 namespace {
 
-constexpr std::size_t most_sizes = 2;
+constexpr std::size_t most_sizes = 2;  // of an effect, in its sentence
 
 std::string percent(double share) { return fmt::format("{:.0f} %", 100.0 * share); }
 

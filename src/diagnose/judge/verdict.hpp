@@ -16,9 +16,9 @@ std::string_view name_of(Answer answer);
 
 // By the probability that the name, or the set it stands for, is in the truth.
 enum class Grade { established, supported, suggested, none };
-inline constexpr double established_from = 0.95;
-inline constexpr double supported_from = 0.80;
-inline constexpr double suggested_from = 0.50;
+inline constexpr double established_from = 0.95;  // probability
+inline constexpr double supported_from = 0.80;    // probability, from which an effect is named
+inline constexpr double suggested_from = 0.50;    // probability: more likely than not
 Grade grade_of(double probability);
 std::string_view name_of(Grade grade);
 

@@ -6,9 +6,9 @@
 namespace hysteron {
 namespace {
 
-constexpr std::size_t fewest_recordings = 4;
-constexpr std::size_t fewest_blocks = 4;
-constexpr std::size_t most_blocks = 16;
+constexpr std::size_t fewest_recordings = 4;  // of fewer, the blocks are the clusters
+constexpr std::size_t fewest_blocks = 4;      // of a recording
+constexpr std::size_t most_blocks = 16;       // of a recording
 // No block counts for more than this, however far a prediction went astray there.
 constexpr double most_difference = 3.0;
 

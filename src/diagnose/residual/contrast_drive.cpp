@@ -11,12 +11,12 @@
 namespace hysteron::contrast {
 namespace {
 
-constexpr double channel_delay = 0.005;  // s: what a delay of the force channel does at a step as well is left out
-constexpr double reference_lag = 0.02;   // s: small lags count by what the force lacks in sum
-constexpr double half_play = 0.25;       // of the range of the drive, of the memory that is looked for
-constexpr double least_size = 0.05;      // of the largest mean size of the force, that A(i) is kept above
-constexpr double level = 0.08;           // of the range: drives nearer to one another are one level
-constexpr std::size_t fewest_levels = 3;
+constexpr double channel_delay = 0.005;   // s: what a delay of the force channel does at a step as well is left out
+constexpr double reference_lag = 0.02;    // s: small lags count by what the force lacks in sum
+constexpr double half_play = 0.25;        // of the range of the drive, of the memory that is looked for
+constexpr double least_size = 0.05;       // of the largest mean size of the force, that A(i) is kept above
+constexpr double level = 0.08;            // of the range: drives nearer to one another are one level
+constexpr std::size_t fewest_levels = 3;  // that tell a curve from a line
 
 // The drive behind a first-order lag that the drive before the first sample has settled through; linear in between.
 Values lagged(const Track& track) {

@@ -11,7 +11,7 @@
 
 namespace hysteron::contrast {
 
-constexpr std::size_t placebos = 199;
+constexpr std::size_t placebos = 199;  // so that a quantile of 0.995 can be told
 
 // What a placebo does to the samples of a residual: `by` samples of a circle of `size` on, in time.
 // By golden sections over the draws, at random from recording to recording; never near a multiple of `period`, in

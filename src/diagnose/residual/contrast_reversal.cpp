@@ -12,8 +12,8 @@
 namespace hysteron::contrast {
 namespace {
 
-constexpr double narrow = 0.08;  // of the peak force, half width of the inner band
-constexpr double widest = 0.12;
+constexpr double narrow = 0.08;     // of the peak force, half width of the inner band
+constexpr double widest = 0.12;     // of the peak force, half width of an inner band above which nothing is told
 constexpr double over_noise = 4.0;  // standard deviations of the noise that the inner band has
 constexpr double ratio = 3.0;       // of the outer band to the inner
 constexpr double least_peak = 0.3;  // of the recording's peak, that a force reaches on both sides of a reversal

@@ -9,7 +9,7 @@ namespace hysteron::contrast {
 namespace {
 
 constexpr double cycles_of_travel = 4.0;  // half strokes that a cycle has: over it the excess of the first travel fades
-constexpr std::size_t fewest_half_cycles = 4;
+constexpr std::size_t fewest_half_cycles = 4;  // that tell a slow change from the first travel
 
 }  // namespace
 

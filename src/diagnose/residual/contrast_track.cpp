@@ -10,7 +10,7 @@
 namespace hysteron::contrast {
 namespace {
 
-constexpr std::size_t fewest_samples = 50;
+constexpr std::size_t fewest_samples = 50;  // of a recording that is looked at
 constexpr double quiet_speed = 0.02;    // of the largest: below it nothing moves, and no sign of the velocity counts
 constexpr double shortest_hold = 0.2;   // s
 constexpr double jump_of_drive = 0.05;  // of its range, from one sample to the next but one

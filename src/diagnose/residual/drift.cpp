@@ -11,7 +11,7 @@
 namespace hysteron {
 namespace {
 
-constexpr std::size_t fewest_recordings = 5;
+constexpr std::size_t fewest_recordings = 5;  // that tell a trend
 // Chance explains a rank correlation whose t is below this (one in two thousand at six degrees of freedom), and a
 // change of less than this many standard errors or this share of the parameter.
 constexpr double least_t = 6.0;

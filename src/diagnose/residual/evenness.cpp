@@ -11,7 +11,7 @@
 namespace hysteron {
 namespace {
 
-constexpr std::size_t fewest_samples = 200;
+constexpr std::size_t fewest_samples = 200;  // of a recording that is looked at
 // Outliers are cut at this many robust standard deviations.
 constexpr double cut = 4.0;
 

@@ -8,10 +8,10 @@
 namespace hysteron {
 namespace {
 
-constexpr std::size_t fewest_samples = 8;
-constexpr double longest_lag = 0.25;  // of the duration
-constexpr std::size_t every_lag_below = 32;
-constexpr double lag_growth = 1.0 / 16.0;
+constexpr std::size_t fewest_samples = 8;    // of a recording that has a correlation
+constexpr double longest_lag = 0.25;         // of the duration
+constexpr std::size_t every_lag_below = 32;  // samples; longer lags are taken in steps that grow
+constexpr double lag_growth = 1.0 / 16.0;    // of a lag, the step to the next
 
 double usual_step(const std::vector<double>& time, std::size_t from) {
   std::vector<double> steps;

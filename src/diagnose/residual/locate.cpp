@@ -13,9 +13,9 @@
 namespace hysteron {
 namespace {
 
-constexpr std::size_t bins = 16;
+constexpr std::size_t bins = 16;      // of each quantity, of equal numbers of samples
 constexpr std::size_t stretches = 8;  // of each recording, the blocks of the bootstrap
-constexpr int resamples = 200;
+constexpr int resamples = 200;        // of the bootstrap
 // An interval is told when it holds this part of the misfit, this many times its share of the samples, and in 19 of 20
 // resamples more than its share.
 constexpr double least_part = 0.2;

@@ -11,7 +11,7 @@
 namespace hysteron {
 namespace {
 
-constexpr std::size_t fewest_samples = 200;
+constexpr std::size_t fewest_samples = 200;  // of a recording that is looked at
 constexpr Eigen::Index chances = 19;
 // Outliers are cut at this many root mean squares of the residual.
 constexpr double cut = 5.0;

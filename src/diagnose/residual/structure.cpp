@@ -10,16 +10,16 @@
 namespace hysteron {
 namespace {
 
-constexpr int grid = 9;
-constexpr int reversal_bins = 12;
-constexpr int drive_bins = 8;
-constexpr int grid_begin = 1;
+constexpr int grid = 9;            // nodes of displacement and of velocity
+constexpr int reversal_bins = 12;  // nodes of the distance since a reversal, for each direction
+constexpr int drive_bins = 8;      // nodes of the drive
+constexpr int grid_begin = 1;      // after the constant
 constexpr int reversal_begin = grid_begin + grid * grid;
 constexpr int drive_begin = reversal_begin + 2 * reversal_bins;
 constexpr int feature_count = drive_begin + 4 * drive_bins;
-constexpr std::size_t active_features = 4;
-constexpr int stretches = 6;
-constexpr double ridge = 4.0;
+constexpr std::size_t active_features = 4;  // that are not zero at a sample: the corners of a cell
+constexpr int stretches = 6;                // of a recording, each predicted from the others
+constexpr double ridge = 4.0;               // samples that a feature needs before it counts half
 
 int bin_of(double position, int count) { return std::clamp(static_cast<int>(position * count), 0, count - 1); }
 

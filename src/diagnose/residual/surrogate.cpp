@@ -8,7 +8,7 @@ namespace hysteron {
 namespace {
 
 constexpr std::size_t fewest_samples = 16;  // of a block
-constexpr double blocks_of_no_cycle = 8.0;
+constexpr double blocks_of_no_cycle = 8.0;  // of a motion that has no frequency
 
 }  // namespace
 

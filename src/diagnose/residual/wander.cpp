@@ -9,7 +9,7 @@
 namespace hysteron {
 namespace {
 
-constexpr std::size_t stretches = 15;
+constexpr std::size_t stretches = 15;       // of a recording, each with a factor of its own
 constexpr std::size_t fewest_samples = 20;  // of a stretch
 // Cycles: frequencies up to this one, this many per resolvable step, at most so many in all; a recording counts from
 // this many cycles on.

@@ -10,10 +10,10 @@
 namespace hysteron {
 namespace {
 
-constexpr double least_change = 0.01;
+constexpr double least_change = 0.01;  // of the peak force, root mean square, at which an effect is compared
 // What is left of a change beside the parameters of the fit is no more than their curvature below this part of it.
 constexpr double least_left = 0.03;
-constexpr double interior = 1e-3;
+constexpr double interior = 1e-3;  // of the box: nearer to its end than this is the end
 
 // What the effect adds to the force beside the basis, of length one; empty where it adds nothing of its own.
 std::optional<Eigen::VectorXd> signature(const Workbench& bench, const Fit& fit, const std::string& effect,

@@ -12,8 +12,8 @@
 namespace hysteron {
 namespace {
 
-constexpr std::size_t fewest_recordings = 4;
-constexpr std::size_t parts_of_few = 4;
+constexpr std::size_t fewest_recordings = 4;  // of fewer, parts of each are left out
+constexpr std::size_t parts_of_few = 4;       // of each of few recordings
 // A coordinate this near the end of its box stays there.
 constexpr double at_end = 1e-6;
 // Of the diagonal: what the other recordings do not tell stays where it is.

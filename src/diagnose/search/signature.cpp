@@ -8,8 +8,8 @@
 namespace hysteron {
 namespace {
 
-constexpr double nudge = 1e-3;
-constexpr double rank_tolerance = 1e-9;
+constexpr double nudge = 1e-3;           // of the box, for a derivative
+constexpr double rank_tolerance = 1e-9;  // of the largest direction: below it there is none
 
 }  // namespace
 

@@ -8,8 +8,8 @@
 namespace hysteron {
 namespace {
 
-constexpr int adding_rounds = 4;
-constexpr int comparing_rounds = 6;
+constexpr int adding_rounds = 4;     // of the descent after each effect that is added
+constexpr int comparing_rounds = 6;  // of the descents that are compared
 
 Swap swapped(const Workbench& bench, const Fit& law, const std::vector<std::string>& effects) {
   Fit full = law;

@@ -13,7 +13,7 @@
 namespace hysteron {
 namespace {
 
-constexpr std::size_t start_count = 8;
+constexpr std::size_t start_count = 8;  // sizes that a refit starts from
 // Rounds after which only the best starts go on.
 constexpr int race_rounds = 2;
 // Of a node of a richer law, part of its box.
