@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "fit/directions.hpp"
 #include "fit/layout.hpp"
 #include "fit/predict.hpp"
 #include "fit/solver.hpp"
@@ -45,13 +46,14 @@ class Objective {
     Lanes squares;  // of the residual
     Lanes alive;    // samples that stayed finite
   };
-  // Takes samples [begin, begin + count): jacobian count x dimension, residual count, unweighted.
+  // Takes samples [begin, begin + count): jacobian count x directions, residual count, unweighted.
   using TakeDerivatives =
       std::function<void(std::size_t begin, std::size_t count, const Lanes* jacobian, const Lanes* residual)>;
 
   // Hands every sample to `take`, in order.
   [[nodiscard]] PackSums differentiated(const std::vector<double>& points, std::span<const std::size_t> rows,
-                                        const Target& target, const TakeDerivatives& take) const;
+                                        const Target& target, const Directions& directions,
+                                        const TakeDerivatives& take) const;
   // Write what evaluate sums up of a pack on a target: weighted sum of squares and samples alive, and with derivatives
   // the gradient and the upper triangle of the Gauss-Newton matrix, each for all lanes.
   void sum_costs(const std::vector<double>& points, std::span<const std::size_t> rows, const Target& target,

@@ -242,6 +242,59 @@ TEST_F(TwinObjective, GradientAndGaussNewtonMatrixAreProductsOfThePredictionsJac
   }
 }
 
+// A drive that steps late is differentiated by every node, a constant one by the parameter.
+TEST_F(TwinObjective, DerivativesByNodesAreThoseByTheParameterOfAConstantDrive) {
+  LayoutOptions options;
+  options.by_current = {{"alpha", 1}, {"x_y", 2}};
+  const Layout laws = layout_of("bouc-wen", pair(), options);
+  Recording constant = pair()[0];
+  constant.drive.assign(constant.size(), 0.4);
+  Recording stepped = constant;
+  const std::size_t step = constant.size() * 9 / 10;
+  std::fill(stepped.drive.begin() + static_cast<std::ptrdiff_t>(step), stepped.drive.end(), 0.9);
+  const std::vector<double> u = random_points(Stream(seed).child("nodes"), 1, laws.dimension(), 0.25);
+  const Objective by_parameter(laws, {constant}, {});
+  const Objective by_node(laws, {stepped}, {});
+  ASSERT_FALSE(by_parameter.targets()[0].drive_varies);
+  ASSERT_TRUE(by_node.targets()[0].drive_varies);
+  const Linearised one = by_parameter.linearised(u)[0];
+  const Linearised other = by_node.linearised(u)[0];
+  const std::size_t d = laws.dimension();
+  for (std::size_t c = 0; c < d; ++c) {
+    double size = 0.0;
+    for (std::size_t n = 0; n + 1 < step; ++n) size = std::max(size, std::fabs(other.jacobian[n * d + c]));
+    ASSERT_GT(size, 0.0) << "coordinate " << c;
+    for (std::size_t n = 0; n + 1 < step; ++n) {
+      ASSERT_NEAR(one.jacobian[n * d + c], other.jacobian[n * d + c], 1e-8 * size) << "coordinate " << c << " at " << n;
+    }
+  }
+}
+
+// The products that a pack sums up are those of the columns of one candidate.
+TEST_F(TwinObjective, SumsOfDerivativesAreProductsOfTheLinearisedColumns) {
+  const Objective of = objective();
+  const std::size_t d = of.layout().dimension();
+  const std::vector<double> u = random_points(Stream(seed).child("products"), 1, d, 0.25);
+  const Response response = of.evaluate({u, true});
+  std::vector<double> gradient(d, 0.0);
+  std::vector<double> matrix(d * d, 0.0);
+  for (const Linearised& part : of.linearised(u)) {
+    for (std::size_t n = 0; n < part.residual.size(); ++n) {
+      for (std::size_t a = 0; a < d; ++a) {
+        gradient[a] += part.jacobian[n * d + a] * part.residual[n];
+        for (std::size_t b = 0; b < d; ++b) matrix[a * d + b] += part.jacobian[n * d + a] * part.jacobian[n * d + b];
+      }
+    }
+  }
+  for (std::size_t a = 0; a < d; ++a) {
+    EXPECT_NEAR(response.gradient[a], gradient[a], 1e-11 * std::sqrt(matrix[a * d + a]) * response.cost[0]) << a;
+    for (std::size_t b = 0; b < d; ++b) {
+      const double size = std::sqrt(matrix[a * d + a] * matrix[b * d + b]);
+      EXPECT_NEAR(response.gauss_newton[a * d + b], matrix[a * d + b], 1e-11 * size) << a << ", " << b;
+    }
+  }
+}
+
 TEST_F(TwinObjective, CostWithDerivativesIsTheCostWithout) {
   const Objective of = objective();
   const std::vector<double> points = random_points(Stream(seed).child("same"), 5, of.layout().dimension());
