@@ -150,16 +150,42 @@ TEST(Features, AreFiniteAndSpeakForTheNameTheLargerTheyAre) {
   EXPECT_LT(name_table().score(after), name_table().score(before));
 }
 
+double feature(const Evidence& evidence, std::string_view name) {
+  const auto at = std::ranges::find(name_features, name, &Feature::name);
+  return features_of(evidence.candidates[0], evidence)[static_cast<std::size_t>(at - name_features.begin())];
+}
+
 TEST(Features, AContrastCountsInTheSenseOfTheEffectOnly) {
   Evidence evidence = plain();
+  const double z = evidence.signatures[0].z;
+  ASSERT_GE(z, 3.0);
   evidence.signatures[0].sign = {-1};
-  const NameFeatures against = features_of(evidence.candidates[0], evidence);
+  EXPECT_EQ(feature(evidence, "contrast_share"), 0.0);
+  EXPECT_EQ(feature(evidence, "contrast_loudest"), 0.0);
   evidence.signatures[0].sign = {1};
-  const NameFeatures with = features_of(evidence.candidates[0], evidence);
-  const auto at = static_cast<std::size_t>(
-      std::ranges::find(name_features, std::string_view("contrast_lead"), &Feature::name) - name_features.begin());
-  EXPECT_EQ(against[at], 0.0);
-  EXPECT_EQ(with[at], 1.0);
+  EXPECT_DOUBLE_EQ(feature(evidence, "contrast_share"), z / (z + 2.0)) << "nothing else is sure of anything";
+  EXPECT_EQ(feature(evidence, "contrast_loudest"), 1.0);
+}
+
+TEST(Features, AContrastStandsBesideTheLoudestOfTheOthers) {
+  Evidence evidence = plain();
+  const double z = evidence.signatures[0].z;
+  Signature other = evidence.signatures[0];
+  other.id = "another";
+  other.speaks_for = {"somebody"};
+  other.sign = {-1};
+  other.z = 3.0 * z;
+  evidence.signatures.push_back(other);
+  EXPECT_EQ(feature(evidence, "contrast_loudest"), 1.0) << "the other one has a sense in which it speaks for nothing";
+  evidence.signatures[1].z = -3.0 * z;
+  EXPECT_DOUBLE_EQ(feature(evidence, "contrast_share"), 0.25);
+  EXPECT_EQ(feature(evidence, "contrast_loudest"), 0.0);
+  evidence.signatures.pop_back();
+  evidence.signatures[0].consistency = 0.5;
+  EXPECT_EQ(feature(evidence, "contrast_loudest"), 0.0) << "half of the recordings say the opposite";
+  evidence.signatures.clear();
+  EXPECT_EQ(feature(evidence, "contrast_share"), 0.5);
+  EXPECT_EQ(feature(evidence, "contrast_loudest"), 0.5);
 }
 
 TEST(Features, ALawThatHasTheEffectAsAPartOfItsOwnIsNoDoubtOfIt) {

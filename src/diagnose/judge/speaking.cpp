@@ -23,6 +23,22 @@ std::optional<Speaking> speaking_for(const std::string& effect, const Evidence& 
   return best;
 }
 
+double loudness(const Signature& signature) {
+  double result = 0.0;
+  for (const int sign : signature.sign) {
+    result = std::max(result, sign == 0 ? std::fabs(signature.z) : signature.z * sign);
+  }
+  return result;
+}
+
+bool speaks(const Speaking& speaking) {
+  constexpr double loud = 3.0;
+  constexpr double beyond_placebos = 0.975;
+  constexpr double in_most = 0.8;
+  return speaking.z >= loud && speaking.signature->placebo_quantile >= beyond_placebos &&
+         speaking.signature->consistency >= in_most;
+}
+
 bool shows(const Speaking& speaking) {
   constexpr double surely = 2.0;
   constexpr double beyond_placebos = 0.95;
