@@ -444,6 +444,7 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const Split& split
   SearchOptions searching;
   searching.most_effects = options.most_effects;
   searching.candidates = candidates_of(options, diagnosis);
+  searching.told = told_by_channels(fine.split().fit, searching.candidates);
   searching.laws = options.laws;
   Judgement judgement = behind_asked_or_better({diagnosis.bench, quick, fine, benches.every, searching}, options.model,
                                                progress, diagnosis.notes);

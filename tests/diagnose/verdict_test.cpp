@@ -234,6 +234,25 @@ TEST(Verdict, NamesWhatIsPlainAndNothingWhereNothingIsLeft) {
   EXPECT_EQ(verdict_of(nothing()).unknown_share, 0.0) << "nothing but noise has no unknown share";
 }
 
+TEST(Verdict, WhatTheChannelsTellNeedsNoModel) {
+  Evidence evidence = plain();
+  evidence.augmented = left_of(15.0 * floor_squares, true);
+  Candidate& candidate = evidence.candidates[0];
+  candidate.id = "velocity-lag";
+  candidate.gain = 0.1 * floor_squares;
+  candidate.score = {0.0, 0.2, 0.5, 6};
+  evidence.signatures[0].id = "velocity-delay";
+  evidence.signatures[0].speaks_for = {candidate.id};
+  EXPECT_TRUE(verdict_of(evidence).effects.empty());
+  candidate.as_channels = true;
+  const Verdict told = verdict_of(evidence);
+  ASSERT_EQ(told.effects.size(), 1U);
+  EXPECT_EQ(told.effects[0].confidence, channel_probability());
+  EXPECT_TRUE(told.effects[0].indistinguishable_from.empty());
+  evidence.signatures[0].placebo_quantile = 0.9;
+  EXPECT_TRUE(verdict_of(evidence).effects.empty()) << "one of ten placebos is as large";
+}
+
 TEST(Verdict, AShapeThatEverythingSpeaksAgainstIsNoName) {
   Evidence evidence = plain();
   evidence.augmented = left_of(15.0 * floor_squares, true);

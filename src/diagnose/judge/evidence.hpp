@@ -67,7 +67,7 @@ struct Candidate {
   std::vector<double> kept;           // share of its gain behind other laws
   int parameters = 1;
   int on_bound = 0;          // of these, at an end of their box
-  bool as_channels = false;  // a lag of the velocity channel, and the one that the channels show
+  bool as_channels = false;  // told by the channels without a model, or a lag of one and as large as they show
 };
 
 // A signature contrast (residual/contrast.hpp) of what the base model leaves.

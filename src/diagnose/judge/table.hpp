@@ -22,6 +22,9 @@ struct Table {
   [[nodiscard]] double probability(std::span<const double> features) const;
 };
 
+// That an effect is in the truth for which a contrast speaks that needs no model.
+double channel_probability();
+
 // That the effect is in the truth; that it or one that does as well in its place is; that physics is missing.
 const Table& name_table();
 const Table& set_table();

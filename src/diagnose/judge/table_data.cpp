@@ -20,6 +20,8 @@ constexpr Knot missing_knots[] = {{-1.806, 0.07143}, {-1.441, 0.1667}, {-0.9352,
                                   {-0.2618, 0.5},    {1.037, 0.7857},  {5.86, 0.996}};
 constexpr double missing_intercept = -1.8717;
 
+constexpr double of_channels = 0.9583;
+
 }  // namespace
 
 const Table& name_table() {
@@ -36,5 +38,7 @@ const Table& missing_table() {
   static constexpr Table table{missing_intercept, missing_weights, missing_knots};
   return table;
 }
+
+double channel_probability() { return of_channels; }
 
 }  // namespace hysteron

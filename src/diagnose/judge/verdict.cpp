@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "diagnose/judge/features.hpp"
+#include "diagnose/judge/speaking.hpp"
 #include "diagnose/judge/table.hpp"
 
 namespace hysteron {
@@ -19,7 +20,11 @@ bool structured(const Left& left) {
   return left.structure > structure_over_noise * std::max(left.squares - left.structure, 1e-300);
 }
 
-bool is_of_channels(const Candidate& candidate) { return candidate.as_channels; }
+// Told by the channels alone: a contrast that needs no model speaks for it.
+bool is_told_by_channels(const Candidate& candidate, const Evidence& evidence) {
+  const std::optional<Speaking> speaking = speaking_for(candidate.id, evidence);
+  return candidate.as_channels && speaking && speaks(*speaking);
+}
 
 // The candidate with its probabilities, and the others of its set in order of their share.
 std::vector<Named> named(std::size_t index, const Evidence& evidence) {
@@ -27,13 +32,16 @@ std::vector<Named> named(std::size_t index, const Evidence& evidence) {
   const NameFeatures features = features_of(candidate, evidence);
   std::vector<const Contender*> others = as_good(candidate);
   // The channels tell a lag of one of them from a delay of the force.
-  if (is_of_channels(candidate)) {
+  if (candidate.as_channels) {
     others.clear();
   }
   Named first;
   first.id = candidate.id;
   first.candidate = index;
   first.alone = name_table().probability(features);
+  if (is_told_by_channels(candidate, evidence)) {
+    first.alone = std::max(first.alone, channel_probability());
+  }
   first.confidence = others.empty() ? first.alone : std::max(first.alone, set_table().probability(features));
   first.grade = grade_of(first.confidence);
   first.robustness = robustness_of(candidate, evidence);

@@ -132,4 +132,17 @@ std::vector<Contrast> contrasts(std::span<const Recording> recordings, std::span
   return result;
 }
 
+std::vector<Contrast> channel_contrasts(std::span<const Recording> recordings) {
+  std::vector<Residual> nothing;
+  for (const Recording& recording : recordings) {
+    nothing.push_back({std::vector<double>(recording.size(), 0.0), 0});
+  }
+  std::vector<Contrast> result;
+  const std::vector<contrast::Track> tracks = contrast::tracks_of(recordings, nothing);
+  if (!tracks.empty()) {
+    contrast::add_channel_contrasts(tracks, result);
+  }
+  return result;
+}
+
 }  // namespace hysteron

@@ -83,4 +83,7 @@ int sign_for(ContrastKind kind, std::string_view effect);
 // measured force of the fitted base on each recording. Every number is finite. Deterministic.
 std::vector<Contrast> contrasts(std::span<const Recording> recordings, std::span<const Residual> residuals);
 
+// Those of them that the channels of the recordings tell by themselves, whatever the model.
+std::vector<Contrast> channel_contrasts(std::span<const Recording> recordings);
+
 }  // namespace hysteron

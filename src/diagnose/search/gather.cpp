@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "diagnose/judge/speaking.hpp"
 #include "diagnose/search/left_out.hpp"
 #include "diagnose/search/of_fit.hpp"
 #include "diagnose/search/relatives.hpp"
@@ -164,6 +165,20 @@ std::vector<Signature> signatures_of(const std::vector<Contrast>& contrasts) {
 
 }  // namespace
 
+std::vector<std::string> told_by_channels(const std::vector<Recording>& recordings,
+                                          const std::vector<std::string>& candidates) {
+  Evidence channels;
+  channels.signatures = signatures_of(channel_contrasts(recordings));
+  std::vector<std::string> result;
+  for (const std::string& candidate : candidates) {
+    const std::optional<Speaking> speaking = speaking_for(candidate, channels);
+    if (speaking && speaks(*speaking)) {
+      result.push_back(candidate);
+    }
+  }
+  return result;
+}
+
 Evidence evidence_of(const Search& search, const Workbench& fine, const Circumstances& known) {
   Evidence result;
   result.model = search.base.what.model;
@@ -233,7 +248,8 @@ Evidence evidence_of(const Search& search, const Workbench& fine, const Circumst
     one.parameters = static_cast<int>(intervals.size());
     one.on_bound =
         static_cast<int>(std::ranges::count_if(intervals, [](const ParameterInterval& p) { return !p.bound.empty(); }));
-    one.as_channels = one.id == channel_lag && as_channels_show(search.augmented, known);
+    const bool told = std::ranges::find(search.told, found.part) != search.told.end();
+    one.as_channels = told || (one.id == channel_lag && as_channels_show(search.augmented, known));
     result.candidates.push_back(std::move(one));
   }
   for (Candidate& one : result.candidates) {

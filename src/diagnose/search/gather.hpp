@@ -33,6 +33,11 @@ struct Circumstances {
   std::vector<Contrast> contrasts;
 };
 
+// Of the candidates, those that the channels of the recordings show by themselves: a contrast that needs no model
+// speaks for them.
+std::vector<std::string> told_by_channels(const std::vector<Recording>& recordings,
+                                          const std::vector<std::string>& candidates);
+
 // On `fine`, of the fitted recordings. The doubts are left empty.
 Evidence evidence_of(const Search& search, const Workbench& fine, const Circumstances& known);
 

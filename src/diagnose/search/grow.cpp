@@ -64,7 +64,8 @@ void grow(Course& course, const std::vector<Extension>& effects, int most_effect
     progress(0.1 + 0.5 * added / most_effects, added == 0
                                                    ? "looking at " + std::to_string(candidates.size()) + " hypotheses"
                                                    : "looking for more behind " + joined_names(course.current.what));
-    std::vector<Tried> tried = stage(course.bench, course.current, candidates, course.independent);
+    std::vector<Tried> tried =
+        stage(course.bench, course.current, candidates, course.independent, nullptr, course.told);
     // What a good model leaves tells the independent samples better than what a bad one does.
     if (!tried.empty() && tried.front().fit) {
       course.independent = std::max(course.independent, misfit_of(course.bench, *tried.front().fit).independent);
@@ -78,7 +79,12 @@ void grow(Course& course, const std::vector<Extension>& effects, int most_effect
     }
     course.stages.push_back(tried);
     std::optional<LeftOut> after;
-    const auto chosen = std::ranges::find_if(tried, [&](const Tried& one) {
+    auto chosen = std::ranges::find_if(
+        tried, [&](const Tried& one) { return one.fit && one.gain > 0.0 && course.is_told(one.part); });
+    if (chosen != tried.end()) {
+      after = left_out(course.bench, *chosen->fit);
+    }
+    const auto worth_it = [&](const Tried& one) {
       if (!one.fit || one.gain < least_gain_of_a_place * squared(course.current.cost)) {
         return false;
       }
@@ -86,7 +92,11 @@ void grow(Course& course, const std::vector<Extension>& effects, int most_effect
       const LeftOut without = left_out_beside(course.bench, course.current, one.part, before);
       return worth(one, course.current, count, block_score(without.predicted, after->predicted, course.noise),
                    is_far(left));
-    });
+    };
+    const bool told = chosen != tried.end();
+    if (!told) {
+      chosen = std::ranges::find_if(tried, worth_it);
+    }
     if (chosen == tried.end()) {
       return;
     }
@@ -97,6 +107,9 @@ void grow(Course& course, const std::vector<Extension>& effects, int most_effect
       course.strongest = std::max(course.strongest, chosen->gain);
     }
     left = misfit_of(course.bench, course.current);
+    if (told) {
+      continue;
+    }
     if (!is_far(left) && chosen->gain < negligible * course.strongest) {
       return;  // what is left could not be named beside what was found
     }

@@ -51,6 +51,10 @@ Search search(const Workbench& bench, const Workbench& fine, const Hypothesis& b
     effects.push_back(effect_extension(id));
   }
   Course course{bench, base, result.quick_base, result.quick_base, noise_of(bench)};
+  for (const std::string& id : options.told) {
+    course.told.push_back(effect_extension(id));
+  }
+  result.told = course.told;
   const Misfit left = misfit_of(bench, course.current);
   course.independent = left.independent;
   progress(0.05, "fitting other damper laws");

@@ -21,6 +21,7 @@ struct Search {
   Misfit misfit;
   std::vector<Found> found;         // effects of the augmented model, strongest first
   std::vector<std::string> richer;  // parameter laws that were made richer
+  std::vector<Extension> told;      // by the channels (SearchOptions::told)
   // As the comparison saw them, on the quick workbench.
   Fit quick_base;
   Fit quick_augmented;
@@ -33,6 +34,7 @@ struct Search {
 
 struct SearchOptions {
   std::vector<std::string> candidates;  // effects to consider
+  std::vector<std::string> told;        // of these, what the channels show by themselves: it stays in the model
   std::vector<std::string> laws;        // damper laws that may take the place of the base's
   int most_effects = 5;
   std::size_t base_budget = 20000;
