@@ -199,8 +199,7 @@ std::string doubt_of_completeness(const Search& search, const Workbench& fine,
     return {};
   }
   if (left.squares > above_floor * left.floor && uneven(left.evenness)) {
-    return "what is left does not repeat with the motion, but its size follows it, which that of noise does not; no "
-           "known effect describes it";
+    return "the size of what is left follows the motion, as that of noise does not; no known effect describes it";
   }
   const Wandering wander = wandering(leftovers_of(fine.split().fit, fine.residuals(search.augmented)));
   if (!wanders(wander)) {

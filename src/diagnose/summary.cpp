@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "diagnose/account.hpp"
 #include "diagnose/judge/speaking.hpp"
@@ -13,7 +14,8 @@
 namespace hysteron {
 namespace {
 
-constexpr std::size_t most_sizes = 2;  // of an effect, in its sentence
+constexpr std::size_t most_sizes = 2;      // of an effect, in its sentence
+constexpr std::size_t most_contrasts = 3;  // that speak for nothing that is named
 
 std::string percent(double share) { return fmt::format("{:.0f} %", 100.0 * share); }
 
@@ -82,6 +84,18 @@ std::string sentence_of_shapes(const Diagnosis& diagnosis) {
                      shapes.size() == 1 ? "it is a shape that predicts" : "they are shapes that predict");
 }
 
+// "modified-bouc-wen, which has a series dashpot as a part of its own,": what its card and those of effects say that
+// the law asked for lacks.
+std::string law_with_parts(const std::string& law, const std::string& asked) {
+  std::vector<std::string> parts;
+  for (const std::string& effect : parts_of(law)) {
+    if (!is_part_of(effect, asked)) {
+      parts.push_back(title_of(effect));
+    }
+  }
+  return parts.empty() ? law : law + ", which has " + joined(parts, " and ") + " of its own,";
+}
+
 std::string sentence_of_errors(const Diagnosis& diagnosis) {
   const Search& search = diagnosis.search;
   const double before = search.base.heldout;
@@ -94,7 +108,8 @@ std::string sentence_of_errors(const Diagnosis& diagnosis) {
                         : causes == 1                                      ? "It"
                                                                            : "Together they";
   if (!instead.empty()) {
-    subject = fmt::format("The augmented model, with {} in the place of {},", instead, search.base.what.model);
+    subject = fmt::format("The augmented model, with {} in the place of {},",
+                          law_with_parts(instead, search.base.what.model), search.base.what.model);
   }
   if (search.augmented.what == search.base.what) {
     return fmt::format("The held-out error of {} is {:#.2g} (noise {:#.2g}).", search.base.what.model, before,
@@ -141,6 +156,36 @@ std::string sentence_of_place(const Diagnosis& diagnosis) {
                      percent(place.share_of_samples));
 }
 
+// What the contrasts say that speak for nothing that is listed, loudest first: facts of the recordings, which are no
+// names. Where the answer is that nothing is missing they would be those of chance.
+std::string sentence_of_contrasts(const Diagnosis& diagnosis) {
+  const Evidence& evidence = diagnosis.evidence;
+  if (diagnosis.verdict.answer == Answer::complete || !evidence.doubt_of_data.empty()) {
+    return {};
+  }
+  const std::vector<Named> names = listed(diagnosis.verdict);
+  std::vector<const Signature*> loud;
+  for (const Signature& row : evidence.signatures) {
+    const bool told = std::ranges::any_of(row.speaks_for, [&](const std::string& effect) {
+      return std::ranges::find(names, effect, &Named::id) != names.end();
+    });
+    if (!told && speaks({&row, loudness(row)})) {
+      loud.push_back(&row);
+    }
+  }
+  std::ranges::stable_sort(loud, std::greater{}, [](const Signature* row) { return loudness(*row); });
+  loud.resize(std::min(loud.size(), most_contrasts));
+  std::vector<std::string> phrases;
+  for (const Signature* row : loud) {
+    phrases.push_back(fmt::format("{}, {} ({:.0f} of {} recordings)", row->what, size_text(row->value, row->unit, 2),
+                                  std::round(row->consistency * static_cast<double>(row->recordings)),
+                                  row->recordings));
+  }
+  return phrases.empty()
+             ? std::string{}
+             : fmt::format("What {} leaves shows, whatever its cause: {}.", evidence.model, joined(phrases, "; and "));
+}
+
 void add(std::vector<std::string>& summary, const std::string& sentence) {
   if (!sentence.empty()) {
     summary.push_back(sentence);
@@ -168,6 +213,7 @@ std::vector<std::string> summary_of(const Diagnosis& diagnosis) {
   for (const Grade grade : {Grade::established, Grade::supported, Grade::suggested}) {
     add(summary, sentence_of_grade(diagnosis, grade));
   }
+  add(summary, sentence_of_contrasts(diagnosis));
   add(summary, sentence_of_shapes(diagnosis));
   add(summary, sentence_of_errors(diagnosis));
   add(summary, sentence_of_unknown(diagnosis));

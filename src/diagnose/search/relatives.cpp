@@ -106,6 +106,16 @@ bool is_part_of(const std::string& effect, const std::string& law) {
          std::ranges::any_of(model->parameters, [&](const Parameter& own) { return own.linear && own.role == role; });
 }
 
+std::vector<std::string> parts_of(const std::string& law) {
+  std::vector<std::string> result;
+  for (const Part* effect : effect_catalogue()) {
+    if (is_part_of(std::string(effect->id), law)) {
+      result.emplace_back(effect->id);
+    }
+  }
+  return result;
+}
+
 std::vector<Kindred> kindred() {
   std::vector<Kindred> result;
   for (const Part* effect : effect_catalogue()) {

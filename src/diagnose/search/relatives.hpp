@@ -30,8 +30,10 @@ std::string limit_parameter(const std::string& effect, const std::string& wider)
 // A parameter with which, at one end of its box, `effect` is `other`; null where there is none.
 const BoxLimit* box_limit(const std::string& effect, const std::string& other);
 
-// Whether the law has the effect as a linear parameter of its own, as a stiffness or an offset.
+// Whether the law has the effect as a part of its own: the effect's card says so, or it is a linear parameter of the
+// law, as a stiffness or an offset. All that it has.
 bool is_part_of(const std::string& effect, const std::string& law);
+std::vector<std::string> parts_of(const std::string& law);
 
 // The effect that a lag of the velocity channel is, which the channels show without any model.
 constexpr const char* channel_lag = "velocity-lag";
