@@ -168,6 +168,16 @@ std::string paragraph(const Diagnosis& diagnosis) {
   return text;
 }
 
+// The mass is not looked for: its contrast is told, and nothing is named for it.
+TEST(Record, AContrastThatNoNameAccountsForIsTold) {
+  const Campaign campaign = campaign_with({"inertia"}, {{"inertia.m", 8.0}}, 0.01);
+  const std::string told = paragraph(*diagnosis_of(campaign, {"offset-force", "force-drift"}));
+  EXPECT_NE(told.find("whatever its cause: "), std::string::npos) << told;
+  EXPECT_NE(told.find("force per acceleration, "), std::string::npos) << told;
+  const std::string named = paragraph(*diagnosis_of(campaign, few));
+  EXPECT_EQ(named.find("force per acceleration, "), std::string::npos) << named;
+}
+
 TEST(Record, OfAMissingMass) {
   const auto diagnosis = diagnosis_of(campaign_with({"inertia"}, {{"inertia.m", 8.0}}, 0.01), few);
   expect_contract(*diagnosis);

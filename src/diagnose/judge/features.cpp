@@ -124,7 +124,12 @@ MissingFeatures features_of(const Evidence& evidence) {
   return {std::log10(1.0 + std::max(base.structure, 0.0) / noise),
           unit(base.predictable),
           std::log1p(std::min(recurring, 1e3)),
-          std::log1p(std::min(base.unevenness / std::max(base.unevenness_by_chance, 1e-6), 1e3)),
+          std::ranges::any_of(evidence.signatures,
+                              [](const Signature& row) {
+                                return speaks({&row, loudness(row)});
+                              })
+              ? 1.0
+              : 0.0,
           std::log1p(std::clamp(evidence.augmented_over_base.z(), 0.0, 30.0)),
           unit(1.0 - evidence.augmented_compared / std::max(evidence.base_compared, 1e-300))};
 }

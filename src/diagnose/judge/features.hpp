@@ -46,7 +46,7 @@ inline constexpr std::array<Feature, 6> missing_features = {{
     {"structure", "log10 of 1 + what repeats beyond the noise over the noise, base model"},
     {"predictable", "share that the motion predicts within each recording, base model"},
     {"recurring", "share that follows the motion over all recordings, over the most of the surrogates, base model"},
-    {"uneven", "how far the size of the residual follows the motion over that of noise, base model"},
+    {"spoken", "1 where a signature contrast of what the base model leaves speaks"},
     {"improved", "log of 1 + block score of the augmented over the base model over its standard error"},
     {"gained", "share of the squares that the augmented model takes off"},
 }};

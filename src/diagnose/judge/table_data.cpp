@@ -15,10 +15,10 @@ constexpr Knot set_knots[] = {{-3.103, 0.123}, {-1.49, 0.2213}, {-0.2318, 0.3642
                               {1.284, 0.8333}, {1.853, 0.8415}, {3.225, 0.9944}};
 constexpr double set_intercept = -12.293;
 
-constexpr double missing_weights[] = {1.433, 1.5, 1.158, 0, 1.698, 1.912};
-constexpr Knot missing_knots[] = {{-1.806, 0.07143}, {-1.441, 0.1667}, {-0.9352, 0.2143},
-                                  {-0.2618, 0.5},    {1.037, 0.7857},  {5.86, 0.996}};
-constexpr double missing_intercept = -1.8717;
+constexpr double missing_weights[] = {1.563, 1.411, 1.086, 2.068, 1.387, 1.668};
+constexpr Knot missing_knots[] = {{-1.923, 0.07143}, {-1.586, 0.119}, {-1.063, 0.2143},
+                                  {-0.2953, 0.5},    {1.289, 0.8333}, {6.33, 0.996}};
+constexpr double missing_intercept = -1.9877;
 
 constexpr double of_channels = 0.9583;
 
