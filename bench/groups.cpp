@@ -54,7 +54,7 @@ Examined examine(const Campaign& campaign, const std::string& model, const Layou
   const std::clock_t begin = std::clock();
   const Fit base = all.polished(quick.from_anywhere({model, {}, {}}, 20000), 10);
   const std::clock_t middle = std::clock();
-  result.belonging = belonging_of(all, base, base);
+  result.belonging = belonging_of(all, by_recording(all, base), base);
   result.fit_seconds = static_cast<double>(middle - begin) / CLOCKS_PER_SEC;
   result.seconds = static_cast<double>(std::clock() - middle) / CLOCKS_PER_SEC;
   return result;

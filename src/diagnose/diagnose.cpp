@@ -246,13 +246,14 @@ struct Judgement {
   std::vector<std::string> surprising;
   std::vector<Contrast> contrasts;
   std::optional<Belonging> belonging;
+  std::optional<ColumnTold> column;
   Evidence evidence;
   Verdict verdict;
 };
 
 Judgement judged(Search found, const Workbench& bench, const Workbench& fine) {
   std::map<const Fit*, std::vector<Estimate>> estimates;  // fits are asked for several effects
-  Judgement result{std::move(found), {}, {}, {}, {}, {}};
+  Judgement result{std::move(found), {}, {}, {}, {}, {}, {}};
   result.contrasts = contrasts(fine.split().fit, fine.residuals(result.search.base).of);
   const Circumstances known = {[&](const Fit& fit, const std::string& effect) {
                                  if (!estimates.contains(&fit)) {
@@ -279,10 +280,13 @@ struct Searching {
   [[nodiscard]] Judgement behind(const std::string& law, const SearchProgress& progress) const {
     return judged(search(quick, fine, {law, {}, {}}, options, progress), bench, fine);
   }
-  // With whether the recordings belong together, judging ones too: that is no matter of how well a fit predicts.
+  // With whether the recordings belong together or follow a column, judging ones too: that is no matter of how well a
+  // fit predicts.
   [[nodiscard]] Judgement whole(Judgement judgement) const {
+    const ByRecording base = by_recording(every, judgement.search.base);
+    judgement.column = unused_column(every, base);
     if (judgement.evidence.doubt_of_data.empty()) {
-      judgement.belonging = belonging_of(every, judgement.search.base, judgement.search.augmented);
+      judgement.belonging = belonging_of(every, base, judgement.search.augmented);
       judgement.evidence.doubt_of_data = mixed(judgement.belonging) ? sentence_of(*judgement.belonging) : std::string{};
     }
     judgement.verdict = verdict_of(judgement.evidence);
@@ -450,6 +454,7 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const Split& split
   diagnosis.search = std::move(judgement.search);
   diagnosis.surprises = std::move(judgement.surprising);
   diagnosis.belonging = std::move(judgement.belonging);
+  diagnosis.column = std::move(judgement.column);
   diagnosis.evidence = std::move(judgement.evidence);
   diagnosis.verdict = std::move(judgement.verdict);
   diagnosis.contrasts = std::move(judgement.contrasts);
@@ -469,7 +474,6 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const Split& split
           locate(diagnosis.bench.split().fit, diagnosis.bench.residuals(diagnosis.search.augmented));
     }
   }
-  diagnosis.column = unused_column(benches.every, diagnosis.search.base);
   diagnosis.drift_of_base = drift_of(fine, diagnosis.search.base);
   diagnosis.drift_of_augmented = drift_of(fine, diagnosis.search.augmented);
   for (const Named& named : names) {

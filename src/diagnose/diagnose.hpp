@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 
+#include "diagnose/column.hpp"
 #include "diagnose/groups.hpp"
 #include "diagnose/judge/verdict.hpp"
 #include "diagnose/residual/contrast_view.hpp"
@@ -40,8 +41,8 @@ struct Diagnosis {
 
   Workbench bench;
   Search search;
-  std::optional<Belonging> belonging;      // groups of the recordings, where some stand out
-  std::optional<UnusedColumnTold> column;  // that the parameters follow and no model uses
+  std::optional<Belonging> belonging;  // groups of the recordings, where some stand out
+  std::optional<ColumnTold> column;    // that the parameters follow and no model uses
   Evidence evidence;
   Verdict verdict;
   double noise_floor = 0.0;          // of the force, NRMSE over the fitted recordings

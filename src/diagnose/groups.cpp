@@ -10,12 +10,12 @@
 #include "diagnose/residual/conditions.hpp"
 #include "diagnose/residual/misfit.hpp"
 #include "diagnose/residual/partition.hpp"
+#include "diagnose/search/wording.hpp"
 #include "fit/parallel.hpp"
 
 namespace hysteron {
 namespace {
 
-constexpr int rounds = 10;  // of a descent
 // In which the states are found and what they share is fitted without their differences.
 constexpr int passes = 2;
 // Of the largest force: tests of one device differ by less from day to day.
@@ -30,64 +30,6 @@ constexpr double part_of_the_difference = 0.1;
 Group everything(std::size_t count) {
   Group result(count);
   std::iota(result.begin(), result.end(), 0U);
-  return result;
-}
-
-// A parameter of the damper law by which groups may differ.
-struct Handle {
-  std::size_t parameter;
-  bool factor;  // of its whole law in the drive; else a number that is added to it
-};
-
-std::vector<Handle> handles_of(const Fit& fit) {
-  std::vector<Handle> result;
-  for (const ParameterLaw& law : fit.layout->laws()) {
-    const bool of_the_law = fit.layout->names()[law.parameter].find('.') == std::string::npos;
-    const PhysicalRole role = fit.layout->cards()[law.parameter].role;
-    if (of_the_law && (fit.layout->coordinates()[law.first].linear || role != PhysicalRole::none)) {
-      result.push_back({law.parameter, law.drive_nodes.size() * law.frequency_nodes.size() > 1});
-    }
-  }
-  return result;
-}
-
-Fit moved(const Fit& fit, const Handle& handle, double step) {
-  Fit result = fit;
-  for (Term& term : result.terms) {
-    if (term.parameter == handle.parameter && handle.factor) {
-      term.value *= 1.0 + step;
-    } else if (term.parameter == handle.parameter && term.drive_power == 0 && term.frequency_power == 0) {
-      term.value += step;
-    }
-  }
-  return result;
-}
-
-// To first order in the parameters, which is exact for those that the force is affine in.
-std::vector<Quadratic> quadratics_of(const Workbench& bench, const Fit& fit, const std::vector<Handle>& handles) {
-  constexpr double part_of_the_box = 1e-3;
-  const std::vector<Recording>& recordings = bench.split().fit;
-  std::vector<Quadratic> result(recordings.size());
-  parallel_for(recordings.size(), bench.options().threads, [&](std::size_t r) {
-    const Residual left = bench.residual(fit, recordings[r]);
-    const auto rows = static_cast<Eigen::Index>(left.force.size());
-    Eigen::MatrixXd slopes(rows, static_cast<Eigen::Index>(handles.size()));
-    for (std::size_t h = 0; h < handles.size(); ++h) {
-      const Parameter& card = fit.layout->cards()[handles[h].parameter];
-      const double step = handles[h].factor ? part_of_the_box : part_of_the_box * (card.box.upper - card.box.lower);
-      const Residual there = bench.residual(moved(fit, handles[h], step), recordings[r]);
-      for (Eigen::Index n = 0; n < rows; ++n) {
-        const auto k = static_cast<std::size_t>(n);
-        slopes(n, static_cast<Eigen::Index>(h)) = (there.force[k] - left.force[k]) / step;
-      }
-    }
-    const Eigen::Map<const Eigen::VectorXd> force(left.force.data(), rows);
-    const double norm = normaliser(recordings[r], bench.options().normalisation);
-    const double weight = 1.0 / (squared(norm) * static_cast<double>(rows - static_cast<Eigen::Index>(left.from)) *
-                                 static_cast<double>(recordings.size()));
-    result[r] = {weight * slopes.transpose() * slopes, weight * slopes.transpose() * force,
-                 weight * force.squaredNorm()};
-  });
   return result;
 }
 
@@ -113,12 +55,6 @@ std::vector<Recording> in_one_state(const Workbench& bench, const Fit& fit, cons
     });
   }
   return result;
-}
-
-bool finite(const std::vector<Quadratic>& quadratics) {
-  return std::ranges::all_of(quadratics, [](const Quadratic& row) {
-    return row.hessian.allFinite() && row.gradient.allFinite() && std::isfinite(row.squares);
-  });
 }
 
 double squares_of(const std::vector<Quadratic>& quadratics, const std::vector<Group>& groups) {
@@ -164,32 +100,6 @@ double mean_frequency(const std::vector<Recording>& recordings) {
     sum += dominant_frequency(recording);
   }
   return sum / static_cast<double>(recordings.size());
-}
-
-std::string in_words(PhysicalRole role) {
-  switch (role) {
-    case PhysicalRole::yield_force:
-      return "yield force";
-    case PhysicalRole::offset_force:
-      return "preload";
-    case PhysicalRole::damping:
-      return "damping";
-    case PhysicalRole::stiffness:
-      return "stiffness";
-    case PhysicalRole::mass:
-      return "mass";
-    case PhysicalRole::none:
-      break;
-  }
-  return {};
-}
-
-std::string list_of(const std::vector<std::string>& words) {
-  std::string result;
-  for (std::size_t k = 0; k < words.size(); ++k) {
-    result += (k == 0 ? "" : (k + 1 == words.size() ? " and " : ", ")) + words[k];
-  }
-  return result;
 }
 
 // A partition, and what that is recorded explains it.
@@ -251,7 +161,7 @@ void fit_groups(Belonging& result, const Workbench& bench, const Fit& joint, con
       members.push_back(recordings[r]);
       result.groups.back().push_back(recordings[r].file);
     }
-    const Fit own = bench.on_all(joint, members, rounds);
+    const Fit own = bench.on_all(joint, members, descent_rounds);
     result.nrmse.push_back(own.cost);
     apart += squared(own.cost) * static_cast<double>(members.size()) / static_cast<double>(recordings.size());
     values.push_back(parameters_at(own.layout->held(), own.terms, drive, frequency));
@@ -279,21 +189,21 @@ void fit_groups(Belonging& result, const Workbench& bench, const Fit& joint, con
 
 }  // namespace
 
-std::optional<Belonging> belonging_of(const Workbench& bench, const Fit& base, const Fit& augmented) {
-  const std::vector<Recording>& recordings = bench.split().fit;
-  const Fit joint = bench.polished(base, rounds);
-  const std::vector<Handle> handles = handles_of(joint);
-  std::vector<Quadratic> quadratics = quadratics_of(bench, joint, handles);
-  if (handles.empty() || !finite(quadratics)) {
+std::optional<Belonging> belonging_of(const Workbench& bench, const ByRecording& base, const Fit& augmented) {
+  if (!base.told()) {
     return {};
   }
+  const std::vector<Recording>& recordings = bench.split().fit;
+  const Fit& joint = base.joint;
+  const std::vector<Handle>& handles = base.handles;
+  std::vector<Quadratic> quadratics = base.quadratics;
   const std::vector<RecordedCondition> conditions = conditions_of(recordings);
   std::optional<Parted> parted = parted_by_repeats(quadratics, conditions);
   // What all states share, the shape of the loop, is distorted by their differences until these are taken off.
   std::optional<Partition> clearest = clearest_partition(quadratics);
   Fit shared = joint;
   for (int pass = 0; pass < passes && clearest; ++pass) {
-    shared = bench.on_all(shared, in_one_state(bench, shared, handles, quadratics, clearest->groups), rounds);
+    shared = bench.on_all(shared, in_one_state(bench, shared, handles, quadratics, clearest->groups), descent_rounds);
     quadratics = quadratics_of(bench, shared, handles);
     clearest = finite(quadratics) ? clearest_partition(quadratics) : std::nullopt;
   }
@@ -301,7 +211,7 @@ std::optional<Belonging> belonging_of(const Workbench& bench, const Fit& base, c
       clear && (!parted || clear->explained_by.empty())) {
     parted = clear;
   } else if (parted) {
-    quadratics = quadratics_of(bench, joint, handles);
+    quadratics = base.quadratics;
   }
   if (!parted) {
     return {};
@@ -326,73 +236,12 @@ std::optional<Belonging> belonging_of(const Workbench& bench, const Fit& base, c
   return result;
 }
 
-std::optional<UnusedColumnTold> unused_column(const Workbench& bench, const Fit& base) {
-  const std::vector<RecordedCondition> conditions = conditions_of(bench.split().fit);
-  if (std::ranges::none_of(conditions, &RecordedCondition::unused)) {
-    return {};
-  }
-  const Fit joint = bench.polished(base, rounds);
-  const std::vector<Handle> handles = handles_of(joint);
-  const std::vector<Quadratic> quadratics = quadratics_of(bench, joint, handles);
-  if (handles.empty() || !finite(quadratics)) {
-    return {};
-  }
-  const std::optional<FollowedColumn> found = followed_column(quadratics, conditions);
-  if (!found) {
-    return {};
-  }
-  UnusedColumnTold result{found->name,   found->low, found->high, std::sqrt(found->together), std::sqrt(found->along),
-                          found->chance, {}};
-  std::vector<std::size_t> order(handles.size());
-  std::iota(order.begin(), order.end(), 0U);
-  std::ranges::stable_sort(order, std::greater{},
-                           [&](std::size_t h) { return found->cost(static_cast<Eigen::Index>(h)); });
-  for (const std::size_t h : order) {
-    const auto at = static_cast<Eigen::Index>(h);
-    if (found->cost(at) > part_of_the_difference * (found->together - found->along)) {
-      const Parameter& card = joint.layout->cards()[handles[h].parameter];
-      result.changes.push_back({joint.layout->names()[handles[h].parameter], in_words(card.role),
-                                handles[h].factor ? "" : std::string(card.unit), found->change(at)});
-    }
-  }
-  return result;
-}
-
-std::string sentence_of(const UnusedColumnTold& column) {
-  std::vector<std::string> changes;
-  for (const UnusedColumnTold::Change& row : column.changes) {
-    const std::string name = row.meaning.empty() ? row.parameter : row.meaning + " (" + row.parameter + ")";
-    changes.push_back(row.unit.empty()
-                          ? fmt::format("{} {:+.0f} %", name, 100.0 * row.value)
-                          : fmt::format("{} {:+.3g}{}", name, row.value, row.unit == "1" ? "" : " " + row.unit));
-  }
-  return fmt::format(
-      "the parameters follow the recorded '{}', which no model uses: from {:.3g} to {:.3g} {}; all recordings together "
-      "NRMSE {:.2g}, with parameters that follow it about {:.2g}; dealt to the recordings by lot, it does as well with "
-      "a "
-      "probability of {:.1g}",
-      column.name, column.low, column.high, list_of(changes), column.together, column.along, column.chance);
-}
-
-nlohmann::json column_json(const UnusedColumnTold& column) {
-  nlohmann::json parameters = nlohmann::json::array();
-  for (const UnusedColumnTold::Change& row : column.changes) {
-    parameters.push_back({{"name", row.parameter},
-                          {"change", row.value},
-                          {"unit", row.unit.empty() ? nlohmann::json(nullptr) : nlohmann::json(row.unit)}});
-  }
-  return {{"name", column.name},         {"from", column.low},
-          {"to", column.high},           {"nrmse_together", column.together},
-          {"nrmse_along", column.along}, {"chance", column.chance},
-          {"parameters", parameters}};
-}
-
 bool mixed(const std::optional<Belonging>& belonging) { return belonging && belonging->explained_by.empty(); }
 
 std::string sentence_of(const Belonging& belonging) {
   std::vector<std::string> groups;
   for (std::size_t g = 0; g < belonging.groups.size(); ++g) {
-    groups.push_back(fmt::format("({}) {}", g + 1, list_of(belonging.groups[g])));
+    groups.push_back(fmt::format("({}) {}", g + 1, joined(belonging.groups[g], " and ")));
   }
   std::vector<std::string> differences;
   for (const Difference& row : belonging.differences) {
@@ -407,7 +256,8 @@ std::string sentence_of(const Belonging& belonging) {
   return fmt::format(
       "the recordings are not of one device state: {}{}{}; fitted together NRMSE {:.2g}, apart {:.2g}; {}. A valve, a "
       "preload or the specimen was another; no name is given on a mixture",
-      list_of(groups), differences.empty() ? "" : "; ", list_of(differences), belonging.together, belonging.apart,
+      joined(groups, " and "), differences.empty() ? "" : "; ", joined(differences, " and "), belonging.together,
+      belonging.apart,
       belonging.by_repeats ? std::string("recordings of the same motion and drive are not alike")
                            : fmt::format("parameters that scatter from recording to recording part so well with a "
                                          "probability of {:.1g}, and nothing recorded parts them so",

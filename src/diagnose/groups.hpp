@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "diagnose/search/workbench.hpp"
+#include "diagnose/by_recording.hpp"
 
 namespace hysteron {
 
@@ -34,32 +34,12 @@ struct Belonging {
   std::string explained_by;
 };
 
-// `bench` holds all recordings, judging ones too. `base` is of the damper law alone, `augmented` the best model that
-// was found. Nothing where no groups stand out.
-std::optional<Belonging> belonging_of(const Workbench& bench, const Fit& base, const Fit& augmented);
+// `bench` holds all recordings, judging ones too. `base` is of the damper law alone on them, `augmented` the best model
+// that was found. Nothing where no groups stand out.
+std::optional<Belonging> belonging_of(const Workbench& bench, const ByRecording& base, const Fit& augmented);
 
 // Whether the device was not the same: groups that nothing known explains.
 bool mixed(const std::optional<Belonging>& belonging);
-
-// A recorded column that no model uses (a temperature, a pressure) and that the law's parameters follow.
-struct UnusedColumnTold {
-  struct Change {
-    std::string parameter;
-    std::string meaning;  // "yield force"; may be empty
-    std::string unit;     // of the change; empty: a share of the parameter
-    double value = 0.0;   // from the least to the largest of the column
-  };
-  std::string name;  // as in the file, with its unit
-  double low = 0.0;
-  double high = 0.0;
-  double together = 0.0;  // NRMSE to first order: parameters common to all recordings, and affine in the column
-  double along = 0.0;
-  double chance = 1.0;
-  std::vector<Change> changes;  // what takes off most comes first
-};
-std::optional<UnusedColumnTold> unused_column(const Workbench& bench, const Fit& base);
-std::string sentence_of(const UnusedColumnTold& column);
-nlohmann::json column_json(const UnusedColumnTold& column);
 
 // Groups, what differs, and what tells it, without a full stop.
 std::string sentence_of(const Belonging& belonging);

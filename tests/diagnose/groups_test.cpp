@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 
+#include "diagnose/column.hpp"
 #include "diagnose/diagnose.hpp"
 #include "diagnose/residual/conditions.hpp"
 #include "diagnose/residual/partition.hpp"
@@ -173,7 +174,7 @@ std::optional<Belonging> belonging_in(const Campaign& campaign) {
   const Workbench bench(scale_of(campaign.recordings), {campaign.recordings, {}, {}, false}, {}, {}, 1,
                         [] { return false; });
   const Fit base = bench.from_anywhere({"viscous", {}, {}}, 2000);
-  return belonging_of(bench, base, base);
+  return belonging_of(bench, by_recording(bench, base), base);
 }
 
 TEST(UnusedColumn, OfATemperatureThatThinsTheOilIsSaidWithItsSize) {
@@ -187,7 +188,7 @@ TEST(UnusedColumn, OfATemperatureThatThinsTheOilIsSaidWithItsSize) {
   const auto told = [&] {
     const Workbench bench(scale_of(campaign.recordings), {campaign.recordings, {}, {}, false}, {}, {}, 1,
                           [] { return false; });
-    return unused_column(bench, bench.from_anywhere({"viscous", {}, {}}, 2000));
+    return unused_column(bench, by_recording(bench, bench.from_anywhere({"viscous", {}, {}}, 2000)));
   };
   EXPECT_FALSE(told()) << "nothing else was recorded";
   for (std::size_t k = 0; k < oil.size(); ++k) campaign.recordings[k].unused = {{"oil [degC]", oil[k]}};
