@@ -13,14 +13,42 @@ std::array<std::vector<double>*, 8> channels_of(Recording& recording) {
           &recording.acceleration, &recording.derived_acceleration, &recording.drive,    &recording.temperature};
 }
 
+std::array<const std::vector<double>*, 8> channels_of(const Recording& recording) {
+  return {&recording.time,         &recording.displacement,         &recording.velocity, &recording.force,
+          &recording.acceleration, &recording.derived_acceleration, &recording.drive,    &recording.temperature};
+}
+
 Recording every_kth(const Recording& recording, std::size_t k) {
-  Recording result = recording;
-  for (std::vector<double>* channel : channels_of(result)) {
-    std::size_t kept = 0;
-    for (std::size_t n = 0; n < channel->size(); n += k) {
-      (*channel)[kept++] = (*channel)[n];
+  Recording result;
+  result.file = recording.file;
+  result.sha256 = recording.sha256;
+  result.unused = recording.unused;
+  result.drive_kind = recording.drive_kind;
+  result.velocity_measured = recording.velocity_measured;
+  result.start = recording.start;
+  const auto from = channels_of(recording);
+  const auto to = channels_of(result);
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    to[i]->reserve((from[i]->size() + k - 1) / k);
+    for (std::size_t n = 0; n < from[i]->size(); n += k) {
+      to[i]->push_back((*from[i])[n]);
     }
-    channel->resize(kept);
+  }
+  return result;
+}
+
+std::vector<const Recording*> refer_to(const std::vector<Recording>& recordings) {
+  std::vector<std::size_t> all(recordings.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  return refer_to(recordings, all);
+}
+
+std::vector<const Recording*> refer_to(const std::vector<Recording>& recordings,
+                                       const std::vector<std::size_t>& indices) {
+  std::vector<const Recording*> result;
+  result.reserve(indices.size());
+  for (const std::size_t index : indices) {
+    result.push_back(&recordings[index]);
   }
   return result;
 }

@@ -44,6 +44,11 @@ struct Recording {
 
 // All channels, absent ones too.
 std::array<std::vector<double>*, 8> channels_of(Recording& recording);
+std::array<const std::vector<double>*, 8> channels_of(const Recording& recording);
+// Recordings where they are, for what needs no copy of them: all, or those of the indices.
+std::vector<const Recording*> refer_to(const std::vector<Recording>& recordings);
+std::vector<const Recording*> refer_to(const std::vector<Recording>& recordings,
+                                       const std::vector<std::size_t>& indices);
 // The columns that no model uses and that every recording has, a temperature among them: name and mean of each
 // recording.
 struct UnusedOfAll {

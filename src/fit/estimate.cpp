@@ -113,7 +113,7 @@ Uncertainty uncertainty_of(const Identification& result, const Objective& object
     const auto deviation = [&](const Spread& spread) -> Eigen::VectorXd {
       return (free_to_terms * spread.covariance * free_to_terms.transpose()).diagonal().cwiseMax(0.0).cwiseSqrt();
     };
-    const std::optional<Jackknife> spreads = jackknife(objective.linearised(u), free, layout.dimension());
+    const std::optional<Jackknife> spreads = jackknife(objective, u, free);
     if (spreads) {
       std_error = std_error.cwiseMax(deviation(spreads->stretches));
       half_width = half_width.cwiseMax(spreads->stretches.quantile * deviation(spreads->stretches));

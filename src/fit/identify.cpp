@@ -34,12 +34,12 @@ std::vector<Recording> pick(const std::vector<Recording>& recordings, const std:
   return result;
 }
 
-double predicted_nrmse(const Layout& layout, const std::vector<Term>& terms, const std::vector<Recording>& recordings,
-                       const ObjectiveOptions& options) {
+double predicted_nrmse(const Layout& layout, const std::vector<Term>& terms,
+                       const std::vector<const Recording*>& recordings, const ObjectiveOptions& options) {
   std::vector<Score> scores;
-  for (const Recording& recording : recordings) {
-    const Target target = make_target(recording, options);
-    scores.push_back(score(predict(layout.model(), layout.held(), terms, target), recording, options.normalisation));
+  for (const Recording* recording : recordings) {
+    const Target target = make_target(*recording, options);
+    scores.push_back(score(predict(layout.model(), layout.held(), terms, target), *recording, options.normalisation));
   }
   return overall(scores, recordings, options.normalisation, options.weighting);
 }
@@ -104,7 +104,7 @@ void check_integration(Identification& result, const std::vector<double>& best, 
   tight.tolerance = options.objective.tolerance / 256.0;
   try {
     const double tight_cost =
-        Objective(result.layout, pick(campaign.recordings, result.fitted), tight).evaluate({best, false}).cost[0];
+        Objective(result.layout, refer_to(campaign.recordings, result.fitted), tight).evaluate({best, false}).cost[0];
     if (std::fabs(tight_cost - result.cost) > 1e-3 * result.cost) {
       result.warnings.push_back("a four times finer integration moves the NRMSE from " + std::to_string(result.cost) +
                                 " to " + std::to_string(tight_cost) + ": use a smaller --tolerance");
@@ -150,15 +150,25 @@ Identification identify(const Campaign& campaign, const std::string& model, cons
   }
   Identification result{layout, {}, {}, {}, 0, 0.0, {}, fitted, heldout, roles, {}};
 
-  const Objective objective(layout, pick(campaign.recordings, fitted), options.objective);
-  ObjectiveOptions calm = options.objective;  // of what is evaluated whether it was interrupted or not
-  calm.stopped = {};
+  // One objective at a time: they are as large as the recordings. Some is evaluated whether it was interrupted or not.
+  bool calm = false;
+  ObjectiveOptions with = options.objective;
+  if (options.objective.stopped) {
+    with.stopped = [&] { return !calm && options.objective.stopped(); };
+  }
+  std::optional<Objective> objective(std::in_place, layout, refer_to(campaign.recordings, fitted), with);
+  const auto calm_cost = [&](const std::vector<double>& point) {
+    calm = true;
+    const double cost = objective->evaluate({point, false}).cost[0];
+    calm = false;
+    return cost;
+  };
   std::vector<double> best;
   for (const SolverEntry* entry : entries) {
     const std::string stage = heldout.empty() || roles ? "fit" : "fit without the held-out recordings";
     RunResult run = run_solver(
-        *entry, make_problem(objective, *entry, options, "fit", layout.initial()),
-        [&](const Request& request) { return objective.evaluate(request); },
+        *entry, make_problem(*objective, *entry, options, "fit", layout.initial()),
+        [&](const Request& request) { return objective->evaluate(request); },
         [&](const RunResult& partial) {
           return !progress || progress(std::string(entry->id) + ": " + stage, partial);
         });
@@ -169,7 +179,7 @@ Identification identify(const Campaign& campaign, const std::string& model, cons
       // Where every search starts: something to keep.
       run.best = layout.initial();
       run.evaluations = 1;
-      run.cost = Objective(layout, pick(campaign.recordings, fitted), calm).evaluate({run.best, false}).cost[0];
+      run.cost = calm_cost(run.best);
     }
     if (run.best.empty() || run.cost >= diverged_cost) {
       throw WorkError("solver " + run.solver + " found no candidate whose simulation stays finite in " +
@@ -178,7 +188,7 @@ Identification identify(const Campaign& campaign, const std::string& model, cons
     SolverOutcome outcome{std::move(run), {}};
     if (!heldout.empty()) {
       outcome.nrmse_heldout = predicted_nrmse(layout, layout.terms(outcome.run.best),
-                                              pick(campaign.recordings, heldout), options.objective);
+                                              refer_to(campaign.recordings, heldout), options.objective);
     }
     result.solvers.push_back(std::move(outcome));
   }
@@ -193,7 +203,9 @@ Identification identify(const Campaign& campaign, const std::string& model, cons
 
   const bool refit = !roles && !heldout.empty();
   const bool descends = entries[result.chosen]->uses_derivatives;
-  const Objective final_objective(layout, pick(campaign.recordings, refit ? all : fitted), options.objective);
+  if (refit) {
+    objective.emplace(layout, refer_to(campaign.recordings, all), with);
+  }
   if (refit || (!descends && result.solvers[result.chosen].run.stopped != "interrupted")) {
     // From what was found; other starts only where the chosen solver descends too. Without recordings to add, a solver
     // that does not descend still leaves the bottom of the valley to a descent.
@@ -201,20 +213,19 @@ Identification identify(const Campaign& campaign, const std::string& model, cons
     IdentifyOptions polish = options;
     polish.settings.clear();
     RunResult run = run_solver(
-        *entry, make_problem(final_objective, *entry, polish, "refit", best),
-        [&](const Request& request) { return final_objective.evaluate(request); },
+        *entry, make_problem(*objective, *entry, polish, "refit", best),
+        [&](const Request& request) { return objective->evaluate(request); },
         [&](const RunResult& partial) {
           return !progress || progress(std::string(entry->id) + ": " + final_stage(refit), partial);
         });
     // Interrupted before it came as far, the fit is what it started from.
-    const double before =
-        refit ? Objective(layout, pick(campaign.recordings, all), calm).evaluate({best, false}).cost[0] : result.cost;
+    const double before = refit ? calm_cost(best) : result.cost;
     result.cost = std::min(before, run.cost);
     if (run.cost < before) {
       best = run.best;
       if (!refit && !heldout.empty()) {
         result.nrmse_heldout =
-            predicted_nrmse(layout, layout.terms(best), pick(campaign.recordings, heldout), options.objective);
+            predicted_nrmse(layout, layout.terms(best), refer_to(campaign.recordings, heldout), options.objective);
       }
     }
     if (refit) {
@@ -224,7 +235,8 @@ Identification identify(const Campaign& campaign, const std::string& model, cons
     result.final_run = std::move(run);
   }
   result.terms = layout.terms(best);
-  estimate(result, final_objective, best, campaign.recordings.front().drive_kind);
+  estimate(result, *objective, best, campaign.recordings.front().drive_kind);
+  objective.reset();
 
   check_integration(result, best, campaign, options);
   for (const Estimate& estimate : result.estimates) {

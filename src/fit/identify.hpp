@@ -65,8 +65,8 @@ struct Identification {
 std::vector<Recording> pick(const std::vector<Recording>& recordings, const std::vector<std::size_t>& indices);
 
 // Overall NRMSE of a set of terms on recordings it need not have seen.
-double predicted_nrmse(const Layout& layout, const std::vector<Term>& terms, const std::vector<Recording>& recordings,
-                       const ObjectiveOptions& options);
+double predicted_nrmse(const Layout& layout, const std::vector<Term>& terms,
+                       const std::vector<const Recording*>& recordings, const ObjectiveOptions& options);
 
 // The problem a solver is given: options.budget, options.settings as far as the solver knows them, and a stream of the
 // seed, the stage's name and the solver.

@@ -28,5 +28,8 @@ struct Jackknife {
 // Empty where the derivatives are not finite or tell no direction.
 std::optional<Jackknife> jackknife(const std::vector<Linearised>& data, const std::vector<Eigen::Index>& free,
                                    std::size_t dimension);
+// The same of an objective at a point, without all derivatives in memory.
+std::optional<Jackknife> jackknife(const Objective& objective, const std::vector<double>& point,
+                                   const std::vector<Eigen::Index>& free);
 
 }  // namespace hysteron

@@ -2,15 +2,103 @@
 #pragma once
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "fit/march_inputs.hpp"
 #include "fit/target.hpp"
+#include "simulate/lean_motion.hpp"
 #include "simulate/march.hpp"
 
 namespace hysteron {
 
 inline constexpr std::size_t block_samples = 128;
+
+// A march of a target in pieces of block_samples. parameters_at_drive(drive, p) writes the parameters at a drive.
+template <class T, class Parameters>
+class Marcher {
+ public:
+  Marcher(const CompositeModel& model, const Target& target, Parameters parameters_at_drive)
+      : model_(model),
+        target_(target),
+        parameters_at_drive_(std::move(parameters_at_drive)),
+        width_(model.parameter_count()),
+        p_(target.drive_varies ? width_ * (block_samples + 1) : width_),
+        out_(block_samples),
+        excitation_(model) {}
+
+  // Goes to sample `first`: at 0 from rest, whatever `state` held, over the period marched beforehand, which `before`
+  // is handed; elsewhere `state` is that at the sample.
+  template <class Before>
+  void start(std::size_t first, std::vector<T>& state, Before&& before) {
+    if (!target_.drive_varies) {
+      const double instant = 0.0;
+      parameters_of({{&instant, 1}, {&target_.drive, 1}, 0}, p_.data());
+    }
+    if (first == 0) {
+      std::ranges::fill(state, T(0.0));
+      for (std::size_t begin = 0; begin < target_.preroll; begin += block_samples) {
+        const std::size_t end = std::min(begin + block_samples, target_.preroll);
+        march(target_.lead_in, begin, end, state, begin > 0);
+        before(begin, end - begin, out_.data());
+      }
+    } else if (target_.drive_varies && !excitation_.none()) {
+      // What the effects on the drive remember, from the start of the recording.
+      for (std::size_t n = 0; n < first; ++n) {
+        parameters_of({target_.motion.time, target_.motion.drive, n}, p_.data());
+      }
+    }
+    goes_on_ = false;
+  }
+
+  // Forces of samples [begin, end), block_samples at most; `begin` is where the block before ended, whose state it
+  // takes, and all blocks but the last are full.
+  const T* block(std::size_t begin, std::size_t end, std::vector<T>& state) {
+    march(target_.motion, begin, end, state, goes_on_);
+    goes_on_ = true;
+    return out_.data();
+  }
+
+ private:
+  void parameters_of(const Command& command, T* values) {
+    parameters_at_drive_(command.drive[command.at], values);
+    if (!excitation_.none()) {
+      parameters_at_drive_(excitation_.act(command, values), values);
+    }
+  }
+
+  // Effects on the drive remember: every sample is asked once, and the one that ends a block begins the next.
+  void march(const Motion& motion, std::size_t begin, std::size_t end, std::vector<T>& state, bool goes_on) {
+    const std::size_t samples = motion.time.size();
+    if (target_.drive_varies) {
+      if (goes_on) {
+        std::copy_n(p_.data() + block_samples * width_, width_, p_.data());
+      }
+      for (std::size_t n = begin + (goes_on ? 1 : 0); n < std::min(end + 1, samples); ++n) {
+        parameters_of({motion.time, motion.drive, n}, p_.data() + (n - begin) * width_);
+      }
+    }
+    const std::size_t stride = target_.drive_varies ? width_ : 0;
+    if (!is_lean(motion)) {
+      model_.march<T>(motion, p_.data(), stride, begin, end, state.data(), out_.data());
+      return;
+    }
+    // With the interval before and the one after, which tell what is near a reversal.
+    const std::size_t first = begin > 0 ? begin - 1 : 0;
+    prepare(motion, first, std::min(end + 2, samples), piece_);
+    model_.march<T>(piece_, p_.data(), stride, begin - first, end - first, state.data(), out_.data());
+  }
+
+  const CompositeModel& model_;
+  const Target& target_;
+  Parameters parameters_at_drive_;
+  std::size_t width_;
+  std::vector<T> p_;
+  std::vector<T> out_;
+  MarchInputs<T> excitation_;
+  Motion piece_;
+  bool goes_on_ = false;
+};
 
 // Marches samples [first, last) of a target block by block and hands (first sample, count, force) to the sink, those of
 // the period marched beforehand to the other one. `state` holds max_states: those at the first sample, then those at
@@ -18,50 +106,12 @@ inline constexpr std::size_t block_samples = 128;
 template <class T, class Parameters, class Sink, class Before>
 void march_window(const CompositeModel& model, const Target& target, const Parameters& parameters_at_drive,
                   std::size_t first, std::size_t last, std::vector<T>& state, Sink&& sink, Before&& before) {
-  const std::size_t width = model.parameter_count();
-  const std::size_t stride = target.drive_varies ? width : 0;
-  std::vector<T> p(target.drive_varies ? width * (block_samples + 1) : width);
-  std::vector<T> out(block_samples);
-  MarchInputs<T> excitation(model);
-  const auto parameters_of = [&](const Command& command, T* values) {
-    parameters_at_drive(command.drive[command.at], values);
-    if (!excitation.none()) {
-      parameters_at_drive(excitation.act(command, values), values);
-    }
-  };
-  // Effects on the drive remember: every sample is asked once, and the one that ends a block begins the next.
-  const auto block = [&](const Motion& motion, std::size_t begin, std::size_t end, bool goes_on) {
-    if (target.drive_varies) {
-      if (goes_on) {
-        std::copy_n(p.data() + block_samples * width, width, p.data());
-      }
-      for (std::size_t n = begin + (goes_on ? 1 : 0); n < std::min(end + 1, motion.time.size()); ++n) {
-        parameters_of({motion.time, motion.drive, n}, p.data() + (n - begin) * width);
-      }
-    }
-    model.march<T>(motion, p.data(), stride, begin, end, state.data(), out.data());
-  };
-  if (!target.drive_varies) {
-    const double instant = 0.0;
-    parameters_of({{&instant, 1}, {&target.drive, 1}, 0}, p.data());
-  }
-  if (first == 0) {
-    std::ranges::fill(state, T(0.0));
-    for (std::size_t begin = 0; begin < target.preroll; begin += block_samples) {
-      const std::size_t end = std::min(begin + block_samples, target.preroll);
-      block(target.lead_in, begin, end, begin > 0);
-      before(begin, end - begin, out.data());
-    }
-  } else if (target.drive_varies && !excitation.none()) {
-    // What the effects on the drive remember, from the start of the recording.
-    for (std::size_t n = 0; n < first; ++n) {
-      parameters_of({target.motion.time, target.motion.drive, n}, p.data());
-    }
-  }
+  Marcher<T, const Parameters&> marcher(model, target, parameters_at_drive);
+  marcher.start(first, state, before);
   for (std::size_t begin = first; begin < last; begin += block_samples) {
     const std::size_t end = std::min(begin + block_samples, last);
-    block(target.motion, begin, end, begin > first);
-    sink(begin, end - begin, out.data());
+    const T* out = marcher.block(begin, end, state);
+    sink(begin, end - begin, out);
   }
 }
 
@@ -70,7 +120,7 @@ template <class T, class Parameters, class Sink, class Before>
 void march_target(const CompositeModel& model, const Target& target, const Parameters& parameters_at_drive, Sink&& sink,
                   Before&& before) {
   std::vector<T> state(max_states);
-  march_window<T>(model, target, parameters_at_drive, 0, target.force.size(), state, sink, before);
+  march_window<T>(model, target, parameters_at_drive, 0, target.motion.time.size(), state, sink, before);
 }
 
 }  // namespace hysteron

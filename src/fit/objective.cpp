@@ -32,11 +32,20 @@ double stiffness_bound(const CompositeModel& model, const double* p, double spee
 }  // namespace
 
 Objective::Objective(const Layout& layout, const std::vector<Recording>& recordings, const ObjectiveOptions& options)
+    : Objective(layout, refer_to(recordings), options) {}
+
+Objective::Objective(const Layout& layout, const std::vector<const Recording*>& recordings,
+                     const ObjectiveOptions& options)
     : layout_(layout), threads_(options.threads), stopped_(options.stopped) {
   double total = 0.0;
   double pooled_normaliser = 0.0;
-  for (const Recording& recording : recordings) {
-    Target target = make_target(recording, options);
+  std::size_t samples = 0;
+  for (const Recording* recording : recordings) {
+    samples += recording->size();
+  }
+  for (const Recording* at : recordings) {
+    const Recording& recording = *at;
+    Target target = make_target(recording, options, samples > options.most_prepared_samples);
     target.normaliser = normaliser(recording, options.normalisation);
     pooled_normaliser = std::max(pooled_normaliser, target.normaliser);
     total += static_cast<double>(recording.size() - target.run_in);
@@ -51,7 +60,7 @@ Objective::Objective(const Layout& layout, const std::vector<Recording>& recordi
     }
   }
   for (std::size_t k = 0; k < recordings.size(); ++k) {
-    screening_targets_.push_back(make_screening_target(targets_[k], recordings[k], options));
+    screening_targets_.push_back(make_screening_target(targets_[k], *recordings[k], options));
   }
 }
 
@@ -122,10 +131,6 @@ std::vector<std::size_t> Objective::packing(const std::vector<double>& points) c
     return order;
   }
   const Target& target = targets_.front();
-  double speed = 0.0;
-  for (const MotionInterval& interval : target.motion.intervals) {
-    speed = std::max(speed, interval.speed);
-  }
   std::vector<double> stiffness(order.size());
   std::vector<double> nodes(d);
   std::vector<double> p(model.parameter_count());
@@ -134,7 +139,7 @@ std::vector<std::size_t> Objective::packing(const std::vector<double>& points) c
       nodes[c] = layout_.physical(c, points[row * d + c]);
     }
     parameters_of_pack(layout_, nodes, target.drive, target.frequency, p.data());
-    const double bound = stiffness_bound(model, p.data(), speed);
+    const double bound = stiffness_bound(model, p.data(), target.fastest);
     stiffness[row] = std::isfinite(bound) ? bound : 1e300;
   }
   std::ranges::sort(

@@ -25,7 +25,9 @@ struct Linearised {
 
 class Objective {
  public:
+  // Keeps nothing of the recordings themselves.
   Objective(const Layout& layout, const std::vector<Recording>& recordings, const ObjectiveOptions& options);
+  Objective(const Layout& layout, const std::vector<const Recording*>& recordings, const ObjectiveOptions& options);
 
   [[nodiscard]] const Layout& layout() const { return layout_; }
   [[nodiscard]] const std::vector<Target>& targets() const { return targets_; }
@@ -39,6 +41,11 @@ class Objective {
   [[nodiscard]] Response evaluate(const Request& request) const;
   // One entry per recording.
   [[nodiscard]] std::vector<Linearised> linearised(const std::vector<double>& point) const;
+  // The same, handed over in pieces: samples [begin, begin + count) of a recording, in order. Recordings come side by
+  // side, from several threads.
+  using TakeLinearised = std::function<void(std::size_t recording, std::size_t begin, std::size_t count,
+                                            const double* residual, const double* jacobian)>;
+  void linearise(const std::vector<double>& point, const TakeLinearised& take) const;
 
  private:
   // Over a target, for every candidate of a pack.

@@ -19,84 +19,92 @@ Objective::PackSums Objective::differentiated(const std::vector<double>& points,
   const std::size_t columns = directions.count;
   const std::size_t count = rows.size();
   const std::size_t pairs = count * ((columns + sweep_directions - 1) / sweep_directions);
+  const std::size_t groups = (pairs + lane_count - 1) / lane_count;
   const std::size_t samples = target.force.size();
   const Lanes limit(1e12 * target.normaliser);
   PackSums result;
   Lanes& squares = result.squares;
   Lanes& alive = result.alive;
-  // One march has all the columns of a block at once; the columns of several are put together first.
-  const bool together = pairs <= lane_count;
-  std::vector<Lanes> jacobian((together ? block_samples : samples) * columns);
-  std::vector<Lanes> residual(together ? block_samples : samples);
-  std::vector<LaneDual> nodes(d);
-  for (std::size_t first = 0; first < pairs; first += lane_count) {
-    const auto pair = [&](std::size_t lane) { return std::min(first + lane, pairs - 1); };
-    const auto low = [&](std::size_t lane) { return pair(lane) / count * sweep_directions; };
-    const auto candidate = [&](std::size_t lane) { return pair(lane) % count; };
-    const auto differentiate = [&](LaneDual& value, std::size_t direction, const Lanes& slope) {
-      for (std::size_t lane = 0; lane < lane_count; ++lane) {
-        if (direction >= low(lane) && direction < low(lane) + sweep_directions) {
-          value.d[direction - low(lane)].set_lane(static_cast<int>(lane), slope.lane(static_cast<int>(lane)));
+  const auto pair = [&](std::size_t group, std::size_t lane) { return std::min(group * lane_count + lane, pairs - 1); };
+  const auto low = [&](std::size_t group, std::size_t lane) { return pair(group, lane) / count * sweep_directions; };
+  const auto candidate = [&](std::size_t group, std::size_t lane) { return pair(group, lane) % count; };
+  const auto differentiate = [&](LaneDual& value, std::size_t group, std::size_t direction, const Lanes& slope) {
+    for (std::size_t lane = 0; lane < lane_count; ++lane) {
+      const std::size_t from = low(group, lane);
+      if (direction >= from && direction < from + sweep_directions) {
+        value.d[direction - from].set_lane(static_cast<int>(lane), slope.lane(static_cast<int>(lane)));
+      }
+    }
+  };
+  std::vector<std::vector<LaneDual>> nodes(groups, std::vector<LaneDual>(d));
+  for (std::size_t group = 0; group < groups; ++group) {
+    const auto candidate_of = [&](std::size_t lane) { return candidate(group, lane); };
+    for (std::size_t c = 0; c < d; ++c) {
+      LaneDual& node = nodes[group][c];
+      node = LaneDual(lanes_of(points, rows, layout_, c, false, candidate_of));
+      if (!directions.of[c].shared) {
+        differentiate(node, group, directions.of[c].direction, lanes_of(points, rows, layout_, c, true, candidate_of));
+      }
+    }
+  }
+  // All groups pass a block of samples before the next block, so that its columns come together in little memory.
+  const auto parameters_of = [&](std::size_t group) {
+    return [this, &nodes, &target, &directions, &differentiate, group](const auto& drive, LaneDual* p) {
+      parameters_of_pack(layout_, nodes[group], drive, target.frequency, p);
+      for (std::size_t j = 0; directions.by_parameter && j < directions.count; ++j) {
+        const ParameterLaw& law = layout_.laws()[j];
+        if (directions.of[law.first].shared) {
+          differentiate(p[law.parameter], group, j, Lanes(1.0));
         }
       }
     };
-    for (std::size_t c = 0; c < d; ++c) {
-      nodes[c] = LaneDual(lanes_of(points, rows, layout_, c, false, candidate));
-      if (!directions.of[c].shared) {
-        differentiate(nodes[c], directions.of[c].direction, lanes_of(points, rows, layout_, c, true, candidate));
+  };
+  std::vector<Marcher<LaneDual, decltype(parameters_of(0))>> marchers;
+  std::vector<std::vector<LaneDual>> states(groups, std::vector<LaneDual>(max_states));
+  for (std::size_t group = 0; group < groups; ++group) {
+    marchers.emplace_back(layout_.model(), target, parameters_of(group));
+    marchers[group].start(0, states[group], [&](std::size_t begin, std::size_t block, const LaneDual* out) {
+      for (std::size_t k = 0; group == 0 && k < block; ++k) {
+        alive += select(abs(out[k].v - Lanes(target.force[begin + k])) < limit, Lanes(1.0), Lanes(0.0));
+      }
+    });
+  }
+  std::vector<Lanes> jacobian(block_samples * columns);
+  std::vector<Lanes> residual(block_samples);
+  for (std::size_t begin = 0; begin < samples; begin += block_samples) {
+    const std::size_t block = std::min(block_samples, samples - begin);
+    for (std::size_t group = 0; group < groups; ++group) {
+      check_stopped();
+      const LaneDual* out = marchers[group].block(begin, begin + block, states[group]);
+      const std::size_t used = std::min<std::size_t>(lane_count, pairs - group * lane_count);
+      for (std::size_t k = 0; k < block; ++k) {
+        Lanes* row = jacobian.data() + k * columns;
+        if (count == lane_count) {
+          const std::size_t from = low(group, 0);
+          for (std::size_t c = from; c < std::min(from + sweep_directions, columns); ++c) {
+            row[c] = out[k].d[c - from];
+          }
+        } else {
+          for (std::size_t lane = 0; lane < used; ++lane) {
+            const std::size_t from = low(group, lane);
+            for (std::size_t c = from; c < std::min(from + sweep_directions, columns); ++c) {
+              row[c].set_lane(static_cast<int>(candidate(group, lane)),
+                              out[k].d[c - from].lane(static_cast<int>(lane)));
+            }
+          }
+        }
+        if (group == 0) {
+          // The lanes of the first sweep are the candidates in order.
+          const Lanes r = out[k].v - Lanes(target.force[begin + k]);
+          residual[k] = r;
+          if (begin + k >= target.run_in) {
+            squares = fma(r, r, squares);
+          }
+          alive += select(abs(r) < limit, Lanes(1.0), Lanes(0.0));
+        }
       }
     }
-    const std::size_t used = std::min<std::size_t>(lane_count, pairs - first);
-    march_target<LaneDual>(
-        layout_.model(), target,
-        [&](const auto& drive, LaneDual* p) {
-          parameters_of_pack(layout_, nodes, drive, target.frequency, p);
-          for (std::size_t j = 0; directions.by_parameter && j < columns; ++j) {
-            const ParameterLaw& law = layout_.laws()[j];
-            if (directions.of[law.first].shared) {
-              differentiate(p[law.parameter], j, Lanes(1.0));
-            }
-          }
-        },
-        [&](std::size_t begin, std::size_t block, const LaneDual* out) {
-          check_stopped();
-          const std::size_t base = together ? 0 : begin;
-          for (std::size_t k = 0; k < block; ++k) {
-            Lanes* row = jacobian.data() + (base + k) * columns;
-            if (count == lane_count) {
-              for (std::size_t c = low(0); c < std::min(low(0) + sweep_directions, columns); ++c) {
-                row[c] = out[k].d[c - low(0)];
-              }
-            } else {
-              for (std::size_t lane = 0; lane < used; ++lane) {
-                for (std::size_t c = low(lane); c < std::min(low(lane) + sweep_directions, columns); ++c) {
-                  row[c].set_lane(static_cast<int>(candidate(lane)),
-                                  out[k].d[c - low(lane)].lane(static_cast<int>(lane)));
-                }
-              }
-            }
-            if (first == 0) {
-              // The lanes of the first sweep are the candidates in order.
-              const Lanes r = out[k].v - Lanes(target.force[begin + k]);
-              residual[base + k] = r;
-              if (begin + k >= target.run_in) {
-                squares = fma(r, r, squares);
-              }
-              alive += select(abs(r) < limit, Lanes(1.0), Lanes(0.0));
-            }
-          }
-          if (together) {
-            take(begin, block, jacobian.data(), residual.data());
-          }
-        },
-        [&](std::size_t begin, std::size_t block, const LaneDual* out) {
-          for (std::size_t k = 0; first == 0 && k < block; ++k) {
-            alive += select(abs(out[k].v - Lanes(target.force[begin + k])) < limit, Lanes(1.0), Lanes(0.0));
-          }
-        });
-  }
-  if (!together) {
-    take(0, samples, jacobian.data(), residual.data());
+    take(begin, block, jacobian.data(), residual.data());
   }
   return result;
 }
@@ -159,15 +167,12 @@ void Objective::sum_derivatives(const std::vector<double>& points, Rows rows, co
   }
 }
 
-std::vector<Linearised> Objective::linearised(const std::vector<double>& point) const {
+void Objective::linearise(const std::vector<double>& point, const TakeLinearised& take) const {
   const std::size_t d = layout_.dimension();
   const std::array<std::size_t, 1> row = {0};
-  std::vector<Linearised> result(targets_.size());
   parallel_for(targets_.size(), threads_, [&](std::size_t r) {
     const Target& target = targets_[r];
     const double scale = std::sqrt(target.weight);
-    result[r].residual.resize(target.force.size());
-    result[r].jacobian.resize(target.force.size() * d);
     const Directions directions = directions_of(layout_, target);
     std::vector<double> slope(d, scale);
     for (std::size_t c = 0; c < d; ++c) {
@@ -175,18 +180,36 @@ std::vector<Linearised> Objective::linearised(const std::vector<double>& point) 
         slope[c] *= directions.of[c].weight * layout_.slope(c, point[c]);
       }
     }
+    std::vector<double> residuals(block_samples);
+    std::vector<double> rows(block_samples * d);
     [[maybe_unused]] const PackSums sums =
         differentiated(point, row, target, directions,
                        [&](std::size_t begin, std::size_t count, const Lanes* jacobian, const Lanes* residual) {
-                         for (std::size_t n = std::max(begin, target.run_in); n < begin + count; ++n) {
-                           result[r].residual[n] = scale * residual[n - begin].lane(0);
-                           const Lanes* columns = jacobian + (n - begin) * directions.count;
+                         for (std::size_t k = 0; k < count; ++k) {
+                           const bool counts = begin + k >= target.run_in;
+                           residuals[k] = counts ? scale * residual[k].lane(0) : 0.0;
+                           const Lanes* columns = jacobian + k * directions.count;
                            for (std::size_t c = 0; c < d; ++c) {
-                             result[r].jacobian[n * d + c] = slope[c] * columns[directions.of[c].direction].lane(0);
+                             rows[k * d + c] = counts ? slope[c] * columns[directions.of[c].direction].lane(0) : 0.0;
                            }
                          }
+                         take(r, begin, count, residuals.data(), rows.data());
                        });
   });
+}
+
+std::vector<Linearised> Objective::linearised(const std::vector<double>& point) const {
+  const std::size_t d = layout_.dimension();
+  std::vector<Linearised> result(targets_.size());
+  for (std::size_t r = 0; r < targets_.size(); ++r) {
+    result[r].residual.resize(targets_[r].force.size());
+    result[r].jacobian.resize(targets_[r].force.size() * d);
+  }
+  linearise(point,
+            [&](std::size_t r, std::size_t begin, std::size_t count, const double* residual, const double* jacobian) {
+              std::copy_n(residual, count, result[r].residual.data() + begin);
+              std::copy_n(jacobian, count * d, result[r].jacobian.data() + begin * d);
+            });
   return result;
 }
 

@@ -9,11 +9,9 @@ namespace hysteron {
 
 std::vector<double> predict(const CompositeModel& model, const std::vector<double>& held,
                             const std::vector<Term>& terms, const Target& target) {
-  Target motion_only = target;
-  motion_only.force.resize(target.motion.time.size());
-  std::vector<double> force(motion_only.force.size());
+  std::vector<double> force(target.motion.time.size());
   march_target<double>(
-      model, motion_only,
+      model, target,
       [&](double drive, double* p) {
         const std::vector<double> values = parameters_at(held, terms, drive, target.frequency);
         std::ranges::copy(values, p);

@@ -27,5 +27,7 @@ Score score(const std::vector<double>& predicted, const Recording& recording, No
 // Over recordings: root mean square of NRMSE, or pooled over samples.
 double overall(const std::vector<Score>& scores, const std::vector<Recording>& recordings, Normalisation normalisation,
                Weighting weighting);
+double overall(const std::vector<Score>& scores, const std::vector<const Recording*>& recordings,
+               Normalisation normalisation, Weighting weighting);
 
 }  // namespace hysteron

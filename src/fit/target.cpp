@@ -8,14 +8,51 @@
 #include "fit/layout.hpp"
 #include "fit/mean.hpp"
 #include "fit/start.hpp"
+#include "simulate/lean_motion.hpp"
 
 namespace hysteron {
 
 namespace {
 
-Motion motion_of(const Recording& recording, double tolerance) {
-  return make_motion(recording.time, recording.displacement, recording.velocity, quiet_drive(recording.drive),
-                     tolerance, recording.derived_acceleration);
+Motion motion_of(const Recording& recording, double tolerance, bool lean) {
+  return (lean ? make_lean_motion : make_motion)(recording.time, recording.displacement, recording.velocity,
+                                                 quiet_drive(recording.drive), tolerance,
+                                                 recording.derived_acceleration);
+}
+
+// The first samples of a motion as one of their own.
+Motion beginning_of(const Motion& motion, std::size_t count) {
+  Motion result;
+  if (is_lean(motion)) {
+    prepare(motion, 0, count, result);
+    return result;
+  }
+  copy_settings(motion, result);
+  const auto first = [&](const auto& from, auto& to, std::size_t length) {
+    to.assign(from.begin(), from.begin() + static_cast<std::ptrdiff_t>(std::min(length, from.size())));
+  };
+  first(motion.time, result.time, count);
+  first(motion.x, result.x, count);
+  first(motion.v, result.v, count);
+  first(motion.a, result.a, count);
+  first(motion.jerk, result.jerk, count);
+  first(motion.drive, result.drive, count);
+  first(motion.intervals, result.intervals, count - 1);
+  return result;
+}
+
+double fastest_of(const Motion& motion) {
+  double result = 0.0;
+  Motion piece;
+  constexpr std::size_t at_once = 1000;
+  for (std::size_t first = 0; is_lean(motion) && first + 1 < motion.time.size(); first += at_once) {
+    prepare(motion, first, std::min(first + at_once + 1, motion.time.size()), piece);
+    result = std::max(result, fastest_of(piece));
+  }
+  for (const MotionInterval& interval : motion.intervals) {
+    result = std::max(result, interval.speed);
+  }
+  return result;
 }
 
 // The period to march beforehand, if any, so that the recording goes on from its end.
@@ -24,13 +61,7 @@ void lead_in(Target& target, const Recording& recording) {
   if (target.preroll == 0) {
     return;
   }
-  target.lead_in = target.motion;
-  const std::size_t count = std::min(target.preroll + 1, recording.size());
-  for (std::vector<double>* channel : {&target.lead_in.time, &target.lead_in.x, &target.lead_in.v, &target.lead_in.a,
-                                       &target.lead_in.jerk, &target.lead_in.drive}) {
-    channel->resize(std::min(count, channel->size()));
-  }
-  target.lead_in.intervals.resize(count - 1);
+  target.lead_in = beginning_of(target.motion, std::min(target.preroll + 1, recording.size()));
   target.motion.lead = target.lead_in.time.back();
 }
 
@@ -86,8 +117,13 @@ std::size_t run_in_samples(const Recording& recording) {
 }  // namespace
 
 Target make_target(const Recording& recording, const ObjectiveOptions& options) {
+  return make_target(recording, options, recording.size() > options.most_prepared_samples);
+}
+
+Target make_target(const Recording& recording, const ObjectiveOptions& options, bool lean) {
   Target target;
-  target.motion = motion_of(recording, options.tolerance);
+  target.motion = motion_of(recording, options.tolerance, lean);
+  target.fastest = fastest_of(target.motion);
   target.force = recording.force;
   target.frequency = dominant_frequency(recording);
   if (!recording.drive.empty()) {
@@ -107,9 +143,14 @@ Target make_target(const Recording& recording, const ObjectiveOptions& options) 
 
 Target make_screening_target(const Target& full, const Recording& whole, const ObjectiveOptions& options) {
   const Recording recording = every_kth(whole, screening_stride(whole, full.frequency));
-  Target target = full;
-  target.motion = motion_of(recording, options.tolerance);
-  target.preroll = 0;
+  Target target;
+  target.normaliser = full.normaliser;
+  target.weight = full.weight;
+  target.frequency = full.frequency;
+  target.drive = full.drive;
+  target.drive_varies = full.drive_varies;
+  target.motion = motion_of(recording, options.tolerance, false);
+  target.fastest = fastest_of(target.motion);
   if (full.preroll > 0) {
     lead_in(target, recording);
     target.lead_in = screening_motion(std::move(target.lead_in));

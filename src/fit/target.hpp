@@ -19,6 +19,9 @@ struct ObjectiveOptions {
   // Leave out of the cost the run-in of recordings that begin in mid-motion and never come back to their start, so that
   // the initial hysteresis is neither known nor found by marching a period beforehand.
   bool skip_run_in = false;
+  // Samples of all recordings up to which the intervals between them are kept with the motion. Of more they are
+  // prepared anew in every march (lean motions), which costs less than the memory.
+  std::size_t most_prepared_samples = 500'000;
   // Asked often, also within an evaluation, which a stiff candidate can make long; once true evaluations throw Stopped.
   std::function<bool()> stopped = {};
 };
@@ -34,8 +37,11 @@ struct Target {
   std::size_t run_in = 0;   // samples at the start that do not count
   std::size_t preroll = 0;  // samples of the first period marched beforehand when the recording starts in motion
   Motion lead_in;           // them, with the sample after them; empty without
+  double fastest = 0.0;     // m/s, bound of |v|
 };
 
+Target make_target(const Recording& recording, const ObjectiveOptions& options, bool lean);
+// Lean where the recording is long.
 Target make_target(const Recording& recording, const ObjectiveOptions& options);
 // The same recording thinned and marched coarsely, for a first look at candidates.
 Target make_screening_target(const Target& full, const Recording& recording, const ObjectiveOptions& options);

@@ -142,7 +142,7 @@ TwoStage fit_two_stage(const Campaign& campaign, const Layout& layout, const std
       }
     }
     if (free == 0) {
-      done.nrmse = predicted_nrmse(own, {}, recordings, options.objective);
+      done.nrmse = predicted_nrmse(own, {}, refer_to(recordings), options.objective);
       return done;
     }
     std::vector<double> start = own.initial();
@@ -249,9 +249,9 @@ TwoStage fit_two_stage(const Campaign& campaign, const Layout& layout, const std
     }
   }
   const std::vector<Term> terms = layout.terms(result.point);
-  result.nrmse = predicted_nrmse(layout, terms, pick(campaign.recordings, fitted), options.objective);
+  result.nrmse = predicted_nrmse(layout, terms, refer_to(campaign.recordings, fitted), options.objective);
   if (!heldout.empty()) {
-    result.nrmse_heldout = predicted_nrmse(layout, terms, pick(campaign.recordings, heldout), options.objective);
+    result.nrmse_heldout = predicted_nrmse(layout, terms, refer_to(campaign.recordings, heldout), options.objective);
   }
   result.evaluations = (spent + all_samples - 1) / all_samples;
   return result;

@@ -1,28 +1,33 @@
-#include "simulate/motion.hpp"
-
 #include <algorithm>
 #include <cmath>
+
+#include "simulate/lean_motion.hpp"
 
 namespace hysteron {
 namespace {
 
-// Slopes of the interpolant at the samples: three-point differences on the non-uniform grid.
-std::vector<double> slopes(std::span<const double> t, std::span<const double> y) {
+// Slope of the interpolant at sample k: three-point differences on the non-uniform grid.
+double slope_at(std::span<const double> t, std::span<const double> y, std::size_t k) {
   const std::size_t n = t.size();
-  std::vector<double> slope(n, 0.0);
   if (n < 3) {
-    if (n == 2) {
-      slope[0] = slope[1] = (y[1] - y[0]) / (t[1] - t[0]);
-    }
-    return slope;
+    return n == 2 ? (y[1] - y[0]) / (t[1] - t[0]) : 0.0;
   }
-  for (std::size_t k = 1; k + 1 < n; ++k) {
-    const double left = t[k] - t[k - 1];
-    const double right = t[k + 1] - t[k];
-    slope[k] = ((y[k] - y[k - 1]) / left * right + (y[k + 1] - y[k]) / right * left) / (left + right);
+  if (k == 0) {
+    return 2.0 * (y[1] - y[0]) / (t[1] - t[0]) - slope_at(t, y, 1);
   }
-  slope[0] = 2.0 * (y[1] - y[0]) / (t[1] - t[0]) - slope[1];
-  slope[n - 1] = 2.0 * (y[n - 1] - y[n - 2]) / (t[n - 1] - t[n - 2]) - slope[n - 2];
+  if (k + 1 == n) {
+    return 2.0 * (y[n - 1] - y[n - 2]) / (t[n - 1] - t[n - 2]) - slope_at(t, y, n - 2);
+  }
+  const double left = t[k] - t[k - 1];
+  const double right = t[k + 1] - t[k];
+  return ((y[k] - y[k - 1]) / left * right + (y[k + 1] - y[k]) / right * left) / (left + right);
+}
+
+std::vector<double> slopes(std::span<const double> t, std::span<const double> y, std::size_t first, std::size_t last) {
+  std::vector<double> slope(last - first);
+  for (std::size_t k = first; k < last; ++k) {
+    slope[k - first] = slope_at(t, y, k);
+  }
   return slope;
 }
 
@@ -48,10 +53,13 @@ double zero_crossing(const double* c) {
 
 }  // namespace
 
-Motion make_motion(std::span<const double> time, std::span<const double> displacement, std::span<const double> velocity,
-                   std::span<const double> drive, double tolerance, std::span<const double> acceleration) {
+namespace {
+
+Motion samples_of(std::span<const double> time, std::span<const double> displacement, std::span<const double> velocity,
+                  std::span<const double> drive, double tolerance, std::span<const double> acceleration) {
   Motion motion;
   // Parts count time from the start of the recording.
+  motion.time.reserve(time.size());
   for (const double t : time) {
     motion.time.push_back(t - time[0]);
   }
@@ -59,9 +67,15 @@ Motion make_motion(std::span<const double> time, std::span<const double> displac
   motion.v.assign(velocity.begin(), velocity.end());
   motion.drive.assign(drive.begin(), drive.end());
   motion.step_limit = 0.5 * std::min(2.0, std::pow(tolerance / 1e-4, 0.25));
-  const std::vector<double> slope = slopes(time, velocity);
-  motion.a = acceleration.empty() ? slope : std::vector<double>(acceleration.begin(), acceleration.end());
-  motion.jerk = slopes(time, motion.a);
+  motion.a = acceleration.empty() ? slopes(time, velocity, 0, time.size())
+                                  : std::vector<double>(acceleration.begin(), acceleration.end());
+  return motion;
+}
+
+// The intervals between the samples of a motion, whose velocity has these slopes; `time` as recorded or from its start.
+void add_intervals(std::span<const double> time, const std::vector<double>& slope, Motion& motion) {
+  const std::vector<double>& displacement = motion.x;
+  const std::vector<double>& velocity = motion.v;
   motion.intervals.resize(time.empty() ? 0 : time.size() - 1);
   for (std::size_t n = 0; n < motion.intervals.size(); ++n) {
     MotionInterval& interval = motion.intervals[n];
@@ -83,7 +97,52 @@ Motion make_motion(std::span<const double> time, std::span<const double> displac
     interval.reversal = velocity[n] * velocity[n + 1] < 0.0;
     interval.reversal_at = interval.reversal ? zero_crossing(interval.v) : 1.0;
   }
+}
+
+}  // namespace
+
+Motion make_motion(std::span<const double> time, std::span<const double> displacement, std::span<const double> velocity,
+                   std::span<const double> drive, double tolerance, std::span<const double> acceleration) {
+  Motion motion = samples_of(time, displacement, velocity, drive, tolerance, acceleration);
+  motion.jerk = slopes(time, motion.a, 0, time.size());
+  add_intervals(time, slopes(time, velocity, 0, time.size()), motion);
   return motion;
+}
+
+void copy_settings(const Motion& from, Motion& to) {
+  to.lead = from.lead;
+  to.step_limit = from.step_limit;
+  to.finer_at_reversals = from.finer_at_reversals;
+  to.finer_when_long = from.finer_when_long;
+  to.most_substeps = from.most_substeps;
+  to.balance_tolerance = from.balance_tolerance;
+  to.balance_iterations = from.balance_iterations;
+  to.element_rate_limit = from.element_rate_limit;
+  to.followed_rate_limit = from.followed_rate_limit;
+}
+
+Motion make_lean_motion(std::span<const double> time, std::span<const double> displacement,
+                        std::span<const double> velocity, std::span<const double> drive, double tolerance,
+                        std::span<const double> acceleration) {
+  return samples_of(time, displacement, velocity, drive, tolerance, acceleration);
+}
+
+void prepare(const Motion& lean, std::size_t first, std::size_t last, Motion& piece) {
+  copy_settings(lean, piece);
+  const auto part = [&](const std::vector<double>& from, std::vector<double>& to) {
+    if (from.empty()) {
+      to.clear();
+    } else {
+      to.assign(from.begin() + static_cast<std::ptrdiff_t>(first), from.begin() + static_cast<std::ptrdiff_t>(last));
+    }
+  };
+  part(lean.time, piece.time);
+  part(lean.x, piece.x);
+  part(lean.v, piece.v);
+  part(lean.a, piece.a);
+  part(lean.drive, piece.drive);
+  piece.jerk = slopes(lean.time, lean.a, first, last);
+  add_intervals(piece.time, slopes(lean.time, lean.v, first, last), piece);
 }
 
 Motion comparing_motion(Motion motion) {
@@ -94,8 +153,8 @@ Motion comparing_motion(Motion motion) {
   motion.balance_tolerance = 1e-4;
   motion.balance_iterations = 8;
   // Coarser limits made a play of 0.5 mm look like something else on thinned recordings.
-  if (!motion.intervals.empty()) {
-    const double interval = motion.time.back() / static_cast<double>(motion.intervals.size());
+  if (motion.time.size() > 1) {
+    const double interval = motion.time.back() / static_cast<double>(motion.time.size() - 1);
     motion.element_rate_limit = 5.0 / interval;
     motion.followed_rate_limit = 7.0 / interval;
   }

@@ -260,7 +260,7 @@ TEST(Identify, AFinalFitThatIsInterruptedIsNoWorseThanWhatItStartedFrom) {
     ASSERT_TRUE(result.final_run);
     EXPECT_EQ(result.final_run->stopped, "interrupted");
     EXPECT_LT(result.cost, 1.1 * result.solvers.at(result.chosen).run.cost);
-    EXPECT_DOUBLE_EQ(result.cost, predicted_nrmse(result.layout, result.terms, recordings, {}));
+    EXPECT_DOUBLE_EQ(result.cost, predicted_nrmse(result.layout, result.terms, refer_to(recordings), {}));
   }
 }
 
