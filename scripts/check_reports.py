@@ -7,6 +7,7 @@ Fails on a script error, a request for anything but the page itself, an empty pl
 the data that became markup, or a control that does not work. Screenshots go into the folder given.
 Exit status 0: all pages good, 1: findings, 2: wrong call, 77: no Chromium.
 """
+import math
 import os
 import pathlib
 import shutil
@@ -17,6 +18,7 @@ import tempfile
 from chromium import Browser, BrowserError, find
 
 PHONE = 390  # CSS pixels
+MANY = 210  # recordings: more than a page opens with, in pictures and in rows
 MARKUP = '<img src=none onerror="throw 1">.csv'
 
 STUDY = """schema = "hysteron.study/1"
@@ -94,6 +96,11 @@ WALK = """(async () => {
     select.dispatchEvent(new Event("change"));
   }
   for (const button of document.querySelectorAll("thead button")) { button.click(); button.click(); }
+  for (const button of document.querySelectorAll(".more button")) for (let k = 0; k < 100 && !button.hidden; ++k) button.click();
+  for (const kind of ["button.mini", "tr.pick"]) {
+    const there = document.querySelectorAll(kind).length;
+    if (api && there !== api.report.recordings.length) complaints.push(`${there} of ${api.report.recordings.length} ${kind}`);
+  }
   window.dispatchEvent(new Event("beforeprint"));
   if (api && document.querySelectorAll(".print-only svg").length !== 4) complaints.push("no plots for paper");
   window.dispatchEvent(new Event("afterprint"));
@@ -132,12 +139,18 @@ def make_reports(program, folder):
     marked.mkdir()
     shutil.copy(folder / "twin" / "2.0Hz_0.5A.csv", marked / MARKUP)
     run("fit", "marked", "--model", "viscous", "--budget", "100", "--out", "fit-marked")
+    many = folder / "many"
+    many.mkdir()
+    for k in range(MANY):
+        rows = [f"{0.01 * n:.2f},{(5 + k % 5) * math.sin(0.1 * n):.4f},{(5 + k % 5) * math.cos(0.1 * n) + 2:.4f}" for n in range(130)]
+        (many / f"r{k:03}.csv").write_text("time [s],displacement [mm],force [N]\n" + "\n".join(rows) + "\n", encoding="utf-8")
+    run("fit", "many", "--model", "viscous", "--budget", "60", "--out", "fit-many")
     run("diagnose", "few", "--model", "bingham", "--by-current", "fc:1,c0:1", "--out", "diagnose")
     (folder / "study.toml").write_text(STUDY, encoding="utf-8")
     run("bench", "study.toml", "--out", "study")
     run("report", "study")
     return {name: (folder / path / "report.html", canvases)
-            for name, path, canvases in (("fit", "fit", 4), ("fit-marked", "fit-marked", 4), ("diagnose", "diagnose", 4), ("study", "study", 5))}
+            for name, path, canvases in (("fit", "fit", 4), ("fit-marked", "fit-marked", 4), ("fit-many", "fit-many", 4), ("diagnose", "diagnose", 4), ("study", "study", 5))}
 
 
 def troubles(events, page):

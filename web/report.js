@@ -25,6 +25,27 @@ function brief(v) {
 const count = (v) => (isNumber(v) ? String(v).replace(/\B(?=(\d{3})+(?!\d))/g, "\u202f") : "–");
 // A sentence written by the program, its powers of ten as a reader writes them.
 const prose = (text) => String(text).replace(/(\d)e([+-])0*(\d+)/g, (_, digit, sign, power) => `${digit} × 10${superscript((sign === "-" ? "-" : "") + power)}`);
+// What there is much of is put on the page in parts, the next one when the reader asks for it: `make(item)` gives a node
+// of `host`. Returns the node to stand below the host.
+function inParts(host, items, atOnce, what, make, added) {
+  let shown = 0;
+  const said = el("span", {});
+  const more = el("button", { type: "button", onclick: () => add() });
+  const node = el("p", { class: "more" }, said, " ", more);
+  function add() {
+    host.append(...items.slice(shown, shown + atOnce).map(make));
+    shown = Math.min(shown + atOnce, items.length);
+    said.textContent = `${count(shown)} of ${count(items.length)} ${what} shown.`;
+    more.textContent = `Show ${count(Math.min(atOnce, items.length - shown))} more`;
+    more.hidden = shown === items.length;
+    node.hidden = items.length <= atOnce;
+    if (added) added();
+  }
+  host.replaceChildren();
+  add();
+  return node;
+}
+
 const plural = (n, one) => `${n} ${one}${n === 1 ? "" : "s"}`;
 
 // Our own chart markup; the texts in it have gone through esc().
@@ -170,6 +191,8 @@ const roleOf = (r) => roleWords[r.role] || r.role || "–";
 const hasBaseline = recordings.some((r) => list(r.baseline_n).length > 0);
 const residual = (r) => list(r.force_n).map((f, i) => (isNumber(f) && isNumber(r.predicted_n[i]) ? f - r.predicted_n[i] : null));
 const baselineResidual = (r) => list(r.force_n).map((f, i) => (isNumber(f) && isNumber(r.baseline_n[i]) ? f - r.baseline_n[i] : null));
+// What of a recording the curves show, where that is not all of it.
+const partOf = (r) => (r.part ? `, ${fmt(r.part.from, 4)} to ${fmt(r.part.to, 4)} s of ${fmt(r.part.duration, 4)} s shown` : "");
 const nameOf = (r) => `${r.file}${r.drive ? `, ${r.drive}` : ""}`;
 
 // With a base model beside it, each residual has the colour of its simulation; alone, one of its own.
@@ -195,6 +218,7 @@ function legend(withResidual) {
 
 function overview() {
   const grid = el("div", { class: "minis" });
+  const rest = el("div", {});
   const against = el("select", {}, ["velocity", "displacement", "time"].map((k) => el("option", { value: k }, k)));
   const scale = el("select", {}, el("option", { value: "own" }, "own for each"), el("option", { value: "same" }, "same for all"));
   const order = el("select", {}, el("option", { value: "given" }, "as given"), el("option", { value: "worst" }, "largest NRMSE first"));
@@ -205,7 +229,7 @@ function overview() {
     const allY = extent(recordings.map((r) => extent(curves(r).map((c) => c.y))));
     const sequence = recordings.map((_, i) => i);
     if (order.value === "worst") sequence.sort((a, b) => (recordings[b].nrmse ?? -1) - (recordings[a].nrmse ?? -1));
-    grid.replaceChildren(...sequence.map((i) => {
+    rest.replaceChildren(inParts(grid, sequence, 60, "recordings", (i) => {
       const r = recordings[i];
       const markup = chart({
         width: 240, height: 168, small: true, margin: [4, 4, 16, 40],
@@ -218,8 +242,7 @@ function overview() {
         el("b", {}, breakable(r.file)),
         el("span", { class: "sub" }, el("span", {}, [r.drive, roleOf(r)].filter(Boolean).join(" · ")), el("strong", {}, `NRMSE ${fmt(r.nrmse, 3)}`)),
         svgNode(markup));
-    }));
-    markSelected();
+    }, markSelected));
   }
   for (const control of [against, scale, order]) control.addEventListener("change", draw);
   draw();
@@ -228,7 +251,7 @@ function overview() {
       el("label", {}, "Force against", against), el("label", {}, "Scale", scale), el("label", {}, "Order", order)),
     legend(false),
     el("p", { class: "muted interactive" }, "Select a recording to see it in full below."),
-    grid);
+    grid, rest);
 }
 
 function recordingTable() {
@@ -244,16 +267,16 @@ function recordingTable() {
   let sorted = -1;
   let direction = 1;
   const body = el("tbody", {});
+  const rest = el("div", {});
   const heads = columns.map((c, k) => el("th", { scope: "col", class: c.num ? "num" : null },
     el("button", { type: "button", title: `Sort by ${c.title}`, onclick: () => sort(k) }, c.title)));
   function fill() {
-    body.replaceChildren(...order.map((i) => {
+    rest.replaceChildren(inParts(body, order, 200, "recordings", (i) => {
       const r = recordings[i];
       return el("tr", { class: "pick", "data-index": i, onclick: () => select(i) }, columns.map((c, k) => k === 0
         ? el("th", { scope: "row" }, el("button", { type: "button", class: "link" }, r.file))
         : el("td", { class: c.num ? "num" : "nowrap", "data-title": c.title }, c.num ? fmt(c.value(r), c.digits) : c.value(r))));
-    }));
-    markSelected();
+    }, markSelected));
   }
   function sort(k) {
     direction = sorted === k ? -direction : columns[k].num ? -1 : 1;
@@ -270,7 +293,7 @@ function recordingTable() {
   fill();
   return el("div", { class: "scroll tall", tabindex: 0, role: "region", "aria-label": "Recordings" },
     el("table", { class: stacked(columns) }, el("caption", {}, el("span", {}, "Misfit of each recording", el("span", { class: "interactive" }, "; a heading sorts, a row selects"))),
-      el("thead", {}, el("tr", {}, heads)), body));
+      el("thead", {}, el("tr", {}, heads)), body), rest);
 }
 
 // ------------------------------------------------------------------------------------------------- interactive plots
@@ -541,7 +564,7 @@ function select(index, scroll) {
   detail.chooser.value = String(index);
   detail.previous.disabled = index === 0;
   detail.next.disabled = index === recordings.length - 1;
-  detail.heading.textContent = `${nameOf(r)}: ${roleOf(r)}, NRMSE ${fmt(r.nrmse, 3)}`;
+  detail.heading.textContent = `${nameOf(r)}: ${roleOf(r)}, NRMSE ${fmt(r.nrmse, 3)}${partOf(r)}`;
   detail.readout.textContent = detail.hint;
   markSelected();
   buildPlots(r);
@@ -1106,6 +1129,12 @@ const weightings = {
   pooled: "Overall figures pool the samples of all recordings: each sample weighs the same.",
 };
 
+function dataTable() {
+  const table = plainTable("Data read", [{ title: "File", head: true }, { title: "SHA-256" }], []);
+  const row = (d) => el("tr", {}, el("th", { scope: "row" }, d.file), el("td", { "data-title": "SHA-256" }, el("code", { class: "hash" }, d.sha256)));
+  return [table, inParts(table.querySelector("tbody"), report.data, 200, "files", row)];
+}
+
 function provenanceSection() {
   const facts = [];
   const add = (name, ...value) => facts.push(el("dt", {}, name), el("dd", {}, ...value));
@@ -1115,8 +1144,7 @@ function provenanceSection() {
   if (report.normalisation) add("Normalisation", `${normalisations[report.normalisation] || "NRMSE"} (${report.normalisation}), F the measured force`);
   if (report.weighting) add("Weighting", `${weightings[report.weighting] || ""} (${report.weighting})`);
   return section("provenance", "Provenance", el("dl", { class: "facts" }, facts),
-    list(report.data).length ? plainTable("Data read", [{ title: "File", head: true }, { title: "SHA-256" }],
-      report.data.map((d) => [d.file, el("code", { class: "hash" }, d.sha256)])) : null,
+    list(report.data).length ? dataTable() : null,
     list(report.notes).length && !report.diagnosis ? [el("h3", {}, "Notes"), el("ul", {}, report.notes.map((n) => el("li", {}, n)))] : []);
 }
 

@@ -174,6 +174,7 @@ void run(const Options& options) {
       return one.recording.file == recording.file && one.from == 0;
     });
     page_recordings.push_back(recording_json(recording, prediction, judged ? "held out in the check" : "fit",
+                                             campaign.recordings.size(),
                                              predict(base.layout->model(), base.layout->held(), base.terms, target)));
     data.push_back({{"file", recording.file}, {"sha256", recording.sha256}});
   }

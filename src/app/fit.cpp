@@ -157,9 +157,17 @@ void run(const FitOptions& options) {
   progress.finish();
   make_output_folder(options.out);
 
-  std::vector<Prediction> predictions;
+  std::vector<bool> held_out(campaign.recordings.size(), false);
+  for (const std::size_t k : result.heldout) held_out[k] = true;
+  const auto role = [&](std::size_t k) { return std::string(held_out[k] && result.roles_given ? "validate" : "fit"); };
+  const auto shown_role = [&](std::size_t k) { return held_out[k] && !result.roles_given ? "checked" : role(k); };
+
+  // One prediction at a time: it is as long as its recording.
+  std::vector<Score> scores;
   std::string diverged;
-  for (const Recording& recording : campaign.recordings) {
+  json page_recordings = json::array();
+  for (std::size_t k = 0; k < campaign.recordings.size(); ++k) {
+    const Recording& recording = campaign.recordings[k];
     const Target target = make_target(recording, identify_with.objective);
     Prediction prediction;
     prediction.force = predict(result.layout.model(), result.layout.held(), result.terms, target);
@@ -167,14 +175,9 @@ void run(const FitOptions& options) {
     if (const auto time = diverges_at(prediction.force, recording)) {
       diverged += fmt::format("{}{} from {:g} s on", diverged.empty() ? "" : ", ", recording.file, *time);
     }
-    predictions.push_back(std::move(prediction));
+    page_recordings.push_back(recording_json(recording, prediction, shown_role(k), campaign.recordings.size()));
+    scores.push_back(prediction.score);
   }
-  const auto was_heldout = [&](std::size_t k) { return std::ranges::find(result.heldout, k) != result.heldout.end(); };
-  const auto role = [&](std::size_t k) {
-    return std::string(was_heldout(k) && result.roles_given ? "validate" : "fit");
-  };
-
-  const auto shown_role = [&](std::size_t k) { return was_heldout(k) && !result.roles_given ? "checked" : role(k); };
 
   const std::string normalisation(word_of(identify_with.objective.normalisation));
   json warnings = remarks;
@@ -189,22 +192,28 @@ void run(const FitOptions& options) {
     warnings.push_back(diverged);
   }
   json heldout_files = json::array();
-  std::string heldout_names;
   for (const std::size_t k : result.heldout) {
     heldout_files.push_back(campaign.recordings[k].file);
-    heldout_names += (heldout_names.empty() ? "" : ", ") + campaign.recordings[k].file;
+  }
+  constexpr std::size_t most_named = 20;
+  std::string heldout_names;
+  for (std::size_t k = 0; k < std::min(most_named, result.heldout.size()); ++k) {
+    heldout_names += (k > 0 ? ", " : "") + campaign.recordings[result.heldout[k]].file;
+  }
+  if (result.heldout.size() > most_named) {
+    heldout_names += fmt::format(" and {} more", result.heldout.size() - most_named);
   }
 
   const json model_file = model_json(result, campaign, identify_with);
   json rows = json::array();
   json data = json::array();
-  for (std::size_t k = 0; k < predictions.size(); ++k) {
+  for (std::size_t k = 0; k < scores.size(); ++k) {
     rows.push_back({{"file", campaign.recordings[k].file},
                     {"role", role(k)},
-                    {"held_out_in_check", was_heldout(k)},
-                    {"nrmse", predictions[k].score.nrmse},
-                    {"rmse_n", predictions[k].score.rmse},
-                    {"fit_percent", predictions[k].score.fit_percent}});
+                    {"held_out_in_check", held_out[k]},
+                    {"nrmse", scores[k].nrmse},
+                    {"rmse_n", scores[k].rmse},
+                    {"fit_percent", scores[k].fit_percent}});
     data.push_back({{"file", campaign.recordings[k].file}, {"sha256", campaign.recordings[k].sha256}});
   }
   json solvers = json::array();
@@ -264,10 +273,7 @@ void run(const FitOptions& options) {
                     (result.final_run ? fmt::format("; and {} in the {} by {}", result.final_run->evaluations,
                                                     result.final_stage, result.final_run->solver)
                                       : "")}});
-  page["recordings"] = json::array();
-  for (std::size_t k = 0; k < predictions.size(); ++k) {
-    page["recordings"].push_back(recording_json(campaign.recordings[k], predictions[k], shown_role(k)));
-  }
+  page["recordings"] = std::move(page_recordings);
   page["data"] = data;
   page["notes"] = {
       "Standard errors come from the curvature at the optimum with the effective sample size of the "
@@ -283,7 +289,7 @@ void run(const FitOptions& options) {
   const std::filesystem::path out(options.out);
   write_file_atomically(out / "model.json", json_text(model_file));
   write_file_atomically(out / "fit.json", json_text(fit_file));
-  write_file_atomically(out / "report.html", fit_report_html(page));
+  write_file_atomically(out / "report.html", fit_report_html(std::move(page)));
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
   write_file_atomically(out / "environment.json", json_text(environment(options.common.threads, seconds)));
 
@@ -309,11 +315,10 @@ void run(const FitOptions& options) {
   }
   fmt::print("{}\n", table({"parameter", "value", "std error", "unit", "remark"}, table_rows));
   table_rows.clear();
-  for (std::size_t k = 0; k < predictions.size(); ++k) {
-    table_rows.push_back({campaign.recordings[k].file, format_number(predictions[k].score.nrmse, 4),
-                          format_number(predictions[k].score.rmse, 4),
-                          fmt::format("{:.1f}", predictions[k].score.fit_percent),
-                          was_heldout(k) ? (result.roles_given ? "validate" : "held out in the check") : ""});
+  for (std::size_t k = 0; k < scores.size(); ++k) {
+    table_rows.push_back({campaign.recordings[k].file, format_number(scores[k].nrmse, 4),
+                          format_number(scores[k].rmse, 4), fmt::format("{:.1f}", scores[k].fit_percent),
+                          held_out[k] ? (result.roles_given ? "validate" : "held out in the check") : ""});
   }
   fmt::print("{}\n", table({"recording", "NRMSE", "RMSE [N]", "fit [%]", "remark"}, table_rows));
   if (two) {

@@ -14,10 +14,10 @@ struct Prediction {
   Score score;
 };
 
-// A recording with its prediction, thinned to what a page can show; `baseline` (N, may be empty) is the force of the
-// model before it was augmented.
+// A recording with its prediction, thinned to what a page of this many recordings can show, or that part of it which
+// can be shown with all its periods; `baseline` (N, may be empty) is the force of the model before it was augmented.
 nlohmann::json recording_json(const Recording& recording, const Prediction& prediction, const std::string& role,
-                              const std::vector<double>& baseline = {});
+                              std::size_t recordings, const std::vector<double>& baseline = {});
 
 nlohmann::json estimate_json(const Estimate& estimate, const Layout& layout);
 

@@ -140,10 +140,9 @@ std::string page_of(const nlohmann::json& data, std::string_view script) {
 
 }  // namespace
 
-std::string fit_report_html(const nlohmann::json& report) {
-  nlohmann::json reduced = report;
-  shorten_samples(reduced);
-  return page_of(reduced, web::report_js());
+std::string fit_report_html(nlohmann::json report) {
+  shorten_samples(report);
+  return page_of(report, web::report_js());
 }
 
 nlohmann::json data_of_page(const std::string& html) {

@@ -10,7 +10,7 @@ namespace hysteron {
 // Sample arrays of `recordings` and `curves` are shortened to the digits a plot can show (9 for abscissae, 6 for the
 // rest).
 // Members that the page does not know are kept in its data and otherwise ignored; missing ones leave their part out.
-std::string fit_report_html(const nlohmann::json& report);
+std::string fit_report_html(nlohmann::json report);
 
 // The report's data that a page of fit_report_html holds; null for a text that is no such page.
 nlohmann::json data_of_page(const std::string& html);
