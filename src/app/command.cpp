@@ -13,6 +13,7 @@
 #include "external/external_solver.hpp"
 #include "external/line_program.hpp"
 #include "fit/parallel.hpp"
+#include "io/block_means.hpp"
 #include "io/campaign.hpp"
 #include "io/campaign_file.hpp"
 #include "io/file.hpp"
@@ -36,9 +37,19 @@ void add_data_options(CLI::App& command, DataOptions& options) {
       ->transform(whole_number(0, 100000));
 }
 
+void add_keep_option(CLI::App& command, DataOptions& options) {
+  options.keep_samples = default_keep_samples;
+  command
+      .add_option("--keep-samples", options.keep_samples,
+                  "samples kept of all recordings together; of more, several in a row are averaged to one")
+      ->transform(whole_number(2000, 1000000000))
+      ->capture_default_str();
+}
+
 ReadOptions read_options(const DataOptions& options) {
   ReadOptions read;
   read.skip = options.skip;
+  read.keep_samples = options.keep_samples;
   for (const std::string& mapping : options.columns) {
     const auto equals = mapping.find('=');
     if (equals == std::string::npos || equals == 0 || equals + 1 == mapping.size()) {
@@ -70,6 +81,17 @@ Campaign load(const DataOptions& options, bool force_required, std::vector<std::
     }
   }
   return campaign;
+}
+
+void refuse_short(const Campaign& campaign) {
+  constexpr std::size_t fewest = 16;
+  for (const Recording& recording : campaign.recordings) {
+    if (recording.size() < fewest) {
+      throw InputError(
+          recording.file, 0,
+          fmt::format("{} samples, expected at least {} to identify a model from", recording.size(), fewest));
+    }
+  }
 }
 
 void add_common_options(CLI::App& command, CommonOptions& options) {

@@ -20,11 +20,17 @@ struct DataOptions {
   std::vector<std::string> data;
   std::vector<std::string> columns;  // force="CH1 [kgf]"
   int skip = 0;                      // lines at the head of every CSV file
+  std::size_t keep_samples = 0;      // of all recordings together, 0 for all
 };
 void add_data_options(CLI::App& command, DataOptions& options);
+// For commands that identify; the others take every sample.
+void add_keep_option(CLI::App& command, DataOptions& options);
 ReadOptions read_options(const DataOptions& options);
 // What the readers remark is said on standard error, once for all recordings alike, and put into `warnings`.
 Campaign load(const DataOptions& options, bool force_required = true, std::vector<std::string>* warnings = nullptr);
+
+// Recordings that are too short to identify anything from are an InputError.
+void refuse_short(const Campaign& campaign);
 
 struct CommonOptions {
   std::uint64_t seed = 1;
@@ -40,8 +46,8 @@ ObjectiveOptions objective_options(const CommonOptions& options);
 // "alpha:1,c0:2" -> orders; InputError naming the option and the word that is wrong.
 std::map<std::string, int> parse_orders(const std::string& option, const std::string& text);
 
-// --solver-command NAME=COMMAND: solvers that are programs of the user's own (external/external_solver.hpp), to be added
-// before their names are looked for.
+// --solver-command NAME=COMMAND: solvers that are programs of the user's own (external/external_solver.hpp), to be
+// added before their names are looked for.
 void add_solver_option(CLI::App& command, std::vector<std::string>& commands);
 void add_solver_commands(const std::vector<std::string>& commands);
 

@@ -312,6 +312,7 @@ void add_compare(CLI::App& program) {
                    "models written by fit or diagnose, and CSV or MAT files or folders of them, in any order")
       ->required()
       ->expected(2, 10000);
+  add_keep_option(*command, options->data);
   command->add_option("--column", options->data.columns, "channel=NAME [UNIT] of a column; repeatable")
       ->allow_extra_args(false);
   command->add_option("--out", options->out, "folder for compare.json and report.html")->required();

@@ -98,6 +98,7 @@ json curves_json(const Diagnosis& diagnosis, const Campaign& campaign, const Obj
 void run(const Options& options) {
   const auto begun = std::chrono::steady_clock::now();
   const Campaign campaign = load(options.data);
+  refuse_short(campaign);
   DiagnoseOptions diagnose_with;
   diagnose_with.model = !options.model.empty() ? options.model : (campaign.model.empty() ? "bouc-wen" : campaign.model);
   diagnose_with.layout.by_current =
@@ -238,6 +239,7 @@ void add_diagnose(CLI::App& program) {
   CLI::App* command =
       program.add_subcommand("diagnose", "finds where recording and simulation differ and names the missing physics");
   add_data_options(*command, options->data);
+  add_keep_option(*command, options->data);
   command->add_option("--model", options->model, "base damper law; default campaign.toml's, else bouc-wen");
   command->add_option("--by-current", options->by_current,
                       "parameters that are polynomials in the drive, e.g. alpha:1,c0:1");

@@ -117,6 +117,7 @@ void run(const FitOptions& options) {
   const auto begun = std::chrono::steady_clock::now();
   std::vector<std::string> remarks;
   const Campaign campaign = load(options.data, true, &remarks);
+  refuse_short(campaign);
   const std::string model = options.model.empty() ? campaign.model : options.model;
   if (model.empty()) {
     throw InputError("no model: expected --model NAME or a model in campaign.toml, see `hysteron list models`");
@@ -353,6 +354,7 @@ void add_fit(CLI::App& program) {
   auto options = std::make_shared<FitOptions>();
   CLI::App* command = program.add_subcommand("fit", "identifies one parameter set over all recordings given");
   add_data_options(*command, options->data);
+  add_keep_option(*command, options->data);
   command->add_option("--model", options->model, "damper law, see `hysteron list models`");
   command->add_option("--effects", options->effects, "effects put behind the law, see `hysteron list effects`")
       ->delimiter(',')

@@ -21,6 +21,7 @@ void add_score(CLI::App& program) {
   CLI::App* command = program.add_subcommand("score", "errors of a fitted model on recordings it need not have seen");
   command->add_option("MODEL", options->model, "model.json written by fit or diagnose")->required();
   add_data_options(*command, options->data);
+  add_keep_option(*command, options->data);
   add_common_options(*command, options->common);
   command->add_flag("--json", options->json, "JSON on standard output");
   command->footer("Example:\n  hysteron score out/model.json other-recordings/ --json");

@@ -8,11 +8,11 @@
 
 #include "core/error.hpp"
 #include "core/printable.hpp"
+#include "io/block_means.hpp"
 #include "io/campaign_file.hpp"
 #include "io/csv.hpp"
 #include "io/file.hpp"
 #include "io/mat.hpp"
-#include "io/sha256.hpp"
 #include "io/text.hpp"
 
 namespace hysteron {
@@ -140,17 +140,42 @@ Recording load_recording(const fs::path& path, const ReadOptions& options) {
   const auto extension = extension_of(path);
   constexpr std::string_view text_extensions[] = {".csv", ".txt", ".tsv", ".dat"};
   const bool is_mat = extension == ".mat";
-  const std::string bytes = read_file(path);
+  // What is no file at all is said first.
+  { const InputFile there(path); }
   if (!is_mat && std::ranges::find(text_extensions, extension) == std::end(text_extensions)) {
     throw InputError(path.string(), 0,
                      "unknown kind of file " + in_quotes(extension) +
                          ", expected .csv, .txt, .tsv, .dat or .mat, or a folder of recordings");
   }
-  Recording recording = is_mat ? parse_mat(bytes, path.string(), options) : parse_csv(bytes, path.string(), options);
+  Recording recording = is_mat ? read_mat(path, options) : read_csv(path, options);
   recording.file = valid_utf8(path.filename().string());
-  recording.sha256 = sha256_hex(bytes);
   return recording;
 }
+
+namespace {
+
+// Samples that each recording may keep; 0 where all of them are kept.
+std::size_t limit_of_each(const std::vector<Item>& items, std::size_t total) {
+  constexpr std::uintmax_t shortest_row = 6;  // bytes, of a text
+  std::uintmax_t bytes = 0;
+  for (const Item& item : items) {
+    std::error_code code;
+    const std::uintmax_t size = fs::file_size(item.path, code);
+    bytes += code ? 0 : size;
+  }
+  if (total == 0 || bytes / shortest_row <= total) return total;
+  std::vector<std::size_t> samples;
+  for (const Item& item : items) {
+    // A MAT file tells its samples when it is read: two channels of numbers, unless they are packed.
+    constexpr std::uintmax_t sample = 16;
+    std::error_code code;
+    samples.push_back(extension_of(item.path) == ".mat" ? fs::file_size(item.path, code) / sample
+                                                        : count_rows(item.path));
+  }
+  return kept_of_each(samples, total);
+}
+
+}  // namespace
 
 Campaign load_campaign(const std::vector<std::string>& data, const ReadOptions& options) {
   if (data.empty()) throw InputError("no recordings given, expected CSV or MAT files or folders of them");
@@ -166,8 +191,10 @@ Campaign load_campaign(const std::vector<std::string>& data, const ReadOptions& 
   }
   refuse_repeats(items);
   tell_apart(items);
+  ReadOptions of_each = options;
+  of_each.keep_samples = limit_of_each(items, options.keep_samples);
   for (const auto& item : items) {
-    campaign.recordings.push_back(load_recording(item.path, options));
+    campaign.recordings.push_back(load_recording(item.path, of_each));
     campaign.recordings.back().file = valid_utf8(item.name);
     campaign.roles.push_back(item.role);
   }

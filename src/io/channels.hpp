@@ -16,7 +16,7 @@ namespace hysteron {
 
 // What a reader wants known of a file that it reads all the same.
 struct Remark {
-  enum class Kind { implausible, dialect };
+  enum class Kind { implausible, dialect, thinned };
   std::string file;
   Kind kind;
   std::string key;   // the same for the same remark on another file
@@ -30,6 +30,8 @@ struct ReadOptions {
   bool force_required = true;
   bool displacement_required = true;
   int skip = 0;  // lines at the head of a CSV file that are not read
+  // Samples kept of all recordings together, 0 for all samples (io/block_means.hpp).
+  std::size_t keep_samples = 0;
   std::function<void(const Remark&)> remark = {};
 };
 
@@ -63,6 +65,9 @@ inline constexpr std::size_t fewest_rows = 8;
 // InputError at file:line that lists the columns present.
 [[nodiscard]] Sources assign_columns(const std::vector<Column>& columns, const ReadOptions& options,
                                      const std::string& file, int line);
+
+// One sample of every channel; of those that the file does not have it says nothing.
+using Row = std::array<double, quantity_count>;
 
 // Checked channels in SI -> recording: a missing velocity is derived, current goes before voltage as the drive.
 [[nodiscard]] Recording make_recording(Channels&& channels);

@@ -4,12 +4,17 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "core/error.hpp"
+#include "io/block_means.hpp"
+#include "io/file.hpp"
 #include "io/plausible.hpp"
+#include "io/sha256.hpp"
 #include "io/text.hpp"
 
 namespace hysteron {
@@ -88,16 +93,53 @@ bool is_any_unit(std::string_view text) {
   return false;
 }
 
+// What is to be known of a text before its first line is read.
+struct Survey {
+  std::uint64_t bytes = 0;
+  std::uint64_t newlines = 0;
+  std::uint64_t returns = 0;
+  bool quotes = false;
+  std::optional<std::uint64_t> nul_line;
+
+  void add(std::string_view part) {
+    if (!nul_line) {
+      const auto nul = part.find('\0');
+      if (nul != std::string_view::npos) {
+        const auto before = part.substr(0, nul);
+        nul_line = 1 + newlines + static_cast<std::uint64_t>(std::ranges::count(before, '\n'));
+      }
+    }
+    bytes += part.size();
+    newlines += static_cast<std::uint64_t>(std::ranges::count(part, '\n'));
+    returns += static_cast<std::uint64_t>(std::ranges::count(part, '\r'));
+    quotes = quotes || part.find('"') != std::string_view::npos;
+  }
+};
+
 class CsvReader {
  public:
+  // Text in memory.
   CsvReader(std::string_view text, const std::string& file, const ReadOptions& options)
-      : text_(text), file_(file), options_(options) {}
+      : text_(text), file_(file), options_(options) {
+    survey_.add(text);
+  }
+  // Text of which the head is in memory, enough for what comes before the rows, and `rest` is to be read on.
+  CsvReader(std::string head, InputFile& rest, const Survey& survey, const std::string& file,
+            const ReadOptions& options)
+      : buffer_(std::move(head)), text_(buffer_), rest_(&rest), survey_(survey), file_(file), options_(options) {}
 
   Recording run() {
     check_text();
     read_header();
     read_rows();
-    const auto rows = static_cast<double>(channels_[0].size());
+    const auto rows = static_cast<double>(rows_read_);
+    if (means_) {
+      const double bend = means_->bend();
+      channels_ = means_->take();
+      if (options_.remark) {
+        options_.remark(thinning_remark(file_, rows_read_, stride_, channels_[0], bend));
+      }
+    }
     Recording recording = make_recording(std::move(channels_));
     for (std::size_t i = 0; i < columns_.size(); ++i) {
       if (unused_[i].numbers) recording.unused.push_back({columns_[i].text, unused_[i].sum / rows});
@@ -110,25 +152,39 @@ class CsvReader {
   [[noreturn]] void fail(int line, const std::string& message) const { throw InputError(file_, line, message); }
 
   void check_text() {
-    if (text_.starts_with("\xEF\xBB\xBF")) text_.remove_prefix(3);
+    if (text_.starts_with("\xEF\xBB\xBF")) position_ = 3;
     if (text_.starts_with("\xFF\xFE") || text_.starts_with("\xFE\xFF")) {
       fail(0, "the file is UTF-16 text, expected UTF-8");
     }
-    if (text_.empty()) fail(0, "the file is empty, expected a header row and at least 8 rows of numbers");
-    if (const auto nul = text_.find('\0'); nul != std::string_view::npos) {
-      fail(1 + static_cast<int>(std::count(text_.begin(), text_.begin() + static_cast<std::ptrdiff_t>(nul), '\n')),
-           "a NUL byte, the file is not text, expected UTF-8 CSV");
+    if (text_.size() == position_) fail(0, "the file is empty, expected a header row and at least 8 rows of numbers");
+    if (survey_.nul_line) {
+      fail(static_cast<int>(*survey_.nul_line), "a NUL byte, the file is not text, expected UTF-8 CSV");
     }
     // Line ends of a lone CR, as some old instruments write.
-    if (text_.find('\n') == std::string_view::npos && text_.find('\r') != std::string_view::npos) line_end_ = '\r';
-    has_quotes_ = text_.find('"') != std::string_view::npos;
+    if (survey_.newlines == 0 && survey_.returns > 0) line_end_ = '\r';
+    has_quotes_ = survey_.quotes;
+  }
+
+  // More of the file behind the line that is begun, which moves; false at its end and before the rows.
+  bool read_on() {
+    constexpr std::size_t at_once = std::size_t{4} << 20U;
+    constexpr std::size_t longest_line = std::size_t{64} << 20U;
+    if (rest_ == nullptr || !in_rows_) return false;
+    buffer_.erase(0, position_);
+    position_ = 0;
+    if (buffer_.size() > longest_line) fail(line_ + 1, "a line of more than 64 MiB, expected a row of numbers");
+    const std::size_t before = buffer_.size();
+    rest_->read(buffer_, at_once);
+    text_ = buffer_;
+    return buffer_.size() > before;
   }
 
   // The next line that is neither blank nor a comment; false at the end of the text.
   bool next_line(std::string_view& line) {
-    while (position_ < text_.size()) {
-      ++line_;
+    while (position_ < text_.size() || read_on()) {
       const void* found = std::memchr(text_.data() + position_, line_end_, text_.size() - position_);
+      if (found == nullptr && read_on()) continue;
+      ++line_;
       ended_ = found != nullptr;
       const std::size_t end =
           ended_ ? static_cast<std::size_t>(static_cast<const char*>(found) - text_.data()) : text_.size();
@@ -263,8 +319,13 @@ class CsvReader {
 
   void read_rows() {
     std::vector<int> channel_of(columns_.size(), -1);
-    const auto rows =
-        static_cast<std::size_t>(std::ranges::count(text_.substr(position_ < text_.size() ? position_ : 0), line_end_));
+    in_rows_ = true;
+    const std::uint64_t lines = line_end_ == '\n' ? survey_.newlines : survey_.returns;
+    const std::size_t rows = lines - std::min<std::uint64_t>(lines, static_cast<std::uint64_t>(line_));
+    if (options_.keep_samples > 0 && rows > options_.keep_samples) {
+      stride_ = (rows + options_.keep_samples - 1) / options_.keep_samples;
+      means_.emplace(sources_, stride_);
+    }
     for (std::size_t i = 0; i < sources_.size(); ++i) {
       if (sources_[i].column < 0) continue;
       // One column may serve only one channel, except by two mappings.
@@ -274,7 +335,7 @@ class CsvReader {
                                " is mapped to both " + name_of(channel) + " and " + name_of(static_cast<int>(i)) +
                                ", expected one channel per column");
       channel = static_cast<int>(i);
-      channels_[i].reserve(rows + 1);
+      if (!means_) channels_[i].reserve(rows + 1);
     }
     for (std::size_t i = 0; i < columns_.size(); ++i) {
       unused_.push_back({0.0, channel_of[i] < 0 && !columns_[i].text.empty()});
@@ -299,8 +360,9 @@ class CsvReader {
         }
       }
       check_time();
+      take_row();
     }
-    const std::size_t count = channels_[0].size();
+    const std::size_t count = rows_read_;
     if (count < fewest_rows) {
       fail(0, std::to_string(count) + (count == 1 ? " row" : " rows") + " of numbers, expected at least " +
                   std::to_string(fewest_rows));
@@ -342,7 +404,7 @@ class CsvReader {
     const auto index = static_cast<std::size_t>(channel);
     switch (parse_number(field, decimal_comma, value)) {
       case NumberError::none:
-        channels_[index].push_back(sources_[index].unit.to_si(value));
+        row_[index] = sources_[index].unit.to_si(value);
         return;
       case NumberError::empty:
         fail(line_, name_of(channel) + " is empty, expected a finite number");
@@ -356,11 +418,21 @@ class CsvReader {
   }
 
   void check_time() const {
-    const auto& time = channels_[0];
-    const std::size_t n = time.size();
-    if (n < 2 || time[n - 1] > time[n - 2]) return;
-    fail(line_, "time " + shortest(time[n - 1]) + " s does not increase after " + shortest(time[n - 2]) +
+    if (rows_read_ == 0 || row_[0] > time_before_) return;
+    fail(line_, "time " + shortest(row_[0]) + " s does not increase after " + shortest(time_before_) +
                     " s, expected strictly increasing times");
+  }
+
+  void take_row() {
+    ++rows_read_;
+    time_before_ = row_[0];
+    if (means_) {
+      means_->add(row_);
+      return;
+    }
+    for (std::size_t i = 0; i < sources_.size(); ++i) {
+      if (sources_[i].column >= 0) channels_[i].push_back(row_[i]);
+    }
   }
 
   static std::string shortest(double value) {
@@ -375,7 +447,10 @@ class CsvReader {
     bool numbers = false;  // in every row
   };
 
+  std::string buffer_;  // of a file
   std::string_view text_;
+  InputFile* rest_ = nullptr;  // of a file, behind the buffer
+  Survey survey_;
   const std::string& file_;
   const ReadOptions& options_;
   std::size_t position_ = 0;
@@ -387,7 +462,13 @@ class CsvReader {
   bool ended_ = true;  // the current line has a line end
   std::vector<Column> columns_;
   Sources sources_;
+  bool in_rows_ = false;
   Channels channels_;
+  Row row_{};
+  std::size_t rows_read_ = 0;
+  double time_before_ = 0.0;
+  std::size_t stride_ = 1;  // samples averaged to one
+  std::optional<BlockMeans> means_;
   std::vector<Unused> unused_;
 };
 
@@ -395,6 +476,39 @@ class CsvReader {
 
 Recording parse_csv(std::string_view text, const std::string& file, const ReadOptions& options) {
   return CsvReader(text, file, options).run();
+}
+
+Recording read_csv(const std::filesystem::path& path, const ReadOptions& options) {
+  constexpr std::size_t head_bytes = std::size_t{16} << 20U;
+  const std::string name = path.string();
+  InputFile input(path);
+  Survey survey;
+  Sha256 sum;
+  const auto take = [&](std::string_view part) {
+    survey.add(part);
+    sum.add(part);
+  };
+  std::string head;
+  input.read(head, head_bytes);
+  take(head);
+  if (head.size() == head_bytes) {
+    for (std::string part; !survey.nul_line && (input.read(part, head_bytes), !part.empty()); part.clear()) take(part);
+    input.seek(head.size());
+  }
+  const std::string sha256 = sum.hex();
+  Recording recording = CsvReader(std::move(head), input, survey, name, options).run();
+  input.check_unchanged();
+  recording.sha256 = sha256;
+  return recording;
+}
+
+std::size_t count_rows(const std::filesystem::path& path) {
+  InputFile input(path);
+  Survey survey;
+  constexpr std::size_t at_once = std::size_t{1} << 20U;
+  for (std::string part; input.read(part, at_once), !part.empty(); part.clear()) survey.add(part);
+  const std::uint64_t lines = survey.newlines == 0 ? survey.returns : survey.newlines;
+  return lines > 0 ? lines - 1 : 0;
 }
 
 }  // namespace hysteron

@@ -1,6 +1,8 @@
 // Recordings from CSV text: comma, semicolon or tab, a header row with names and units, # comments.
 #pragma once
 
+#include <cstddef>
+#include <filesystem>
 #include <string>
 #include <string_view>
 
@@ -14,5 +16,9 @@ namespace hysteron {
 // channel may hold anything. Decimal commas are read where the comma does not separate columns. Recording::file and
 // sha256 are left empty. Everything wrong is an InputError with the line.
 [[nodiscard]] Recording parse_csv(std::string_view text, const std::string& file, const ReadOptions& options = {});
+// The same of a file, a few MiB of it in memory at a time; read twice where it is longer. Sets Recording::sha256.
+[[nodiscard]] Recording read_csv(const std::filesystem::path& path, const ReadOptions& options = {});
+// Lines of a file behind its first, comments and what comes before a header among them.
+[[nodiscard]] std::size_t count_rows(const std::filesystem::path& path);
 
 }  // namespace hysteron

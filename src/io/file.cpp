@@ -7,7 +7,6 @@
 #include <cerrno>
 #include <cstdint>
 #include <cstdio>
-#include <memory>
 #include <system_error>
 #include <vector>
 
@@ -44,39 +43,63 @@ std::string nearest_to(const std::filesystem::path& path) {
 
 }  // namespace
 
-std::string read_file(const std::filesystem::path& path) {
-  const std::string name = path.string();
+InputFile::InputFile(const std::filesystem::path& path) : name_(path.string()) {
   // Without waiting: opening a pipe would last until somebody writes.
-  const int descriptor = ::open(name.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+  const int descriptor = ::open(name_.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
   if (descriptor < 0 && (errno == ENOENT || errno == ENOTDIR)) {
-    throw InputError(name, 0, "there is no such file" + nearest_to(path) + ", expected a readable file");
+    throw InputError(name_, 0, "there is no such file" + nearest_to(path) + ", expected a readable file");
   }
-  if (descriptor < 0) fail(name, "cannot be opened", errno);
-  const auto close = [](std::FILE* file) { std::fclose(file); };
-  const std::unique_ptr<std::FILE, decltype(close)> file(::fdopen(descriptor, "rb"), close);
-  if (!file) fail(name, "cannot be opened", errno);
+  if (descriptor < 0) fail(name_, "cannot be opened", errno);
+  file_.reset(::fdopen(descriptor, "rb"));
+  if (!file_) fail(name_, "cannot be opened", errno);
   struct stat status {};
-  if (::fstat(descriptor, &status) != 0) fail(name, "cannot be read", errno);
-  if (S_ISDIR(status.st_mode)) throw InputError(name, 0, "is a folder, expected a file");
-  if (!S_ISREG(status.st_mode)) throw InputError(name, 0, "is a pipe or a device, expected a regular file");
-  const auto size = static_cast<std::uintmax_t>(status.st_size);
-  if (size > largest_file) {
+  if (::fstat(descriptor, &status) != 0) fail(name_, "cannot be read", errno);
+  if (S_ISDIR(status.st_mode)) throw InputError(name_, 0, "is a folder, expected a file");
+  if (!S_ISREG(status.st_mode)) throw InputError(name_, 0, "is a pipe or a device, expected a regular file");
+  size_ = static_cast<std::uintmax_t>(status.st_size);
+  changed_s_ = status.st_mtim.tv_sec;
+  changed_ns_ = status.st_mtim.tv_nsec;
+}
+
+void InputFile::read(std::string& to, std::size_t count) {
+  const std::size_t before = to.size();
+  to.resize(before + count);
+  const std::size_t got = std::fread(to.data() + before, 1, count, file_.get());
+  to.resize(before + got);
+  if (std::ferror(file_.get()) != 0) fail(name_, "cannot be read", errno);
+}
+
+void InputFile::seek(std::uintmax_t position) {
+  if (::fseeko(file_.get(), static_cast<off_t>(position), SEEK_SET) != 0) fail(name_, "cannot be read", errno);
+}
+
+void InputFile::check_unchanged() const {
+  struct stat status {};
+  if (::fstat(::fileno(file_.get()), &status) != 0) fail(name_, "cannot be read", errno);
+  if (static_cast<std::uintmax_t>(status.st_size) != size_ || status.st_mtim.tv_sec != changed_s_ ||
+      status.st_mtim.tv_nsec != changed_ns_) {
+    throw InputError(name_, 0, "changes while it is read, expected a complete file");
+  }
+}
+
+std::string read_file(const std::filesystem::path& path) {
+  InputFile file(path);
+  if (file.size() > largest_file) {
     throw InputError(
-        name, 0,
-        "has " + std::to_string(size >> 20U) + " MiB, expected at most " + std::to_string(largest_file >> 20U));
+        path.string(), 0,
+        "has " + std::to_string(file.size() >> 20U) + " MiB, expected at most " + std::to_string(largest_file >> 20U));
   }
   std::string bytes;
-  bytes.reserve(size + 1);
+  bytes.reserve(file.size() + 1);
   constexpr std::size_t chunk = 1 << 18;
   for (;;) {
     const std::size_t before = bytes.size();
-    bytes.resize(before + chunk);
-    const std::size_t got = std::fread(bytes.data() + before, 1, chunk, file.get());
-    bytes.resize(before + got);
-    if (got < chunk) break;
-    if (bytes.size() > largest_file) throw InputError(name, 0, "grows while it is read, expected a complete file");
+    file.read(bytes, chunk);
+    if (bytes.size() < before + chunk) break;
+    if (bytes.size() > largest_file) {
+      throw InputError(path.string(), 0, "grows while it is read, expected a complete file");
+    }
   }
-  if (std::ferror(file.get()) != 0) fail(name, "cannot be read", errno);
   return bytes;
 }
 

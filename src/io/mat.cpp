@@ -8,10 +8,12 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "io/block_means.hpp"
 #include "io/file.hpp"
 #include "io/mat5.hpp"
 #include "io/mat73.hpp"
 #include "io/plausible.hpp"
+#include "io/sha256.hpp"
 #include "io/text.hpp"
 
 namespace hysteron {
@@ -31,26 +33,6 @@ class MatReader {
   MatReader(std::string_view bytes, const std::string& file, const ReadOptions& options)
       : bytes_(bytes), file_(file), options_(options) {}
 
-  Recording run() {
-    read_variables();
-    list_columns();
-    const Sources sources = assign_columns(columns_, options_, file_, 0);
-    Channels channels;
-    for (std::size_t i = 0; i < sources.size(); ++i) {
-      if (sources[i].column >= 0) channels[i] = read(sources[i]);
-    }
-    check(channels, sources);
-    const std::size_t samples = channels[0].size();
-    Recording recording = make_recording(std::move(channels));
-    const std::vector<UnusedColumn> others = unused(sources, samples);
-    recording.unused.insert(recording.unused.end(), others.begin(), others.end());
-    remark_on_sizes(recording, sources, columns_, options_, file_);
-    return recording;
-  }
-
- private:
-  [[noreturn]] void fail(const std::string& message) const { throw InputError(file_, 0, message); }
-
   void read_variables() {
     const bool level_5 = bytes_.size() >= 128 && (bytes_.substr(126, 2) == "IM" || bytes_.substr(126, 2) == "MI");
     const bool level_73 = is_mat73(bytes_);
@@ -61,6 +43,46 @@ class MatReader {
       fail(std::string(damage.what()) + ", expected a complete MAT file");
     }
     if (variables_.empty()) fail("no variables, the file is empty or damaged, expected one per channel or a matrix");
+  }
+
+  // After read_variables(), which is done with the bytes.
+  Recording run() {
+    list_columns();
+    const Sources sources = assign_columns(columns_, options_, file_, 0);
+    Channels channels;
+    for (std::size_t i = 0; i < sources.size(); ++i) {
+      if (sources[i].column >= 0) channels[i] = read(sources[i]);
+    }
+    check(channels, sources);
+    const std::size_t samples = channels[0].size();
+    const std::vector<UnusedColumn> others = unused(sources, samples);
+    variables_ = {};  // as large as the channels
+    if (options_.keep_samples > 0 && samples > options_.keep_samples) thin(channels, sources);
+    Recording recording = make_recording(std::move(channels));
+    recording.unused.insert(recording.unused.end(), others.begin(), others.end());
+    remark_on_sizes(recording, sources, columns_, options_, file_);
+    return recording;
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& message) const { throw InputError(file_, 0, message); }
+
+  void thin(Channels& channels, const Sources& sources) const {
+    const std::size_t samples = channels[0].size();
+    const std::size_t k = (samples + options_.keep_samples - 1) / options_.keep_samples;
+    BlockMeans means(sources, k);
+    Row row{};
+    for (std::size_t n = 0; n < samples; ++n) {
+      for (std::size_t i = 0; i < channels.size(); ++i) {
+        if (!channels[i].empty()) row[i] = channels[i][n];
+      }
+      means.add(row);
+    }
+    const double bend = means.bend();
+    channels = means.take();
+    if (options_.remark) {
+      options_.remark(thinning_remark(file_, samples, k, channels[0], bend));
+    }
   }
 
   // Units by lower-case variable name.
@@ -179,11 +201,21 @@ class MatReader {
 }  // namespace
 
 Recording parse_mat(std::string_view bytes, const std::string& file, const ReadOptions& options) {
-  return MatReader(bytes, file, options).run();
+  MatReader reader(bytes, file, options);
+  reader.read_variables();
+  return reader.run();
 }
 
 Recording read_mat(const std::filesystem::path& path, const ReadOptions& options) {
-  return parse_mat(read_file(path), path.string(), options);
+  std::string bytes = read_file(path);
+  const std::string sha256 = sha256_hex(bytes);
+  const std::string name = path.string();
+  MatReader reader(bytes, name, options);
+  reader.read_variables();
+  std::string().swap(bytes);
+  Recording recording = reader.run();
+  recording.sha256 = sha256;
+  return recording;
 }
 
 }  // namespace hysteron

@@ -1,5 +1,6 @@
 #include "io/sha256.hpp"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstddef>
@@ -46,29 +47,52 @@ void compress(State& state, const unsigned char* block) {
 
 }  // namespace
 
-std::string sha256_hex(std::string_view bytes) {
-  State state = {0x6a09e667, 0xbb67ae85, 0x3c6ef372, 0xa54ff53a, 0x510e527f, 0x9b05688c, 0x1f83d9ab, 0x5be0cd19};
+void Sha256::add(std::string_view bytes) {
   const auto* data = reinterpret_cast<const unsigned char*>(bytes.data());
-  std::size_t done = 0;
-  for (; done + 64 <= bytes.size(); done += 64) compress(state, data + done);
+  std::size_t left = bytes.size();
+  size_ += left;
+  while (left > 0) {
+    if (held_ == 0 && left >= open_.size()) {
+      compress(state_, data);
+      data += open_.size();
+      left -= open_.size();
+      continue;
+    }
+    const std::size_t taken = std::min(left, open_.size() - held_);
+    std::copy_n(data, taken, open_.begin() + static_cast<std::ptrdiff_t>(held_));
+    held_ += taken;
+    data += taken;
+    left -= taken;
+    if (held_ == open_.size()) {
+      compress(state_, open_.data());
+      held_ = 0;
+    }
+  }
+}
 
+std::string Sha256::hex() {
   // The rest, one set bit, zeros, and the length in bits as a big-endian 64-bit number.
   std::array<unsigned char, 128> tail{};
-  const std::size_t rest = bytes.size() - done;
-  for (std::size_t i = 0; i < rest; ++i) tail[i] = data[done + i];
-  tail[rest] = 0x80;
-  const std::size_t padded = rest < 56 ? 64 : 128;
-  const std::uint64_t bits = static_cast<std::uint64_t>(bytes.size()) * 8;
+  std::copy_n(open_.begin(), held_, tail.begin());
+  tail[held_] = 0x80;
+  const std::size_t padded = held_ < 56 ? 64 : 128;
+  const std::uint64_t bits = size_ * 8;
   for (std::size_t i = 0; i < 8; ++i) tail[padded - 1 - i] = static_cast<unsigned char>(bits >> (8 * i));
-  for (std::size_t i = 0; i < padded; i += 64) compress(state, tail.data() + i);
+  for (std::size_t i = 0; i < padded; i += 64) compress(state_, tail.data() + i);
 
   constexpr std::string_view digits = "0123456789abcdef";
   std::string hex;
   hex.reserve(64);
-  for (const auto word : state) {
+  for (const auto word : state_) {
     for (int shift = 28; shift >= 0; shift -= 4) hex += digits[(word >> shift) & 0xF];
   }
   return hex;
+}
+
+std::string sha256_hex(std::string_view bytes) {
+  Sha256 sum;
+  sum.add(bytes);
+  return sum.hex();
 }
 
 }  // namespace hysteron

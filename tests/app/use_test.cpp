@@ -58,6 +58,30 @@ TEST_F(Use, OnlyFilesAreRead) {
   EXPECT_EQ(run({"fit", "data", "--model", "viscous", "--out", "out"}, [] { alarm(20); }).status, 2);
 }
 
+TEST_F(Use, FewSamplesIdentifyNothing) {
+  write(folder_ / "few.csv", testing::csv(1.0, 0.2, 15));
+  const Outcome outcome = run({"fit", "few.csv", "--model", "viscous", "--out", "out"});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_EQ(outcome.err, "error: few.csv: 15 samples, expected at least 16 to identify a model from\n");
+  EXPECT_FALSE(fs::exists(folder_ / "out"));
+}
+
+TEST_F(Use, LongRecordingsAreAveragedWithAWordAboutIt) {
+  write(folder_ / "long.csv", testing::csv(1.0, 0.2, 9001));
+  const std::string said =
+      "long.csv: 9,001 samples read, every 5 averaged to one: 1,800 kept, 1.11 ms apart; "
+      "--keep-samples 9001 keeps all";
+  const Outcome outcome = run(
+      {"fit", "long.csv", "--model", "viscous", "--budget", "50", "--keep-samples", "2000", "--quiet", "--out", "out"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(outcome.err, "warning: " + said + "\n");
+  EXPECT_NE(read(folder_ / "out/fit.json").find(said), std::string::npos);
+  // What simulates takes every sample.
+  ASSERT_EQ(run({"simulate", "out/model.json", "long.csv", "--out", "force.csv"}).status, 0);
+  const std::string rows = read(folder_ / "force.csv");
+  EXPECT_EQ(std::ranges::count(rows, '\n'), 9002);
+}
+
 TEST_F(Use, APublishedTableTakesSettingsOfItsSolvers) {
   const auto table = [&](std::vector<std::string> more) {
     std::vector<std::string> words{"reproduce", "table-viii", "--seeds", "1", "--budget", "30", "--quiet", "--json"};

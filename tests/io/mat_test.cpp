@@ -98,6 +98,28 @@ TEST_P(MatVersions, OneVariablePerChannel) {
   EXPECT_NEAR(r.velocity[10], 0.01, 1e-9);
 }
 
+TEST_P(MatVersions, ManySamplesAreAveraged) {
+  const auto path = folder_.path() / "a.mat";
+  {
+    MatWriter mat(path, GetParam());
+    mat.column("time", ramp(6000, 0.1));
+    mat.column("x", ramp(6000, 1e-6));
+    mat.column("F", ramp(6000, 2.0));
+  }
+  std::vector<std::string> said;
+  ReadOptions options;
+  options.keep_samples = 2000;
+  options.remark = [&](const Remark& remark) { said.push_back(remark.text); };
+  const auto r = load_recording(path, options);
+  ASSERT_EQ(r.size(), 2000U);
+  EXPECT_NEAR(r.time[10], 3.1, 1e-12);
+  EXPECT_NEAR(r.displacement[10], 31e-6, 1e-15);
+  EXPECT_NEAR(r.force[10], 62.0, 1e-12);
+  ASSERT_FALSE(said.empty());
+  EXPECT_EQ(said[0],
+            "6,000 samples read, every 3 averaged to one: 2,000 kept, 300 ms apart; --keep-samples 6000 keeps all");
+}
+
 TEST_P(MatVersions, OneMatrix) {
   const auto path = folder_.path() / "a.mat";
   auto values = ramp(20, 0.1);

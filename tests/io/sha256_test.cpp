@@ -14,5 +14,15 @@ TEST(Sha256, KnownVectors) {
   EXPECT_EQ(sha256_hex(std::string(1000000, 'a')), "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");
 }
 
+TEST(Sha256, PartsOfAnySizeGiveTheSumOfTheWhole) {
+  std::string text;
+  for (int k = 0; k < 1000; ++k) text += static_cast<char>(k * 37);
+  for (const std::size_t part : {std::size_t{1}, std::size_t{7}, std::size_t{63}, std::size_t{64}, std::size_t{200}}) {
+    Sha256 sum;
+    for (std::size_t at = 0; at < text.size(); at += part) sum.add(std::string_view(text).substr(at, part));
+    EXPECT_EQ(sum.hex(), sha256_hex(text)) << part;
+  }
+}
+
 }  // namespace
 }  // namespace hysteron
