@@ -4,13 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <set>
 
 #include "app/command.hpp"
 #include "app/model_file.hpp"
 #include "compare/criteria.hpp"
 #include "core/error.hpp"
-#include "io/file.hpp"
 #include "io/output.hpp"
 #include "report/html.hpp"
 #include "report/terminal.hpp"
@@ -33,8 +31,6 @@ struct Options {
 struct Compared {
   std::string label;
   StoredModel stored;
-  std::size_t parameters = 0;       // found by fitting
-  std::set<std::string> fitted_on;  // sha256 of the recordings
   std::vector<std::vector<double>> force;
   std::vector<Score> scores;  // one a recording
   double overall = 0.0;
@@ -59,23 +55,6 @@ void label(std::vector<Compared>& models, const std::vector<std::string>& files)
         path.is_absolute() ? (path.parent_path().filename() / path.filename()).string() : path.string();
     models[k].label = std::ranges::count(laws, laws[k]) > 1 ? laws[k] + " (" + file + ")" : laws[k];
   }
-}
-
-Compared read_compared(const std::string& path) {
-  Compared result;
-  result.stored = read_model(path);
-  const json root = json::parse(read_file(path));
-  for (const json& entry : root.at("parameters")) {
-    result.parameters += entry.value("fixed", false) ? 0 : 1;
-  }
-  if (root.contains("fitted_on") && root["fitted_on"].is_array()) {
-    for (const json& entry : root["fitted_on"]) {
-      if (entry.is_object() && entry.contains("sha256") && entry["sha256"].is_string()) {
-        result.fitted_on.insert(entry["sha256"].get<std::string>());
-      }
-    }
-  }
-  return result;
 }
 
 std::vector<std::vector<double>> residuals_of(const Compared& model, const Campaign& campaign,
@@ -147,7 +126,7 @@ void run(const Options& options) {
   const ObjectiveOptions objective = objective_options(options.common);
   std::vector<Compared> models;
   for (const std::string& file : files) {
-    models.push_back(read_compared(file));
+    models.emplace_back().stored = read_model(file);
   }
   label(models, files);
   const Campaign campaign = load(data);
@@ -157,8 +136,9 @@ void run(const Options& options) {
   std::vector<std::size_t> common;  // fitted by every model
   for (std::size_t r = 0; r < campaign.recordings.size(); ++r) {
     all.push_back(r);
-    if (std::ranges::all_of(
-            models, [&](const Compared& model) { return model.fitted_on.contains(campaign.recordings[r].sha256); })) {
+    if (std::ranges::all_of(models, [&](const Compared& model) {
+          return model.stored.fitted_on.contains(campaign.recordings[r].sha256);
+        })) {
       common.push_back(r);
     }
   }
@@ -174,7 +154,7 @@ void run(const Options& options) {
         throw WorkError(model.label + " has no finite force on " + recording.file);
       }
       model.scores.push_back(score(model.force.back(), recording, objective.normalisation));
-      (model.fitted_on.contains(recording.sha256) ? seen : unseen).push_back(r);
+      (model.stored.fitted_on.contains(recording.sha256) ? seen : unseen).push_back(r);
     }
     model.overall = *overall_of(model, campaign, objective, all);
     model.fitted = overall_of(model, campaign, objective, seen);
@@ -190,7 +170,7 @@ void run(const Options& options) {
     // One number of samples for all, that of the residual which holds the least besides noise.
     effective = std::ranges::min_element(facts, {}, &ResidualFacts::mean_square)->effective_samples();
     for (std::size_t k = 0; k < models.size(); ++k) {
-      models[k].criteria = criteria(facts[k].mean_square, *effective, models[k].parameters);
+      models[k].criteria = criteria(facts[k].mean_square, *effective, models[k].stored.searched);
     }
   }
   double best_aic = 0.0;
@@ -228,7 +208,7 @@ void run(const Options& options) {
         {{"label", model.label},
          {"model", model.stored.model.law->id},
          {"effects", effects},
-         {"free_parameters", model.parameters},
+         {"free_parameters", model.stored.searched},
          {"nrmse",
           {{"overall", model.overall},
            {"fitted", number_or_null(model.fitted)},
@@ -253,7 +233,7 @@ void run(const Options& options) {
       row["nrmse"].push_back(model.scores[r].nrmse);
       row["rmse_n"].push_back(model.scores[r].rmse);
       row["fit_percent"].push_back(model.scores[r].fit_percent);
-      row["fitted"].push_back(model.fitted_on.contains(campaign.recordings[r].sha256));
+      row["fitted"].push_back(model.stored.fitted_on.contains(campaign.recordings[r].sha256));
     }
     file["recordings"].push_back(std::move(row));
   }
@@ -275,7 +255,7 @@ void run(const Options& options) {
   };
   std::vector<std::vector<std::string>> rows;
   for (const Compared& model : models) {
-    rows.push_back({model.label, std::to_string(model.parameters), cell(model.fitted), cell(model.unseen),
+    rows.push_back({model.label, std::to_string(model.stored.searched), cell(model.fitted), cell(model.unseen),
                     model.criteria ? fmt::format("{:.1f}", model.criteria->aic - best_aic) : "-",
                     model.criteria ? fmt::format("{:.1f}", model.criteria->bic - best_bic) : "-",
                     fmt::format("{:.3f}", model.facts.autocorrelation.front()),
@@ -289,7 +269,7 @@ void run(const Options& options) {
     std::vector<std::string> row = {campaign.recordings[r].file};
     for (const Compared& model : models) {
       row.push_back(format_number(model.scores[r].nrmse, 4) +
-                    (model.fitted_on.contains(campaign.recordings[r].sha256) ? "" : " *"));
+                    (model.stored.fitted_on.contains(campaign.recordings[r].sha256) ? "" : " *"));
     }
     rows.push_back(std::move(row));
   }

@@ -228,7 +228,8 @@ void run(const Options& options) {
   if (options.json) {
     fmt::print("{}", json_text(diagnosis_file));
   } else {
-    fmt::print("{}report: {}\n", diagnosis_text(diagnosis_file), (out / "report.html").string());
+    fmt::print("{}report: {}\n", diagnosis_text(diagnosis_file, (out / "diagnosis.json").string()),
+               (out / "report.html").string());
   }
 }
 

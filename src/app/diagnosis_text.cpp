@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "core/printable.hpp"
 #include "diagnose/search/alias.hpp"
 #include "io/file.hpp"
+#include "io/json_reader.hpp"
 #include "report/terminal.hpp"
 
 namespace hysteron::app {
@@ -18,6 +20,8 @@ using nlohmann::json;
 
 constexpr std::size_t most_pairs_printed = 8;
 constexpr std::size_t paragraph_width = 100;
+
+struct Incomplete {};  // a table of the record lacks entries
 
 const json& list_of(const json& record, const char* name) {
   static const json empty = json::array();
@@ -124,7 +128,10 @@ std::string alike_text(const json& record) {
     return {};
   }
   const json& map = record["alias_map"];
-  const std::vector<AlikePair> pairs = alike_pairs({map.at("effects"), map.at("cosine")});
+  const AliasMap alias{map.at("effects"), map.at("cosine")};
+  const auto too_short = [&](const auto& rows) { return rows.size() < alias.effects.size(); };
+  if (too_short(alias.cosine) || std::ranges::any_of(alias.cosine, too_short)) throw Incomplete{};
+  const std::vector<AlikePair> pairs = alike_pairs(alias);
   if (pairs.empty()) {
     return {};
   }
@@ -142,8 +149,6 @@ std::string alike_text(const json& record) {
   return text;
 }
 
-}  // namespace
-
 std::string diagnosis_text(const json& record) {
   std::string text = fmt::format("verdict: {}\n{}\n", text_of(record, "verdict"), summary_text(record));
   text += errors_text(record);
@@ -159,13 +164,27 @@ std::string diagnosis_text(const json& record) {
   return text;
 }
 
-json read_diagnosis(const std::string& path) {
-  json record;
+}  // namespace
+
+std::string diagnosis_text(const json& record, const std::string& path) {
+  const auto wrong = [&] {
+    return InputError(path, 0,
+                      "a field is missing or of another type than " + text_of(record, "schema") +
+                          " has, expected the file as `hysteron diagnose` wrote it");
+  };
   try {
-    record = json::parse(read_file(path));
-  } catch (const json::parse_error&) {
-    throw InputError(path, 0, "is not JSON, expected a diagnosis.json of `hysteron diagnose`");
+    return diagnosis_text(record);
+  } catch (const json::exception&) {
+    throw wrong();
+  } catch (const Incomplete&) {
+    throw wrong();
   }
+}
+
+json read_diagnosis(const std::string& path) { return parse_diagnosis(read_file(path), path); }
+
+json parse_diagnosis(std::string_view text, const std::string& path) {
+  json record = parse_json(text, path, "expected a diagnosis.json of `hysteron diagnose`");
   if (!record.is_object() || !record.contains("schema") || !record["schema"].is_string()) {
     throw InputError(path, 0, "no schema, expected \"hysteron.diagnosis/2\" or \"hysteron.diagnosis/1\"");
   }

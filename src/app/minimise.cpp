@@ -9,6 +9,7 @@
 #include "app/values.hpp"
 #include "core/error.hpp"
 #include "core/suggest.hpp"
+#include "external/answers.hpp"
 #include "external/line_program.hpp"
 #include "fit/driver.hpp"
 #include "io/output.hpp"
@@ -88,23 +89,8 @@ class Objective {
       points.push_back(std::move(row));
     }
     program_.write(json{{"evaluate", points}}.dump());
-    const std::string line = program_.read();
-    const json answer = json::parse(line, nullptr, false);
-    const auto wrong = [&](const std::string& expected) {
-      return WorkError("the objective " + printed(line) + ", expected " + expected);
-    };
-    if (!answer.is_object() || !answer.contains("costs") || !answer.at("costs").is_array()) {
-      throw wrong(R"({"costs": [...]})");
-    }
-    const json& costs = answer.at("costs");
-    if (costs.size() != points.size()) {
-      throw wrong(fmt::format("{} costs, got {}", points.size(), costs.size()));
-    }
     Response response;
-    for (const json& cost : costs) {
-      if (!cost.is_number() && !cost.is_null()) throw wrong("numbers, or null where there is no cost");
-      response.cost.push_back(cost.is_null() ? diverged_cost : std::min(cost.get<double>(), diverged_cost));
-    }
+    response.cost = objective_answer(program_.read(), points.size());
     return response;
   }
 

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <set>
 
 #include "app/command.hpp"
 #include "app/values.hpp"
@@ -14,6 +13,7 @@
 #include "core/suggest.hpp"
 #include "core/unit_text.hpp"
 #include "io/file.hpp"
+#include "io/json_reader.hpp"
 
 namespace hysteron::app {
 
@@ -127,36 +127,12 @@ void check_terms(const json& root, const StoredModel& stored) {
   }
 }
 
-// Reads JSON; a key given twice in one object is refused, since readers differ in which of the two they keep.
-json parse_json(const std::string& path, const std::string& text) {
-  const auto line_at = [&](std::size_t byte) {
-    const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(byte, text.size()));
-    return 1 + static_cast<int>(std::count(text.begin(), end, '\n'));
-  };
-  std::vector<std::set<std::string>> open;
-  const auto look = [&](int /*depth*/, json::parse_event_t event, json& value) {
-    if (event == json::parse_event_t::object_start) {
-      open.emplace_back();
-    } else if (event == json::parse_event_t::object_end) {
-      open.pop_back();
-    } else if (event == json::parse_event_t::key && !open.back().insert(value.get<std::string>()).second) {
-      throw InputError(path, 0, "key '" + value.get<std::string>() + "' is given twice in one object, expected once");
-    }
-    return true;
-  };
-  try {
-    return json::parse(text, look);
-  } catch (const json::parse_error& error) {
-    throw InputError(path, line_at(error.byte), "not valid JSON, expected a model.json written by hysteron");
-  } catch (const json::out_of_range&) {
-    throw InputError(path, 0, "holds a number beyond the range of a double, expected a model.json written by hysteron");
-  }
-}
-
 }  // namespace
 
-StoredModel read_model(const std::string& path) {
-  const json root = parse_json(path, read_file(path));
+StoredModel read_model(const std::string& path) { return parse_model(read_file(path), path); }
+
+StoredModel parse_model(std::string_view text, const std::string& path) {
+  const json root = parse_json(text, path, "expected a model.json written by hysteron");
   const auto wrong = [&](const std::string& what) { return InputError(path, 0, what); };
   if (!root.is_object() || !root.contains("schema") || !root["schema"].is_string()) {
     throw wrong("no schema, expected \"hysteron.model/1\"");
@@ -205,6 +181,12 @@ StoredModel read_model(const std::string& path) {
                          "', expected '" + expected + "'");
       }
       result.terms.push_back({index, drive_power, frequency_power, value});
+      result.searched += entry.value("fixed", false) ? 0 : 1;
+    }
+    for (const json& entry : root.value("fitted_on", json::array())) {
+      if (entry.is_object() && entry.contains("sha256") && entry.at("sha256").is_string()) {
+        result.fitted_on.insert(entry.at("sha256").get<std::string>());
+      }
     }
     check_terms(root, result);
   } catch (const json::exception&) {

@@ -32,14 +32,7 @@ json page_of(const std::filesystem::path& folder, const json& record) {
 void report_diagnosis(const std::filesystem::path& folder, const std::filesystem::path& out, bool as_json) {
   const std::string path = (folder / "diagnosis.json").string();
   const json record = read_diagnosis(path);
-  std::string text;
-  try {
-    text = diagnosis_text(record);
-  } catch (const json::exception&) {
-    throw InputError(path, 0,
-                     "a field is missing or of another type than " + record["schema"].get<std::string>() +
-                         " has, expected the file as `hysteron diagnose` wrote it");
-  }
+  const std::string text = diagnosis_text(record, path);
   const std::string page = fit_report_html(page_of(folder, record));
   make_output_folder(out);
   write_file_atomically(out / "report.html", page);
@@ -77,7 +70,7 @@ void add_report(CLI::App& program) {
     const Store store = open_gathered(options->folder);
     const StudyView view = view_of(store, store.records(), options->folder);
     const std::filesystem::path out = options->out.empty() ? options->folder : options->out;
-    write_study_report(out, view, options->times, options->ioh);
+    write_study_report(folder, out, view, options->times, options->ioh);
     if (options->json) {
       fmt::print("{}", json_text(view.analysis));
       return;

@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "io/json_reader.hpp"
 #include "io/output.hpp"
 #include "report/study.hpp"
 #include "report/terminal.hpp"
 #include "study/analysis.hpp"
 #include "study/export.hpp"
 #include "study/identifiability.hpp"
+#include "study/stored_plan.hpp"
 
 namespace hysteron::app {
 
@@ -56,49 +58,70 @@ void add_identifiability(const Plan& plan, Store& store, const std::vector<RunRe
   if (!found.at("problems").is_null()) store.set_identifiability(found.dump());
 }
 
-StudyView view_of(const Store& store, std::vector<RunRecord> of_store, const std::filesystem::path& folder) {
-  const auto text = store.plan();
-  if (!text)
+StudyView view_of(const Store& store, std::vector<RunRecord> records, const std::filesystem::path& folder) {
+  const auto plan = store.plan();
+  if (!plan)
     throw InputError(folder.string(), 0, "the store holds no plan yet, expected a study begun with `hysteron bench`");
+  return view_of(*plan, store.identifiability(), std::move(records), store.timings(), folder);
+}
+
+StudyView view_of(const std::string& plan, const std::optional<std::string>& identifiability,
+                  std::vector<RunRecord> of_store, const std::vector<RunTiming>& timings,
+                  const std::filesystem::path& folder) {
   StudyView view;
-  view.plan = json::parse(*text);
+  view.plan = parse_plan(plan, folder.string());
   view.records = std::move(of_store);
   const std::vector<RunRecord>& records = view.records;
   view.analysis = analyse(view.plan, records);
-  if (const auto stored = store.identifiability()) {
+  if (identifiability) {
+    const json found = parse_json(*identifiability, folder.string(), "expected what `hysteron bench` stores");
     // Of the best runs of now, or not at all.
-    const json found = json::parse(*stored);
     const std::vector<const RunRecord*> best = best_runs(view.plan, records);
-    bool fits = found.at("problems").size() == best.size();
+    const json problems = found.is_object() ? found.value("problems", json(nullptr)) : json(nullptr);
+    bool fits = problems.is_array() && problems.size() == best.size();
     for (std::size_t p = 0; fits && p < best.size(); ++p) {
-      const json& row = found.at("problems").at(p);
-      fits = row.is_null() ? best[p] == nullptr : best[p] != nullptr && row.at("key") == best[p]->key;
+      const json& row = problems.at(p);
+      fits = row.is_null() ? best[p] == nullptr
+                           : best[p] != nullptr && row.is_object() && row.value("key", json(nullptr)) == best[p]->key;
     }
-    if (fits) view.analysis["identifiability"] = found.at("problems");
+    if (fits) view.analysis["identifiability"] = problems;
   }
-  view.times = analyse_times(view.plan, view.analysis, records, store.timings());
+  view.times = analyse_times(view.plan, view.analysis, records, timings);
   return view;
 }
 
-void write_study_report(const std::filesystem::path& folder, const StudyView& view, bool times, bool ioh) {
-  make_output_folder(folder);
+std::map<std::string, std::string> study_report(const std::filesystem::path& folder, const StudyView& view, bool times,
+                                                bool ioh) {
   const std::vector<RunRecord>& records = view.records;
   const json shown = times ? view.times : json(nullptr);
-  write_file_atomically(folder / "analysis.json", json_text(view.analysis));
-  write_file_atomically(folder / "report.html", study_html(view.analysis, shown));
-  write_file_atomically(folder / "report.md", study_markdown(view.analysis, shown));
-  write_file_atomically(folder / "tables.tex", study_latex(view.analysis, shown));
-  write_file_atomically(folder / "runs.csv", runs_csv(view.plan, records));
-  write_file_atomically(folder / "traces.csv", traces_csv(view.plan, records));
-  write_file_atomically(folder / "parameters.csv", parameters_csv(view.plan, records));
-  write_file_atomically(folder / "columns.csv", data_dictionary_csv());
-  write_file_atomically(folder / "environment.json", json_text(view.times));
-  if (ioh) {
-    for (const auto& [name, content] : ioh_files(view.plan, records)) {
-      const std::filesystem::path path = folder / "ioh" / name;
-      make_output_folder(path.parent_path());
-      write_file_atomically(path, content);
+  std::map<std::string, std::string> files;
+  try {
+    files["analysis.json"] = json_text(view.analysis);
+    files["report.html"] = study_html(view.analysis, shown);
+    files["report.md"] = study_markdown(view.analysis, shown);
+    files["tables.tex"] = study_latex(view.analysis, shown);
+    files["runs.csv"] = runs_csv(view.plan, records);
+    files["traces.csv"] = traces_csv(view.plan, records);
+    files["parameters.csv"] = parameters_csv(view.plan, records);
+    files["columns.csv"] = data_dictionary_csv();
+    files["environment.json"] = json_text(view.times);
+    if (ioh) {
+      for (auto& [name, content] : ioh_files(view.plan, records)) files["ioh/" + name] = std::move(content);
     }
+  } catch (const json::exception&) {
+    throw InputError(folder.string(), 0, "what the store says of the fits is not as `hysteron bench` stores it");
+  }
+  return files;
+}
+
+void write_study_report(const std::filesystem::path& from, const std::filesystem::path& folder, const StudyView& view,
+                        bool times, bool ioh) {
+  const std::map<std::string, std::string> files = study_report(from, view, times, ioh);
+  make_output_folder(folder);
+  for (const auto& [name, content] : files) {
+    const std::filesystem::path path = folder / name;
+    make_output_folder(path.parent_path());
+    write_file_atomically(path, content);
   }
 }
 

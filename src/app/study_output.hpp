@@ -3,7 +3,11 @@
 
 #include <chrono>
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "app/command.hpp"
 #include "study/run.hpp"
@@ -38,11 +42,20 @@ struct StudyView {
   nlohmann::json analysis;
   nlohmann::json times;
 };
-// `records` are those of the store. Throws InputError for a store without a plan.
+// `records` are those of the store. Throws InputError for a store without a plan, or with one that is none.
 StudyView view_of(const Store& store, std::vector<RunRecord> records, const std::filesystem::path& folder);
+// The same of what a store holds; `folder` opens the messages.
+StudyView view_of(const std::string& plan, const std::optional<std::string>& identifiability,
+                  std::vector<RunRecord> records, const std::vector<RunTiming>& timings,
+                  const std::filesystem::path& folder);
 
 // report.html, report.md, tables.tex, runs.csv, traces.csv, parameters.csv, columns.csv, analysis.json, and
 // environment.json with everything that varies between identical studies. `times` puts wall time into the report too.
-void write_study_report(const std::filesystem::path& folder, const StudyView& view, bool times, bool ioh);
+// The study is that of the folder `from`.
+void write_study_report(const std::filesystem::path& from, const std::filesystem::path& folder, const StudyView& view,
+                        bool times, bool ioh);
+// The names of these files in the folder and what is in them, all made before the first is written.
+std::map<std::string, std::string> study_report(const std::filesystem::path& from, const StudyView& view, bool times,
+                                                bool ioh);
 
 }  // namespace hysteron::app

@@ -1,10 +1,14 @@
 #include "core/unit_text.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <utility>
 #include <vector>
 
 namespace hysteron {
+namespace {
+constexpr int highest_power = 99;  // one that is higher is none
+}
 
 std::string term_unit(std::string_view unit, int drive_power, int frequency_power, DriveKind drive) {
   std::string result(unit);
@@ -27,7 +31,12 @@ std::string unit_text(const std::string& unit) {
     const std::string part = unit.substr(at + 1, end - at - 1);
     const std::size_t caret = part.find('^');
     const std::string symbol = part.substr(0, caret);
-    const int power = caret == std::string::npos ? 1 : std::stoi(part.substr(caret + 1));
+    int power = 1;
+    if (caret != std::string::npos) {
+      const char* const last = part.data() + part.size();
+      const auto read = std::from_chars(part.data() + caret + 1, last, power);
+      if (read.ec != std::errc{} || read.ptr != last || power < 1 || power > highest_power) return unit;
+    }
     const auto known = std::ranges::find(below, symbol, &std::pair<std::string, int>::first);
     if (known == below.end()) {
       below.emplace_back(symbol, power);

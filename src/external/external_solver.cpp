@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
+#include "external/answers.hpp"
 #include "external/line_program.hpp"
 #include "fit/solver.hpp"
 
@@ -34,30 +35,9 @@ class ExternalSolver final : public Solver {
     if (!stopped_.empty() || !pending_.points.empty()) {
       return pending_;
     }
-    const std::string line = program_.read();
-    const json answer = json::parse(line, nullptr, false);
-    if (answer.is_object() && answer.contains("stop") && answer.at("stop").is_string()) {
-      stopped_ = answer.at("stop").get<std::string>();
-      stopped_ = stopped_.empty() ? "its own end" : stopped_;
-      return {};
-    }
-    const auto wrong = [&](const std::string& expected) {
-      return WorkError("solver '" + id_ + "' " + printed(line) + ", expected " + expected);
-    };
-    if (!answer.is_object() || !answer.contains("ask") || !answer.at("ask").is_array() || answer.at("ask").empty()) {
-      throw wrong(R"({"ask": [[...], ...]} with at least one point, or {"stop": "why"})");
-    }
-    for (const json& point : answer.at("ask")) {
-      if (!point.is_array() || point.size() != dimension_) {
-        throw wrong("points of " + std::to_string(dimension_) + " numbers");
-      }
-      for (const json& value : point) {
-        if (!value.is_number() || !(value.get<double>() >= 0.0 && value.get<double>() <= 1.0)) {
-          throw wrong("coordinates from 0 to 1");
-        }
-        pending_.points.push_back(value.get<double>());
-      }
-    }
+    SolverAnswer answer = solver_answer(program_.read(), id_, dimension_);
+    stopped_ = std::move(answer.stop);
+    pending_.points = std::move(answer.points);
     return pending_;
   }
 

@@ -86,6 +86,12 @@ class CampaignParser : private TomlReader {
 
 }  // namespace
 
-CampaignFile read_campaign_file(const std::filesystem::path& path) { return CampaignParser(path).run(read_file(path)); }
+CampaignFile read_campaign_file(const std::filesystem::path& path) {
+  return parse_campaign_file(read_file(path), path);
+}
+
+CampaignFile parse_campaign_file(const std::string& text, const std::filesystem::path& path) {
+  return CampaignParser(path).run(text);
+}
 
 }  // namespace hysteron

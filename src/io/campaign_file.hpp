@@ -28,5 +28,7 @@ struct CampaignFile {
 
 // Unknown keys, wrong types and values are InputErrors at file:line. Whether the files exist is not looked at.
 [[nodiscard]] CampaignFile read_campaign_file(const std::filesystem::path& path);
+// The same of the text of a file; `path` opens the messages.
+[[nodiscard]] CampaignFile parse_campaign_file(const std::string& text, const std::filesystem::path& path);
 
 }  // namespace hysteron

@@ -55,6 +55,10 @@ using Channels = std::array<std::vector<double>, quantity_count>;
 
 inline constexpr std::size_t fewest_rows = 8;
 
+// In SI. Far from anything measured, and near enough to one that the squares of what is derived are numbers.
+inline constexpr double largest_value = 1e30;
+inline constexpr double shortest_step = 1e-30;  // s
+
 // The channel a column name stands for, by its usual synonyms and without case.
 [[nodiscard]] std::optional<Quantity> quantity_of_name(std::string_view name);
 

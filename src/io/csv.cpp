@@ -142,7 +142,8 @@ class CsvReader {
     }
     Recording recording = make_recording(std::move(channels_));
     for (std::size_t i = 0; i < columns_.size(); ++i) {
-      if (unused_[i].numbers) recording.unused.push_back({columns_[i].text, unused_[i].sum / rows});
+      if (unused_[i].numbers && std::isfinite(unused_[i].sum))
+        recording.unused.push_back({columns_[i].text, unused_[i].sum / rows});
     }
     remark_on_sizes(recording, sources_, columns_, options_, file_);
     return recording;
@@ -404,7 +405,11 @@ class CsvReader {
     const auto index = static_cast<std::size_t>(channel);
     switch (parse_number(field, decimal_comma, value)) {
       case NumberError::none:
-        row_[index] = sources_[index].unit.to_si(value);
+        value = sources_[index].unit.to_si(value);
+        if (!(std::abs(value) <= largest_value)) {
+          fail(line_, name_of(channel) + " " + in_quotes(field) + " is too large, expected at most 1e30 in SI units");
+        }
+        row_[index] = value;
         return;
       case NumberError::empty:
         fail(line_, name_of(channel) + " is empty, expected a finite number");
@@ -418,7 +423,7 @@ class CsvReader {
   }
 
   void check_time() const {
-    if (rows_read_ == 0 || row_[0] > time_before_) return;
+    if (rows_read_ == 0 || row_[0] - time_before_ > shortest_step) return;
     fail(line_, "time " + shortest(row_[0]) + " s does not increase after " + shortest(time_before_) +
                     " s, expected strictly increasing times");
   }

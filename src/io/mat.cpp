@@ -149,6 +149,9 @@ class MatReader {
              ", expected a finite number");
       }
       values[i] = source.unit.to_si(values[i]);
+      if (!(std::abs(values[i]) <= largest_value)) {
+        fail("value " + std::to_string(i + 1) + " of " + name + " is too large, expected at most 1e30 in SI units");
+      }
     }
     return values;
   }
@@ -184,7 +187,7 @@ class MatReader {
            std::to_string(fewest_rows));
     }
     for (std::size_t i = 1; i < time.size(); ++i) {
-      if (!(time[i] > time[i - 1])) {
+      if (!(time[i] - time[i - 1] > shortest_step)) {
         fail("time does not increase at value " + std::to_string(i + 1) + ", expected strictly increasing times");
       }
     }

@@ -136,6 +136,10 @@ std::vector<double> numbers_of(const Element& element, bool swapped, std::size_t
     throw MatDamage("variable " + in_quotes(name) + " holds " + std::to_string(element.data.size() / size) +
                     " values and its size says " + std::to_string(count) + ", the file is damaged");
   }
+  if (count > largest_variable / sizeof(double)) {
+    throw MatDamage("variable " + in_quotes(name) + " of " + std::to_string(count) + " values, expected at most " +
+                    std::to_string(largest_variable / sizeof(double)));
+  }
   std::vector<double> values(count);
   switch (element.type) {
     case type_int8:

@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "io/fence.hpp"
+#include "io/mat_pipe.hpp"
 #include "io/text.hpp"
 
 namespace hysteron {
@@ -19,96 +20,6 @@ constexpr std::string_view signature = "\x89HDF\r\n\x1a\n";
 constexpr std::size_t behind_the_end = 1U << 16U;
 // Of one variable. Far above any recording.
 constexpr hsize_t largest_variable = hsize_t{2} << 30U;
-
-// ---- What goes through the pipe: numbers as they lie in memory, text and lists behind their length ----
-
-class Writer {
- public:
-  template <class T>
-  void number(T value) {
-    bytes_.append(reinterpret_cast<const char*>(&value), sizeof value);
-  }
-  void text(std::string_view value) {
-    number(value.size());
-    bytes_ += value;
-  }
-  void variable(const MatVariable& v) {
-    text(v.name);
-    number(v.kind);
-    number(v.complex);
-    number(v.damaged);
-    number(v.rows);
-    number(v.columns);
-    number(v.values.size());
-    bytes_.append(reinterpret_cast<const char*>(v.values.data()), v.values.size() * sizeof(double));
-    text(v.text);
-    number(v.fields.size());
-    for (const auto& [name, value] : v.fields) {
-      text(name);
-      number(value.has_value());
-      text(value.value_or(""));
-    }
-  }
-  [[nodiscard]] std::string take() { return std::move(bytes_); }
-
- private:
-  std::string bytes_;
-};
-
-// Believes nothing: the other process may have gone wrong in any way.
-class Reader {
- public:
-  explicit Reader(std::string_view bytes) : bytes_(bytes) {}
-
-  [[nodiscard]] bool at_end() const { return bytes_.empty(); }
-  template <class T>
-  T number() {
-    T value{};
-    std::memcpy(&value, take(sizeof value).data(), sizeof value);
-    return value;
-  }
-  bool flag() { return number<unsigned char>() != 0; }
-  std::string text() { return std::string(take(number<std::size_t>())); }
-  MatVariable variable() {
-    MatVariable v;
-    v.name = text();
-    const auto kind = number<std::uint8_t>();
-    if (kind > static_cast<std::uint8_t>(MatVariable::Kind::other)) wrong();
-    v.kind = static_cast<MatVariable::Kind>(kind);
-    v.complex = flag();
-    v.damaged = flag();
-    v.rows = number<std::size_t>();
-    v.columns = number<std::size_t>();
-    const auto count = number<std::size_t>();
-    if (count > bytes_.size() / sizeof(double)) wrong();
-    if (v.columns != 0 && (count % v.columns != 0 || count / v.columns != v.rows)) wrong();
-    if (v.columns == 0 && count != 0) wrong();
-    v.values.resize(count);
-    if (count > 0) std::memcpy(v.values.data(), take(count * sizeof(double)).data(), count * sizeof(double));
-    v.text = text();
-    const auto fields = number<std::size_t>();
-    for (std::size_t i = 0; i < fields; ++i) {
-      MatVariable::Field field{text(), {}};
-      const bool there = flag();
-      std::string value = text();
-      if (there) field.second = std::move(value);
-      v.fields.push_back(std::move(field));
-    }
-    return v;
-  }
-
- private:
-  [[noreturn]] static void wrong() { throw MatDamage("the file cannot be read, it is damaged"); }
-  std::string_view take(std::size_t count) {
-    if (count > bytes_.size()) wrong();
-    const std::string_view result = bytes_.substr(0, count);
-    bytes_.remove_prefix(count);
-    return result;
-  }
-  std::string_view bytes_;
-};
-
-// ---- In the other process ----
 
 struct Unreadable {};  // of one variable
 
@@ -278,7 +189,7 @@ std::string read_all(std::string_view bytes, char pattern) {
   // No library a file names as its filter is loaded, and no buffer is used again with what was in it.
   H5PLset_loading_state(0);
   H5set_free_list_limits(0, 0, 0, 0, 0, 0);
-  Writer writer;
+  std::string piped;
   try {
     // As it is, for the library's own check of the file's length.
     { const Handle file(open_image(bytes), H5Fclose); }
@@ -295,12 +206,12 @@ std::string read_all(std::string_view bytes, char pattern) {
         variable.damaged = true;
       }
       variable.name = name;
-      writer.variable(variable);
+      append_piped(piped, variable);
     }
   } catch (const Unreadable&) {
     throw MatDamage("");  // leaves the process with a failure
   }
-  return writer.take();
+  return piped;
 }
 
 }  // namespace
@@ -319,9 +230,7 @@ std::vector<MatVariable> read_mat73(std::string_view bytes) {
   if (!first) throw MatDamage("the file cannot be read, it is cut off or damaged");
   const auto second = behind_fence([&] { return read_all(bytes, '\xFF'); }, limits, 0xA5);
   if (first != second) throw MatDamage("values are named that are not in the file, it is cut off or damaged");
-  std::vector<MatVariable> variables;
-  for (Reader reader(*first); !reader.at_end();) variables.push_back(reader.variable());
-  return variables;
+  return read_piped(*first);
 }
 
 }  // namespace hysteron

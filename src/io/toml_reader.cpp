@@ -9,6 +9,8 @@
 
 namespace hysteron {
 
+void throw_toml_slip() { throw TomlSlip{}; }
+
 void TomlReader::fail_at(int line, const std::string& message) const { throw InputError(file_, line, message); }
 
 void TomlReader::fail(const toml::node& node, const std::string& message) const { fail_at(line_of(node), message); }
@@ -19,6 +21,8 @@ toml::table TomlReader::parse(const std::string& text, std::string_view schema) 
   toml::table root;
   try {
     root = toml::parse(text);
+  } catch (const TomlSlip&) {
+    fail_at(0, "not valid TOML, expected TOML 1.0");
   } catch (const toml::parse_error& error) {
     std::string reason(error.description());
     std::ranges::replace(reason, '\n', ' ');

@@ -1,12 +1,12 @@
 // What readers of TOML files with a schema share: every complaint is an InputError with the file and the line.
 #pragma once
 
-#include <toml++/toml.h>
-
 #include <filesystem>
 #include <initializer_list>
 #include <string>
 #include <string_view>
+
+#include "io/toml.hpp"
 
 namespace hysteron {
 

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <utility>
 
+#include "core/nesting.hpp"
 #include "report/web_assets.hpp"
 
 namespace hysteron {
@@ -151,7 +152,9 @@ nlohmann::json data_of_page(const std::string& html) {
   const std::size_t to = from == std::string::npos ? from : html.find("</script>", from);
   if (to == std::string::npos) return nullptr;
   const std::size_t begin = from + open.size();
-  nlohmann::json data = nlohmann::json::parse(html.substr(begin, to - begin), nullptr, false);
+  const std::string text = html.substr(begin, to - begin);
+  if (nested_too_deeply(text)) return nullptr;
+  nlohmann::json data = nlohmann::json::parse(text, nullptr, false);
   return data.is_object() ? data : nlohmann::json(nullptr);
 }
 

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/printable.hpp"
 #include "io/output.hpp"
 #include "io/sha256.hpp"
 
@@ -425,11 +426,13 @@ std::vector<RunRecord> Store::records() const {
       for (const json& point : json::parse(statement.text(10))) {
         record.trace.push_back({point.at(0).get<std::size_t>(), point.at(1).get<double>()});
       }
+      static_cast<void>(json::parse(record.parameters).get<std::map<std::string, double>>());
+      // Where a text is not UTF-8 there is no checksum either.
+      if (sha256_hex(record_text(record)) != statement.text(11) || sha256_hex(record.config) != record.key) {
+        state_->damaged("the checksum of run " + printable(record.key.substr(0, 12)) + " does not fit");
+      }
     } catch (const json::exception&) {
-      state_->damaged("run " + record.key.substr(0, 12) + " cannot be read");
-    }
-    if (sha256_hex(record_text(record)) != statement.text(11) || sha256_hex(record.config) != record.key) {
-      state_->damaged("the checksum of run " + record.key.substr(0, 12) + " does not fit");
+      state_->damaged("run " + printable(record.key.substr(0, 12)) + " cannot be read");
     }
     result.push_back(std::move(record));
   }

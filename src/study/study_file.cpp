@@ -386,6 +386,8 @@ class Parser : private TomlReader {
 
 }  // namespace
 
-Study read_study_file(const fs::path& path) { return Parser(path).run(read_file(path)); }
+Study read_study_file(const fs::path& path) { return parse_study_file(read_file(path), path); }
+
+Study parse_study_file(const std::string& text, const fs::path& path) { return Parser(path).run(text); }
 
 }  // namespace hysteron

@@ -510,11 +510,15 @@ TEST_F(Refusal, OfWrongModelFiles) {
   not_a_number.replace(not_a_number.find("1e9999"), 6, "NaN");
   std::string twice = good;
   twice.replace(twice.find("\"value\""), 7, "\"value\": 1.0, \"value\"");
+  std::string deep_power = changed([](json& m) { m["parameters"][0]["drive_power"] = "here"; });
+  deep_power.replace(deep_power.find("\"here\""), 6, std::string(100000, '[') + std::string(100000, ']'));
   const std::vector<std::pair<std::string, std::string>> texts{
       {"empty", ""},
       {"not JSON", "time,force\n1,2\n"},
       {"truncated", good.substr(0, good.size() / 2)},
       {"an array", "[]"},
+      {"deeper than a stack", std::string(200000, '[')},
+      {"a power deeper than a stack", deep_power},
       {"no schema", "{}"},
       {"unknown schema", changed([](json& m) { m["schema"] = "hysteron.model/2"; })},
       {"schema is a number", changed([](json& m) { m["schema"] = 1; })},

@@ -74,11 +74,18 @@ TEST_F(DiagnosisReport, RefusesOtherSchemasAndBrokenRecordsInOneLine) {
   record["effects"][0]["sentence"] = 7;
   write(folder_ / "broken/diagnosis.json", record.dump());
   write(folder_ / "text/diagnosis.json", "no JSON");
-  for (const std::string name : {"new", "broken", "text"}) {
+  record = of_schema_1();
+  record["alias_map"] = {{"effects", {"a", "b"}}, {"cosine", {{1.0}}}};
+  write(folder_ / "short/diagnosis.json", record.dump());
+  std::string number = of_schema_1().dump();
+  number.replace(number.find("0.031"), 5, "1e999");
+  write(folder_ / "number/diagnosis.json", number);
+  write(folder_ / "deep/diagnosis.json", std::string(200000, '['));
+  for (const std::string name : {"new", "broken", "text", "short", "number", "deep"}) {
     const Outcome outcome = run({"report", name});
     EXPECT_EQ(outcome.status, 2) << name;
     EXPECT_EQ(outcome.out, "");
-    EXPECT_TRUE(outcome.err.starts_with("error: " + name + "/diagnosis.json: ")) << outcome.err;
+    EXPECT_TRUE(outcome.err.starts_with("error: " + name + "/diagnosis.json:")) << outcome.err;
     EXPECT_NE(outcome.err.find("expected"), std::string::npos) << outcome.err;
     EXPECT_EQ(std::ranges::count(outcome.err, '\n'), 1) << outcome.err;
     EXPECT_FALSE(fs::exists(folder_ / name / "report.html"));

@@ -20,6 +20,7 @@ TEST(UnitText, NewtonsPerAmpereAreNotNotAvailable) {
   EXPECT_EQ(unit_text("1/m/A/Hz"), "m^-1 A^-1 Hz^-1");
   EXPECT_EQ(unit_text("m/(N s)/A"), "m/(N s) A^-1");
   EXPECT_EQ(unit_text("1/A^2/A"), "A^-3");
+  for (const char* stays : {"N/m^x/A", "N/m^/A", "N/m^-2/A", "N/m^99999999999/A"}) EXPECT_EQ(unit_text(stays), stays);
 }
 
 }  // namespace

@@ -187,6 +187,8 @@ TEST(Csv, WrongInputsAreOneClearLine) {
       {"one row", header + "0,1,2\n", ": 1 row of numbers, expected at least 8"},
       {"seven rows", header + "0,1,2\n1,1,2\n2,1,2\n3,1,2\n4,1,2\n5,1,2\n6,1,2\n",
        ": 7 rows of numbers, expected at least 8"},
+      {"beyond anything measured", good + "1,2,1e31\n",
+       ":12: force '1e31' is too large, expected at most 1e30 in SI units"},
       {"text", good + "1,abc,2\n", ":12: displacement 'abc' is not a number" + number_end},
       {"half a number", good + "1,2,3x\n", ":12: force '3x' is not a number" + number_end},
       {"two signs", good + "1,2,+-3\n", ":12: force '+-3' is not a number" + number_end},

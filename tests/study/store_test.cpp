@@ -135,6 +135,23 @@ TEST(Store, FindsChangedNumbers) {
       std::string::npos);
 }
 
+// A text that is not UTF-8 has no canonical form to be compared with.
+TEST(Store, FindsTextThatIsNone) {
+  for (const char* change : {"UPDATE runs SET stopped = CAST(x'e9' AS TEXT)", "UPDATE runs SET parameters = 'none'",
+                             "UPDATE runs SET parameters = '{\"k\": \"much\"}'", "UPDATE runs SET trace = '[[1]]'"}) {
+    const TemporaryFolder folder;
+    fill(folder.path(), 2);
+    sqlite3* database = nullptr;
+    ASSERT_EQ(sqlite3_open((folder.path() / "store.sqlite").c_str(), &database), SQLITE_OK);
+    ASSERT_EQ(sqlite3_exec(database, change, nullptr, nullptr, nullptr), SQLITE_OK);
+    sqlite3_close(database);
+    EXPECT_NE(
+        message([&] { static_cast<void>(Store::open(folder.path(), Store::Mode::read).records()); }).find("is damaged"),
+        std::string::npos)
+        << change;
+  }
+}
+
 TEST(Store, RefusesForeignFilesAndOtherSchemas) {
   const TemporaryFolder folder;
   folder.write("text/store.sqlite", "this is no database, but long enough to look at: " + std::string(2000, 'x'));
