@@ -409,6 +409,11 @@ Workbenches workbenches_of(const Campaign& campaign, const Split& split, const D
                      Workbench(scale, {thinned(campaign.recordings, fine_samples), {}, {}, false}, layout, coarse,
                                options.seed, options.stopped)};
   result.quick.take_noise_of(result.whole);
+  if (options.checkpoint != nullptr) {
+    for (Workbench* bench : {&result.whole, &result.quick, &result.fine, &result.every}) {
+      bench->keep_in(*options.checkpoint);
+    }
+  }
   return result;
 }
 
@@ -449,6 +454,7 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const Split& split
   searching.candidates = candidates_of(options, diagnosis);
   searching.told = told_by_channels(fine.split().fit, searching.candidates);
   searching.laws = options.laws;
+  searching.stands = options.stands;
   Judgement judgement = behind_asked_or_better({diagnosis.bench, quick, fine, benches.every, searching}, options.model,
                                                progress, diagnosis.notes);
   diagnosis.search = std::move(judgement.search);

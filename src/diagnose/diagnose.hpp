@@ -29,6 +29,11 @@ struct DiagnoseOptions {
   std::vector<std::string> laws = alternative_laws();  // that the base law is set against
   // Asked often while fitting; once true the fits end soon and the progress is told, which may throw.
   std::function<bool()> stopped = [] { return false; };
+  // Where finished pieces of the work are kept, and taken from; outlives the diagnosis.
+  Checkpoint* checkpoint = nullptr;
+  // Told of the base model and then of every model that takes the place of what stood before, on the recordings
+  // compared. Of what is known so far, for one who may not wait.
+  std::function<void(const Fit& fit)> stands = [](const Fit&) {};
 };
 
 struct Rejected {

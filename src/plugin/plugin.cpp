@@ -52,6 +52,17 @@ bool is_complete(const std::string& path) {
 
 }  // namespace
 
+namespace {
+
+std::vector<std::string>& loaded() {
+  static std::vector<std::string> files;
+  return files;
+}
+
+}  // namespace
+
+const std::vector<std::string>& loaded_plugins() { return loaded(); }
+
 void load_plugin(const std::string& path) {
   if (!std::filesystem::exists(path)) {
     throw InputError(path + ": no such file, expected a plugin library");
@@ -86,6 +97,7 @@ void load_plugin(const std::string& path) {
     check_free(path, "solver", solver->id);
     add_solver(solver);
   }
+  loaded().push_back(path);
 }
 
 }  // namespace hysteron

@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "fit/solver.hpp"
 #include "simulate/knowledge.hpp"
@@ -44,5 +45,7 @@ struct Plugin {
 // Adds what the library at `path` offers to the catalogues. Not while they are being read.
 // Throws InputError for a file that is no plugin, was built for another layout, or offers an id that is taken.
 void load_plugin(const std::string& path);
+// The files of those loaded so far, in order.
+const std::vector<std::string>& loaded_plugins();
 
 }  // namespace hysteron

@@ -23,13 +23,14 @@ struct Course {
   const Hypothesis& base;
   const Fit& quick_base;
   Fit current;
-  std::vector<double> noise;                    // of each recording
-  std::vector<Extension> told = {};             // by the channels: they join first and stay
-  double independent = 0.0;                     // samples worth of independent information
-  double strongest = 0.0;                       // the largest gain of a stage whose form may be missed in part
-  std::vector<std::vector<Tried>> stages = {};  // in the order tried
-  std::vector<Fit> seen = {};                   // all fits so far
-  int swaps = 0;                                // of an effect for its rival
+  const std::function<void(const Fit& fit)>& stands;  // told of every `current`
+  std::vector<double> noise;                          // of each recording
+  std::vector<Extension> told = {};                   // by the channels: they join first and stay
+  double independent = 0.0;                           // samples worth of independent information
+  double strongest = 0.0;                             // the largest gain of a stage whose form may be missed in part
+  std::vector<std::vector<Tried>> stages = {};        // in the order tried
+  std::vector<Fit> seen = {};                         // all fits so far
+  int swaps = 0;                                      // of an effect for its rival
 
   [[nodiscard]] bool is_told(const Extension& part) const { return std::ranges::find(told, part) != told.end(); }
 };

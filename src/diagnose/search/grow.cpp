@@ -101,6 +101,7 @@ void grow(Course& course, const std::vector<Extension>& effects, int most_effect
       return;
     }
     course.current = *chosen->fit;
+    course.stands(course.current);
     before = std::move(*after);
     added += chosen->part.is_law() ? 0 : 1;
     if (!cannot_be_missed(chosen->part)) {

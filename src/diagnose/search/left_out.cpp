@@ -40,11 +40,30 @@ std::vector<Stretch> parts_of(const std::vector<Linearised>& all) {
   return result;
 }
 
+std::string bytes_of(const LeftOut& result) {
+  ByteWriter bytes;
+  bytes.whole(result.predicted.size());
+  for (const std::vector<double>& blocks : result.predicted) {
+    bytes.numbers(blocks);
+  }
+  bytes.number(result.squares);
+  return bytes.bytes();
+}
+
+LeftOut left_out_of(const std::string& bytes) {
+  ByteReader read(bytes);
+  LeftOut result;
+  result.predicted.resize(read.whole());
+  for (std::vector<double>& blocks : result.predicted) {
+    blocks = read.numbers();
+  }
+  result.squares = read.number();
+  return result;
+}
+
 using Rows = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
 
-}  // namespace
-
-LeftOut left_out(const Workbench& bench, const Fit& fit) {
+LeftOut worked_out(const Workbench& bench, const Fit& fit) {
   const Objective objective(*fit.layout, bench.split().fit, bench.options());
   const std::vector<Linearised> all = objective.linearised(fit.point);
   const std::size_t d = fit.dimension();
@@ -117,6 +136,15 @@ LeftOut left_out(const Workbench& bench, const Fit& fit) {
     }
   }
   return result;
+}
+
+}  // namespace
+
+LeftOut left_out(const Workbench& bench, const Fit& fit) {
+  ByteWriter key;
+  key.text("left out");
+  add_fit(key, fit);
+  return left_out_of(bench.piece(key, [&] { return bytes_of(worked_out(bench, fit)); }));
 }
 
 std::vector<LeftOut> left_out(const Workbench& bench, const std::vector<const Fit*>& fits) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 #include "diagnose/search/tangent.hpp"
 #include "fit/parallel.hpp"
@@ -62,13 +63,47 @@ double taken_off(const Eigen::MatrixXd& columns, const Eigen::VectorXd& left) {
   return gain;
 }
 
-Scored look(const Workbench& bench, const Fit& before, const Extension& extension, const Fit* also,
-            std::size_t most_starts, const Tangent& tangent) {
-  const Hypothesis what = with(before.what, extension);
-  Scored result{extension, 0.0, bench.starts(what, before, also)};
+// An extension with all its starts, before it is looked at.
+Scored unseen(const Workbench& bench, const Fit& before, const Extension& extension, const Fit* also,
+              std::size_t most_starts) {
+  Scored result{extension, 0.0, bench.starts(with(before.what, extension), before, also)};
   if (most_starts > 0 && result.starts.points.size() > most_starts) {
     result.starts.points.resize(most_starts);
   }
+  return result;
+}
+
+ByteWriter key_of(const Fit& before, const Scored& scored) {
+  ByteWriter key;
+  key.text("look");
+  add_fit(key, before);
+  add_layout(key, *scored.starts.layout);
+  key.whole(scored.starts.points.size());
+  for (const std::vector<double>& point : scored.starts.points) {
+    key.numbers(point);
+  }
+  key.numbers(scored.starts.neutral);
+  return key;
+}
+
+std::string bytes_of(const Scored& scored) {
+  ByteWriter bytes;
+  bytes.number(scored.gain);
+  for (const std::vector<double>& point : scored.starts.points) {
+    bytes.numbers(point);
+  }
+  return bytes.bytes();
+}
+
+void take(Scored& scored, const std::string& bytes) {
+  ByteReader read(bytes);
+  scored.gain = read.number();
+  for (std::vector<double>& point : scored.starts.points) {
+    point = read.numbers();
+  }
+}
+
+Scored look(const Workbench& bench, Scored result, const Tangent& tangent) {
   const std::size_t d = result.starts.layout->dimension();
   const Objective objective(*result.starts.layout, bench.split().fit, bench.options());
   std::vector<double> points;
@@ -116,11 +151,20 @@ Scored look(const Workbench& bench, const Fit& before, const Extension& extensio
 
 std::vector<Scored> scored(const Workbench& bench, const Fit& before, const std::vector<Extension>& extensions,
                            const Fit* also, std::size_t most_starts) {
-  const Tangent tangent = tangent_of(bench, before);
+  std::vector<Scored> result;
+  std::vector<ByteWriter> keys;
+  for (const Extension& extension : extensions) {
+    result.push_back(unseen(bench, before, extension, also, most_starts));
+    keys.push_back(key_of(before, result.back()));
+  }
+  std::optional<Tangent> tangent;
+  if (!std::ranges::all_of(keys, [&](const ByteWriter& key) { return bench.has_piece(key); })) {
+    tangent = tangent_of(bench, before);
+  }
   const Workbench single = bench.single_threaded();
-  std::vector<Scored> result(extensions.size());
-  parallel_for(extensions.size(), bench.options().threads,
-               [&](std::size_t k) { result[k] = look(single, before, extensions[k], also, most_starts, tangent); });
+  parallel_for(extensions.size(), bench.options().threads, [&](std::size_t k) {
+    take(result[k], bench.piece(keys[k], [&] { return bytes_of(look(single, result[k], *tangent)); }));
+  });
   std::ranges::stable_sort(result, [](const Scored& a, const Scored& b) { return a.gain > b.gain; });
   return result;
 }

@@ -45,12 +45,13 @@ Search search(const Workbench& bench, const Workbench& fine, const Hypothesis& b
   result.quick_base = bench.from_anywhere(base, options.base_budget);
   result.base = fine.polished(result.quick_base, fitting_rounds);
   result.base_misfit = misfit_of(fine, result.base);
+  options.stands(result.quick_base);
 
   std::vector<Extension> effects;
   for (const std::string& id : options.candidates) {
     effects.push_back(effect_extension(id));
   }
-  Course course{bench, base, result.quick_base, result.quick_base, noise_of(bench)};
+  Course course{bench, base, result.quick_base, result.quick_base, options.stands, noise_of(bench)};
   for (const std::string& id : options.told) {
     course.told.push_back(effect_extension(id));
   }

@@ -2,6 +2,7 @@
 // dropped when they stop helping, set against every rival that explains as much, and tried behind other laws.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -39,6 +40,8 @@ struct SearchOptions {
   int most_effects = 5;
   std::size_t base_budget = 20000;
   bool in_full = false;  // all effects are looked for, whatever another law does
+  // Told of the base fit and then of every fit that takes the place of what stood before.
+  std::function<void(const Fit& fit)> stands = [](const Fit&) {};
 };
 
 // Hypotheses are compared on `quick` (thinned recordings, coarse integration); the base and the augmented model are

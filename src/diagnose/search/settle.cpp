@@ -156,6 +156,7 @@ std::vector<Found> worth_their_place(Course& course) {
       if (!course.is_told(part) &&
           !worth_keeping(found.evidence, found.gain, squared(found.without.cost), score, far)) {
         course.current = found.without;
+        course.stands(course.current);
         dropped = true;
         break;
       }
@@ -194,6 +195,7 @@ std::vector<Found> settled(Course& course, const std::vector<Extension>& candida
       if (replacement && course.swaps < most_swaps && !course.is_told(found.part)) {
         ++course.swaps;
         course.current = *replacement;
+        course.stands(course.current);
         swapped = true;
         break;
       }
@@ -237,6 +239,7 @@ Fit confirmed(Course& course, const Workbench& fine, const Fit& fine_base, const
       return augmented;
     }
     course.current = idle->without;
+    course.stands(course.current);
   }
 }
 

@@ -261,8 +261,35 @@ Fit Workbench::descended(const Hypothesis& what, const Layout& layout, const Obj
   return finished(what, layout, best->best, best->cost);
 }
 
+Fit Workbench::descended(const Hypothesis& what, const Layout& layout, const std::vector<std::vector<double>>& starts,
+                         int rounds, const std::vector<Recording>* others) const {
+  ByteWriter key;
+  key.text("descents");
+  add_layout(key, layout);
+  key.whole(static_cast<std::uint64_t>(rounds));
+  key.whole(starts.size());
+  for (const std::vector<double>& start : starts) {
+    key.numbers(start);
+  }
+  if (others != nullptr && checkpoint_ != nullptr) {
+    add_recordings(key, *others);
+  }
+  return fit_piece(key, what, layout, [&] {
+    return descended(what, layout, Objective(layout, others != nullptr ? *others : split_.fit, options_), starts,
+                     rounds);
+  });
+}
+
 Fit Workbench::from_anywhere(const Hypothesis& what, std::size_t budget) const {
   const Layout layout = this->layout(what);
+  ByteWriter key;
+  key.text("from anywhere");
+  add_layout(key, layout);
+  key.whole(budget);
+  return fit_piece(key, what, layout, [&] { return searched(what, layout, budget); });
+}
+
+Fit Workbench::searched(const Hypothesis& what, const Layout& layout, std::size_t budget) const {
   const Objective objective(layout, split_.fit, options_);
   Problem problem;
   problem.dimension = layout.dimension();
@@ -352,8 +379,7 @@ Starts Workbench::starts(const Hypothesis& what, const Fit& warm, const Fit* als
 }
 
 Fit Workbench::from_starts(const Hypothesis& what, const Starts& starts, int rounds) const {
-  const Objective objective(*starts.layout, split_.fit, options_);
-  return descended(what, *starts.layout, objective, starts.points, rounds);
+  return descended(what, *starts.layout, starts.points, rounds);
 }
 
 Fit Workbench::from_fit(const Hypothesis& what, const Fit& warm, int rounds, const Fit* also) const {
@@ -363,20 +389,23 @@ Fit Workbench::from_fit(const Hypothesis& what, const Fit& warm, int rounds, con
 }
 
 Fit Workbench::polished(const Fit& fit, int rounds) const {
-  const Objective objective(*fit.layout, split_.fit, options_);
-  return descended(fit.what, *fit.layout, objective, {fit.point}, rounds);
+  return descended(fit.what, *fit.layout, {fit.point}, rounds);
 }
 
 Fit Workbench::on_all(const Fit& fit, const std::vector<Recording>& all, int rounds) const {
-  const Objective objective(*fit.layout, all, options_);
-  Fit result = descended(fit.what, *fit.layout, objective, {fit.point}, rounds);
+  Fit result = descended(fit.what, *fit.layout, {fit.point}, rounds, &all);
   result.heldout = fit.heldout;
   return result;
 }
 
 Fit Workbench::scored(const Fit& fit) const {
-  const Objective objective(*fit.layout, split_.fit, options_);
-  return finished(fit.what, *fit.layout, fit.point, objective.evaluate({fit.point, false}).cost[0]);
+  ByteWriter key;
+  key.text("costs");
+  add_fit(key, fit);
+  return fit_piece(key, fit.what, *fit.layout, [&] {
+    const Objective objective(*fit.layout, split_.fit, options_);
+    return finished(fit.what, *fit.layout, fit.point, objective.evaluate({fit.point, false}).cost[0]);
+  });
 }
 
 std::vector<Fit> Workbench::from_fit(const std::vector<Hypothesis>& what, const Fit& warm, int rounds,

@@ -8,11 +8,13 @@
 #include <string>
 #include <vector>
 
+#include "core/bytes.hpp"
 #include "diagnose/residual/drift.hpp"
 #include "diagnose/residual/residuals.hpp"
 #include "diagnose/search/hypothesis.hpp"
 #include "diagnose/signal/split.hpp"
 #include "fit/objective.hpp"
+#include "io/checkpoint.hpp"
 
 namespace hysteron {
 
@@ -89,9 +91,25 @@ class Workbench {
   [[nodiscard]] std::vector<Sensitivity> sensitivities(const Fit& fit, const Residuals& residuals) const;
   [[nodiscard]] Layout layout(const Hypothesis& what) const;
 
+  // From now on pieces of work are kept there, and what it holds is not worked out again. It outlives the workbench and
+  // its copies.
+  void keep_in(Checkpoint& checkpoint);
+  // The bytes that `work` gives, a function of this workbench and of what is in the key alone. From any thread.
+  [[nodiscard]] std::string piece(const ByteWriter& key, const std::function<std::string()>& work) const;
+  [[nodiscard]] bool has_piece(const ByteWriter& key) const;
+
  private:
   [[nodiscard]] Fit finished(const Hypothesis& what, const Layout& layout, std::vector<double> point,
                              double cost) const;
+  [[nodiscard]] Fit searched(const Hypothesis& what, const Layout& layout, std::size_t budget) const;
+  [[nodiscard]] std::string key_of(const ByteWriter& key) const;
+  // Of a piece: a point of the hypothesis' box with its costs.
+  [[nodiscard]] Fit fit_piece(const ByteWriter& key, const Hypothesis& what, const Layout& layout,
+                              const std::function<Fit()>& work) const;
+  // On the fitted recordings, or on others.
+  [[nodiscard]] Fit descended(const Hypothesis& what, const Layout& layout,
+                              const std::vector<std::vector<double>>& starts, int rounds,
+                              const std::vector<Recording>* others = nullptr) const;
   [[nodiscard]] Fit descended(const Hypothesis& what, const Layout& layout, const Objective& objective,
                               const std::vector<std::vector<double>>& starts, int rounds) const;
 
@@ -102,6 +120,13 @@ class Workbench {
   ObjectiveOptions options_;
   std::uint64_t seed_;
   std::function<bool()> stopped_;
+  Checkpoint* checkpoint_ = nullptr;
+  std::string identity_;  // hash of all that decides what the workbench does
 };
+
+// Parts of keys.
+void add_fit(ByteWriter& key, const Fit& fit);
+void add_layout(ByteWriter& key, const Layout& layout);
+void add_recordings(ByteWriter& key, const std::vector<Recording>& recordings);
 
 }  // namespace hysteron
