@@ -120,6 +120,7 @@ void add_bench(CLI::App& program) {
       "  mpirun -n 64 hysteron bench study.toml --out out\n"
       "Ctrl-C keeps the finished runs; the same command continues.");
   command->callback([options] {
+    refuse_standard_output(options->out, "the records of a study");
     add_solver_commands(options->solver_commands);
     RunOptions run;
     run.threads = options->threads;

@@ -181,6 +181,7 @@ void print_list(bool as_json) {
 void run(const Options& options) {
   if (options.list) return print_list(options.as_json);
   if (options.out.empty()) throw InputError("--out is required");
+  refuse_standard_output(options.out, "campaigns, diagnoses and their score");
   const std::filesystem::path out(options.out);
   const bool hidden = !options.data.empty();
   // What is wrong with the options is said before a folder is made.

@@ -173,6 +173,14 @@ void catch_interrupts() {
   std::signal(SIGXFSZ, SIG_IGN);
 }
 
+bool is_standard_output(const std::string& out) { return out == "-"; }
+
+void refuse_standard_output(const std::string& out, const std::string& files) {
+  if (is_standard_output(out)) {
+    throw InputError("--out -: several files are written (" + files + "), expected a folder for them");
+  }
+}
+
 std::string json_text(const nlohmann::json& value) {
   // Names are made UTF-8 where they come in; a finished result is not lost for one that was forgotten.
   return value.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";

@@ -60,6 +60,11 @@ struct Ended {
 bool interrupted();
 void catch_interrupts();
 
+// `--out -`: the one result goes to standard output, and words go to standard error.
+bool is_standard_output(const std::string& out);
+// Throws InputError for `-` where several files are written.
+void refuse_standard_output(const std::string& out, const std::string& files);
+
 // JSON text of a result file: two-space indent, shortest round-trip numbers, final newline.
 std::string json_text(const nlohmann::json& value);
 

@@ -7,6 +7,7 @@
 
 #include "app/command.hpp"
 #include "app/model_file.hpp"
+#include "app/result.hpp"
 #include "compare/criteria.hpp"
 #include "core/error.hpp"
 #include "io/output.hpp"
@@ -130,7 +131,9 @@ void run(const Options& options) {
   }
   label(models, files);
   const Campaign campaign = load(data);
-  check_output_folder(options.out);
+  if (!is_standard_output(options.out)) {
+    check_output_folder(options.out);
+  }
 
   std::vector<std::size_t> all;
   std::vector<std::size_t> common;  // fitted by every model
@@ -245,10 +248,14 @@ void run(const Options& options) {
   for (const std::size_t r : all) {
     page["loops"].push_back(loops_json(campaign.recordings[r], r, models));
   }
-  make_output_folder(options.out);
   const std::filesystem::path out(options.out);
-  write_file_atomically(out / "compare.json", json_text(file));
-  write_file_atomically(out / "report.html", compare_page_html(page));
+  if (is_standard_output(options.out)) {
+    write_result(options.out, json_text(file));
+  } else {
+    make_output_folder(options.out);
+    write_file_atomically(out / "compare.json", json_text(file));
+    write_file_atomically(out / "report.html", compare_page_html(page));
+  }
 
   const auto cell = [](const std::optional<double>& value) {
     return value ? format_number(*value, 4) : std::string("-");
@@ -261,9 +268,9 @@ void run(const Options& options) {
                     fmt::format("{:.3f}", model.facts.autocorrelation.front()),
                     fmt::format("{:.0f}", 100.0 * model.facts.outside)});
   }
-  fmt::print("{}\n", table({"model", "parameters", "NRMSE fitted", "NRMSE unseen", "dAIC", "dBIC", "lag-1 correlation",
-                            "lags not white [%]"},
-                           rows));
+  say_beside(options.out, fmt::format("{}\n", table({"model", "parameters", "NRMSE fitted", "NRMSE unseen", "dAIC",
+                                                     "dBIC", "lag-1 correlation", "lags not white [%]"},
+                                                    rows)));
   rows.clear();
   for (const std::size_t r : all) {
     std::vector<std::string> row = {campaign.recordings[r].file};
@@ -277,8 +284,11 @@ void run(const Options& options) {
   for (const Compared& model : models) {
     head.push_back("NRMSE " + model.label);
   }
-  fmt::print("{}* not fitted on by that model; NRMSE normalised by {}\n{}\nreport: {}\n", table(head, rows),
-             normalisation, criteria_note, (out / "report.html").string());
+  say_beside(options.out, fmt::format("{}* not fitted on by that model; NRMSE normalised by {}\n{}\n",
+                                      table(head, rows), normalisation, criteria_note));
+  if (!is_standard_output(options.out)) {
+    fmt::print("report: {}\n", (out / "report.html").string());
+  }
 }
 
 }  // namespace
@@ -295,7 +305,9 @@ void add_compare(CLI::App& program) {
   add_keep_option(*command, options->data);
   command->add_option("--column", options->data.columns, "channel=NAME [UNIT] of a column; repeatable")
       ->allow_extra_args(false);
-  command->add_option("--out", options->out, "folder for compare.json and report.html")->required();
+  command
+      ->add_option("--out", options->out, "folder for compare.json and report.html; -: compare.json on standard output")
+      ->required();
   add_common_options(*command, options->common);
   command->footer("Example:\n  hysteron compare a/model.json b/model.json recordings/ --out comparison");
   command->callback([options] { run(*options); });

@@ -6,6 +6,7 @@
 
 #include "app/command.hpp"
 #include "app/model_file.hpp"
+#include "app/result.hpp"
 #include "core/error.hpp"
 #include "export/targets.hpp"
 #include "io/output.hpp"
@@ -56,6 +57,18 @@ void run(const Options& options) {
   }
   const TestVector vector = test_vector(exported, motion_of(options));
   const Export result = target.write(exported, vector);
+  if (is_standard_output(options.out)) {
+    if (result.files.size() > 1) {
+      std::string names;
+      for (const auto& [file, text] : result.files) {
+        names += (names.empty() ? "" : ", ") + file;
+      }
+      refuse_standard_output(options.out, names);
+    }
+    write_result(options.out, result.files.begin()->second);
+    say_beside(options.out, result.note + "\n");
+    return;
+  }
   if (!folder.empty()) {
     make_output_folder(folder);
   }
@@ -77,7 +90,9 @@ void add_export(CLI::App& program) {
   CLI::App* command = program.add_subcommand("export", "an identified model for use elsewhere, with a test vector");
   command->add_option("MODEL", options->model, "model.json written by fit or diagnose")->required();
   command->add_option("--to", options->to, "c, fmu, simulink, modelica or python")->required();
-  command->add_option("--out", options->out, "folder, or the file (.c, .fmu, .py) with its companions beside it")
+  command
+      ->add_option("--out", options->out,
+                   "folder, or the file (.c, .fmu, .py) with its companions beside it; -: standard output for one file")
       ->required();
   command->add_option("--name", options->name, "name in the code; default that of the file or the law");
   command->add_option(

@@ -9,6 +9,7 @@
 #include "app/finite.hpp"
 #include "app/model_file.hpp"
 #include "app/page.hpp"
+#include "app/result.hpp"
 #include "app/stages.hpp"
 #include "app/track.hpp"
 #include "app/values.hpp"
@@ -130,7 +131,10 @@ void run(const FitOptions& options) {
     throw InputError("--stages two: no parameter has a law, expected --by-current or --by-frequency");
   }
 
-  check_output_folder(options.out);
+  const bool to_files = !is_standard_output(options.out);
+  if (to_files) {
+    check_output_folder(options.out);
+  }
 
   ProgressLine progress(options.common.quiet);
   const auto show = [&](const std::string& stage, const RunResult& run) {
@@ -156,7 +160,9 @@ void run(const FitOptions& options) {
     }
   }
   progress.finish();
-  make_output_folder(options.out);
+  if (to_files) {
+    make_output_folder(options.out);
+  }
 
   std::vector<bool> held_out(campaign.recordings.size(), false);
   for (const std::size_t k : result.heldout) held_out[k] = true;
@@ -288,11 +294,16 @@ void run(const FitOptions& options) {
   page["diagnosis"] = nullptr;
 
   const std::filesystem::path out(options.out);
-  write_file_atomically(out / "model.json", json_text(model_file));
-  write_file_atomically(out / "fit.json", json_text(fit_file));
-  write_file_atomically(out / "report.html", fit_report_html(std::move(page)));
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
-  write_file_atomically(out / "environment.json", json_text(environment(options.common.threads, seconds)));
+  if (to_files) {
+    write_file_atomically(out / "model.json", json_text(model_file));
+    write_file_atomically(out / "fit.json", json_text(fit_file));
+    write_file_atomically(out / "report.html", fit_report_html(std::move(page)));
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+    write_file_atomically(out / "environment.json", json_text(environment(options.common.threads, seconds)));
+  } else {
+    write_result(options.out, json_text(model_file));
+  }
+  const auto say = [&](const std::string& text) { say_beside(options.out, text); };
 
   std::vector<std::vector<std::string>> table_rows;
   for (std::size_t k = 0; k < result.solvers.size(); ++k) {
@@ -302,8 +313,8 @@ void run(const FitOptions& options) {
                           std::to_string(outcome.run.evaluations), std::to_string(outcome.run.diverged),
                           outcome.run.stopped});
   }
-  fmt::print("{}\n",
-             table({"solver", "NRMSE fit", "NRMSE held out", "evaluations", "diverged", "stopped"}, table_rows));
+  say(fmt::format("{}\n",
+                  table({"solver", "NRMSE fit", "NRMSE held out", "evaluations", "diverged", "stopped"}, table_rows)));
   table_rows.clear();
   for (const Estimate& estimate : result.estimates) {
     std::string remark = estimate.at_bound ? "at " + *estimate.at_bound + " bound" : "";
@@ -314,31 +325,31 @@ void run(const FitOptions& options) {
                           estimate.std_error ? format_number(*estimate.std_error, 2) : "-", unit_text(estimate.unit),
                           remark});
   }
-  fmt::print("{}\n", table({"parameter", "value", "std error", "unit", "remark"}, table_rows));
+  say(fmt::format("{}\n", table({"parameter", "value", "std error", "unit", "remark"}, table_rows)));
   table_rows.clear();
   for (std::size_t k = 0; k < scores.size(); ++k) {
     table_rows.push_back({campaign.recordings[k].file, format_number(scores[k].nrmse, 4),
                           format_number(scores[k].rmse, 4), fmt::format("{:.1f}", scores[k].fit_percent),
                           held_out[k] ? (result.roles_given ? "validate" : "held out in the check") : ""});
   }
-  fmt::print("{}\n", table({"recording", "NRMSE", "RMSE [N]", "fit [%]", "remark"}, table_rows));
+  say(fmt::format("{}\n", table({"recording", "NRMSE", "RMSE [N]", "fit [%]", "remark"}, table_rows)));
   if (two) {
-    print_stages(*two, result);
+    say(stages_text(*two, result));
   }
   if (!result.heldout.empty() && !result.roles_given) {
-    fmt::print("solvers compared on the {} other recordings; final fit on all {}\n",
-               campaign.recordings.size() - result.heldout.size(), campaign.recordings.size());
+    say(fmt::format("solvers compared on the {} other recordings; final fit on all {}\n",
+                    campaign.recordings.size() - result.heldout.size(), campaign.recordings.size()));
   }
   if (result.final_run) {
-    fmt::print("{} by {}: {} further evaluations, {}\n", result.final_stage, result.final_run->solver,
-               result.final_run->evaluations, result.final_run->stopped);
+    say(fmt::format("{} by {}: {} further evaluations, {}\n", result.final_stage, result.final_run->solver,
+                    result.final_run->evaluations, result.final_run->stopped));
   }
-  fmt::print("overall NRMSE {} ({} weighting, normalised by {})", format_number(result.cost, 4),
-             options.common.weighting, normalisation);
+  say(fmt::format("overall NRMSE {} ({} weighting, normalised by {})", format_number(result.cost, 4),
+                  options.common.weighting, normalisation));
   if (result.nrmse_heldout) {
-    fmt::print(", {} on held-out recordings", format_number(*result.nrmse_heldout, 4));
+    say(fmt::format(", {} on held-out recordings", format_number(*result.nrmse_heldout, 4)));
   }
-  fmt::print("\nreport: {}\n", (out / "report.html").string());
+  say(to_files ? fmt::format("\nreport: {}\n", (out / "report.html").string()) : std::string("\n"));
   // The remarks have been made when the recordings were read.
   for (std::size_t k = remarks.size(); k < warnings.size(); ++k) {
     fmt::print(stderr, "warning: {}\n", printable(warnings[k].get<std::string>()));
@@ -383,7 +394,10 @@ void add_fit(CLI::App& program) {
   command->add_option("--set", options->settings, "SETTING=NUMBER of the solver; repeatable")
       ->delimiter(',')
       ->allow_extra_args(false);
-  command->add_option("--out", options->out, "folder for model.json, fit.json, report.html")->required();
+  command
+      ->add_option("--out", options->out,
+                   "folder for model.json, fit.json, report.html; -: model.json on standard output")
+      ->required();
   add_common_options(*command, options->common);
   command->footer(
       "Example:\n  hysteron fit recordings/ --model bouc-wen --by-current alpha:1,c0:1 --out out\n"

@@ -5,8 +5,10 @@
 #include <memory>
 
 #include "app/command.hpp"
+#include "app/result.hpp"
 #include "app/values.hpp"
 #include "core/error.hpp"
+#include "core/suggest.hpp"
 #include "datasets/dataset.hpp"
 #include "datasets/support/shipped.hpp"
 #include "io/file.hpp"
@@ -38,6 +40,19 @@ void copy_shipped(const DatasetEntry& entry, const Campaign& campaign, const std
   write_file_atomically(out / shipped_checksums, sums);
 }
 
+// The one recording chosen, on standard output.
+void print_one(const DatasetEntry& entry, const Campaign& campaign, const std::string& only) {
+  std::vector<const Recording*> chosen;
+  for (const Recording& recording : campaign.recordings) {
+    if (recording.file.find(only) != std::string::npos) chosen.push_back(&recording);
+  }
+  if (chosen.size() != 1) {
+    refuse_standard_output("-", fmt::format("{} recordings; --only chooses one", chosen.size()));
+  }
+  write_result("-", entry.licence.empty() ? csv_of(*chosen.front())
+                                          : read_file(shipped_folder(entry.id) / chosen.front()->file));
+}
+
 }  // namespace
 
 void add_generate(CLI::App& program) {
@@ -50,7 +65,7 @@ void add_generate(CLI::App& program) {
   auto options = std::make_shared<Options>();
   CLI::App* command = program.add_subcommand("generate", "writes a shipped dataset as a folder of recordings");
   command->add_option("DATASET", options->id, "an id of `hysteron list datasets`")->required();
-  command->add_option("--out", options->out, "folder to write")->required();
+  command->add_option("--out", options->out, "folder to write; -: standard output for one recording")->required();
   command->add_option("--only", options->only, "only recordings whose name contains this, e.g. 2.0Hz");
   command->add_option("--seed", options->seed, "seed of a simulated dataset's noise")
       ->transform(seed_number())
@@ -61,13 +76,20 @@ void add_generate(CLI::App& program) {
   command->callback([options] {
     const DatasetEntry* entry = find_dataset(options->id);
     if (entry == nullptr) {
-      throw InputError("unknown dataset '" + options->id + "', see `hysteron list datasets`");
+      std::vector<std::string> known;
+      for (const DatasetEntry* one : dataset_catalogue()) known.emplace_back(one->id);
+      throw InputError("unknown dataset '" + options->id + "'" + suggestion(options->id, known) +
+                       ", see `hysteron list datasets`");
     }
     const Campaign campaign = entry->generate(Stream(options->seed).child(entry->id));
     if (std::ranges::none_of(campaign.recordings, [&](const Recording& recording) {
           return recording.file.find(options->only) != std::string::npos;
         })) {
       throw InputError("--only: no recording's name contains '" + options->only + "'");
+    }
+    if (is_standard_output(options->out)) {
+      print_one(*entry, campaign, options->only);
+      return;
     }
     make_output_folder(options->out);
     const auto written = std::ranges::count_if(campaign.recordings, [&](const Recording& recording) {

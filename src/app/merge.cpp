@@ -22,6 +22,7 @@ void add_merge(CLI::App& program) {
   command->add_option("--out", options->out, "folder of the whole study; one that exists is added to")->required();
   command->footer("Example:\n  hysteron merge part1 part2 part3 --out whole");
   command->callback([options] {
+    refuse_standard_output(options->out, "the records of a study");
     // Everything is read and compared before anything is written.
     std::string plan;
     std::string plan_from;

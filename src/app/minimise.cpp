@@ -6,13 +6,13 @@
 #include <memory>
 
 #include "app/command.hpp"
+#include "app/result.hpp"
 #include "app/values.hpp"
 #include "core/error.hpp"
 #include "core/suggest.hpp"
 #include "external/answers.hpp"
 #include "external/line_program.hpp"
 #include "fit/driver.hpp"
-#include "io/output.hpp"
 #include "report/terminal.hpp"
 
 namespace hysteron::app {
@@ -167,8 +167,8 @@ void run(const Options& options) {
     found = found || !parameters.empty();
     if (interrupted()) break;
   }
-  if (!options.out.empty()) write_file_atomically(options.out, json_text(record));
-  fmt::print("{}", table(head, rows));
+  if (!options.out.empty()) write_result(options.out, json_text(record));
+  say_beside(options.out, table(head, rows));
   if (!found) throw WorkError("the objective gave no point a cost");
 }
 
@@ -199,7 +199,7 @@ void add_minimise(CLI::App& program) {
   command->add_option("--seed", options->seed, "seed of every random stream")
       ->transform(seed_number())
       ->capture_default_str();
-  command->add_option("--out", options->out, "JSON file to write");
+  command->add_option("--out", options->out, "JSON file to write; -: standard output");
   command->add_flag("--quiet", options->quiet, "no progress on standard error");
   command->footer(
       "Example:\n  hysteron minimise --objective \"python3 examples/solver/objective.py\" --box x=-2:2,y=-1:3 "

@@ -59,7 +59,11 @@ void add_report(CLI::App& program) {
   command->add_flag("--json", options->json, "the analysis, or the diagnosis, as JSON on standard output");
   command->footer("Example:\n  hysteron report out --times --ioh");
   command->callback([options] {
+    refuse_standard_output(options->out, "tables and a page");
     const std::filesystem::path folder = options->folder;
+    if (!std::filesystem::exists(folder)) {
+      static_cast<void>(read_file(folder));  // says so, with the nearest name
+    }
     if (std::filesystem::exists(folder / "diagnosis.json")) {
       if (options->times || options->ioh) {
         throw InputError("--times and --ioh are of a study, " + options->folder + " holds a diagnosis");

@@ -106,6 +106,7 @@ void run(const Options& options) {
     throw InputError("--data: " + options.table +
                      " is tied to its own recordings, expected it with table-v, table-vi or table-vii");
   }
+  refuse_standard_output(options.out, "records, a report and a table");
   ReproduceOptions used{options.seeds > 0 ? options.seeds : entry->seeds,
                         options.budget > 0 ? options.budget : entry->budget, options.data};
   Study study = entry->study(used);

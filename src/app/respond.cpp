@@ -9,10 +9,10 @@
 
 #include "app/command.hpp"
 #include "app/model_file.hpp"
+#include "app/result.hpp"
 #include "core/drive.hpp"
 #include "core/error.hpp"
 #include "io/campaign.hpp"
-#include "io/output.hpp"
 
 namespace hysteron::app {
 namespace {
@@ -130,9 +130,10 @@ void run(Options& options) {
     peak = std::max(peak, std::fabs(response.displacement[n]));
     force_peak = std::max(force_peak, std::fabs(response.force[n]));
   }
-  write_file_atomically(options.out, text);
-  fmt::print("{} samples, largest displacement {:.6g} mm{}, largest force of the model {:.6g} N\n", count - first,
-             1e3 * peak, base ? " relative to the base" : "", force_peak);
+  write_result(options.out, text);
+  say_beside(options.out,
+             fmt::format("{} samples, largest displacement {:.6g} mm{}, largest force of the model {:.6g} N\n",
+                         count - first, 1e3 * peak, base ? " relative to the base" : "", force_peak));
 }
 
 }  // namespace
@@ -174,7 +175,9 @@ void add_respond(CLI::App& program) {
   command->add_option("--tolerance", options->respond.tolerance, "relative error of a step")
       ->check(CLI::Range(1e-13, 1e-2))
       ->capture_default_str();
-  command->add_option("--out", options->out, "CSV to write: motion relative to the base, force of the model")
+  command
+      ->add_option("--out", options->out,
+                   "CSV to write: motion relative to the base, force of the model; -: standard output")
       ->required();
   command->footer(
       "Examples:\n"

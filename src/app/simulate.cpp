@@ -8,6 +8,7 @@
 #include "app/command.hpp"
 #include "app/finite.hpp"
 #include "app/model_file.hpp"
+#include "app/result.hpp"
 #include "app/values.hpp"
 #include "core/error.hpp"
 #include "core/suggest.hpp"
@@ -147,7 +148,7 @@ void add_simulate(CLI::App& program) {
       ->check(real_number(-1e9, 1e9));
   command->add_option("--column", options->data.columns, "channel=NAME [UNIT] of a column; repeatable")
       ->allow_extra_args(false);
-  command->add_option("--out", options->out, "CSV to write: time [s],force [N]")->required();
+  command->add_option("--out", options->out, "CSV to write: time [s],force [N]; -: standard output")->required();
   command->add_option("--tolerance", options->tolerance, "relative force error allowed to the integration")
       ->check(real_number(1e-10, 1e-2))
       ->capture_default_str();
@@ -189,7 +190,7 @@ void add_simulate(CLI::App& program) {
       force = predict(stored.model, stored.held, stored.terms, make_target(recording, objective));
     }
     require_finite(force, recording);
-    write_file_atomically(options->out, csv_of_prediction(recording.time, force));
+    write_result(options->out, csv_of_prediction(recording.time, force));
   });
 }
 

@@ -105,10 +105,10 @@ json stages_json(const TwoStage& two, const Identification& joint, const Campaig
           {"predicts_better", better}};
 }
 
-void print_stages(const TwoStage& two, const Identification& joint) {
+std::string stages_text(const TwoStage& two, const Identification& joint) {
   const auto number = [](const std::optional<double>& value) { return value ? format_number(*value, 4) : "-"; };
   const SolverOutcome& outcome = joint.solvers[joint.chosen];
-  fmt::print(
+  std::string text = fmt::format(
       "{}\n",
       table({"laws", "NRMSE fit", "NRMSE held out", "evaluations"},
             {{"every condition free", format_number(two.nrmse_free, 4), "-", "-"},
@@ -121,10 +121,10 @@ void print_stages(const TwoStage& two, const Identification& joint) {
     rows.push_back({joint.layout.names()[law.parameter], order_text(law), fmt::format("{:.1f}", 100.0 * step.scatter),
                     format_number(step.nrmse, 4)});
   }
-  fmt::print(
+  text +=
       "frozen on their laws one by one, the others fitted again at each condition; scatter: the free values about "
-      "the law\n");
-  fmt::print("{}\n", table({"frozen", "law", "scatter [% of box]", "NRMSE then"}, rows));
+      "the law\n";
+  return text + fmt::format("{}\n", table({"frozen", "law", "scatter [% of box]", "NRMSE then"}, rows));
 }
 
 }  // namespace hysteron::app

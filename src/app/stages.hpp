@@ -2,6 +2,7 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <string>
 
 #include "fit/two_stage.hpp"
 
@@ -11,6 +12,6 @@ namespace hysteron::app {
 nlohmann::json stages_json(const TwoStage& two, const Identification& joint, const Campaign& campaign);
 
 // The tables of the terminal.
-void print_stages(const TwoStage& two, const Identification& joint);
+std::string stages_text(const TwoStage& two, const Identification& joint);
 
 }  // namespace hysteron::app
