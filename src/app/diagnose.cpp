@@ -4,14 +4,18 @@
 #include <chrono>
 #include <cmath>
 #include <memory>
+#include <optional>
 
 #include "app/command.hpp"
 #include "app/diagnosis_text.hpp"
 #include "app/model_file.hpp"
 #include "app/page.hpp"
+#include "app/result.hpp"
+#include "app/unfinished.hpp"
 #include "app/values.hpp"
 #include "core/error.hpp"
 #include "diagnose/record.hpp"
+#include "io/checkpoint.hpp"
 #include "io/output.hpp"
 #include "report/html.hpp"
 #include "report/terminal.hpp"
@@ -95,6 +99,82 @@ json curves_json(const Diagnosis& diagnosis, const Campaign& campaign, const Obj
   return curves;
 }
 
+void tell_found(const Checkpoint& checkpoint, bool quiet) {
+  const std::string path = checkpoint.path().string();
+  switch (checkpoint.found()) {
+    case Checkpoint::Found::nothing:
+    case Checkpoint::Found::in_use:  // trouble(), which is told with what else may go wrong
+      return;
+    case Checkpoint::Found::pieces:
+      if (!quiet) {
+        fmt::print(stderr, "going on with {} pieces of work that {} holds\n", checkpoint.pieces(), path);
+      }
+      return;
+    case Checkpoint::Found::of_another_command:
+      fmt::print(stderr, "{} is of other recordings, options or another program: starting afresh\n", path);
+      return;
+    case Checkpoint::Found::damaged:
+      fmt::print(stderr, "{} is damaged: starting afresh\n", path);
+      return;
+  }
+}
+
+// Nothing where it was interrupted, which is said: what is known so far, and what the same command goes on from.
+std::unique_ptr<Diagnosis> diagnosed(const Campaign& campaign, DiagnoseOptions options, Checkpoint* checkpoint,
+                                     bool quiet) {
+  ProgressLine progress(quiet);
+  Unfinished unfinished;
+  bool told = false;
+  const auto tell_trouble = [&] {
+    if (checkpoint == nullptr || told || checkpoint->trouble().empty()) {
+      return;
+    }
+    progress.finish();
+    fmt::print(stderr, "warning: {} cannot be kept: {}; an interruption would lose the work\n",
+               checkpoint->path().string(), checkpoint->trouble());
+    told = true;
+  };
+  options.checkpoint = checkpoint;
+  options.stopped = interrupted;
+  options.stands = [&](const Fit& fit) {
+    if (!interrupted()) {  // then fits end before their end
+      unfinished.stands(fit);
+    }
+  };
+  std::unique_ptr<Diagnosis> result;
+  try {
+    result = diagnose(campaign, options, [&](double share, const std::string& stage) {
+      if (interrupted()) {
+        throw Stopped{};
+      }
+      progress.show(stage, share, "");
+      unfinished.stage(share, stage);
+      tell_trouble();
+    });
+  } catch (const Stopped&) {
+    result.reset();
+  } catch (const InputError&) {
+    if (checkpoint != nullptr) {
+      checkpoint->remove();
+    }
+    throw;
+  }
+  progress.finish();
+  tell_trouble();
+  if (!interrupted()) {
+    return result;
+  }
+  const std::size_t pieces = checkpoint == nullptr || told ? 0 : checkpoint->pieces();
+  if (pieces > 0) {
+    unfinished.write(checkpoint->path().parent_path() / "interrupted.json", pieces);
+  }
+  fmt::print(stderr, "interrupted {}; {}\n", unfinished.sentence(),
+             pieces > 0 ? fmt::format("{} pieces of work are kept in {}, the same command goes on from there", pieces,
+                                      checkpoint->path().string())
+                        : "nothing was written");
+  return nullptr;
+}
+
 void run(const Options& options) {
   const auto begun = std::chrono::steady_clock::now();
   const Campaign campaign = load(options.data);
@@ -127,26 +207,22 @@ void run(const Options& options) {
   for (const Recording& recording : campaign.recordings) {
     normaliser(recording, diagnose_with.objective.normalisation);
   }
-  if (std::filesystem::exists(options.out) && !std::filesystem::is_directory(options.out)) {
-    throw InputError(options.out, 0, "exists and is not a folder, expected a folder for the results");
+  const bool to_files = !is_standard_output(options.out);
+  const std::filesystem::path out(options.out);
+  std::optional<Checkpoint> checkpoint;
+  if (to_files) {
+    check_output_folder(out);
+    checkpoint.emplace(out / "diagnosis.partial", identity_of(campaign, diagnose_with));
+    tell_found(*checkpoint, options.common.quiet);
   }
-
-  ProgressLine progress(options.common.quiet);
-  diagnose_with.stopped = interrupted;
-  std::unique_ptr<Diagnosis> diagnosis;
-  try {
-    diagnosis = diagnose(campaign, diagnose_with, [&](double share, const std::string& stage) {
-      progress.show(stage, share, "");
-      if (interrupted()) {
-        throw Stopped{};
-      }
-    });
-  } catch (const Stopped&) {
-    progress.finish();
-    throw WorkError("interrupted before the diagnosis was done: nothing was written");
+  const std::unique_ptr<Diagnosis> diagnosis =
+      diagnosed(campaign, diagnose_with, checkpoint ? &*checkpoint : nullptr, options.common.quiet);
+  if (diagnosis == nullptr) {
+    return;
   }
-  progress.finish();
-  make_output_folder(options.out);
+  if (to_files) {
+    make_output_folder(out);
+  }
 
   const bool roles = std::ranges::any_of(campaign.roles, [](Role role) { return role == Role::validate; });
   const Identification result = identification_of(*diagnosis, campaign, diagnose_with.objective, roles);
@@ -219,12 +295,20 @@ void run(const Options& options) {
                                   {"note", "fitted " + format_number(diagnosis->noise_floor, 3) + ", by " +
                                                std::string(word_of(diagnosis->noise_floor_method))}}});
 
-  const std::filesystem::path out(options.out);
-  write_file_atomically(out / "diagnosis.json", json_text(diagnosis_file));
+  if (!to_files) {
+    write_result(options.out, json_text(diagnosis_file));
+    say_beside(options.out, diagnosis_text(diagnosis_file, "diagnosis.json"));
+    return;
+  }
+  // diagnosis.json last: it says that all are there.
   write_file_atomically(out / "model.json", json_text(model_file));
   write_file_atomically(out / "report.html", fit_report_html(page));
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
   write_file_atomically(out / "environment.json", json_text(environment(options.common.threads, seconds)));
+  write_file_atomically(out / "diagnosis.json", json_text(diagnosis_file));
+  std::error_code ignored;
+  std::filesystem::remove(out / "interrupted.json", ignored);
+  checkpoint->remove();
   if (options.json) {
     fmt::print("{}", json_text(diagnosis_file));
   } else {
@@ -257,7 +341,10 @@ void add_diagnose(CLI::App& program) {
       ->transform(whole_number(1, 7))
       ->capture_default_str();
   command->add_flag("--json", options->json, "diagnosis.json on standard output too");
-  command->add_option("--out", options->out, "folder for diagnosis.json, model.json, report.html")->required();
+  command
+      ->add_option("--out", options->out,
+                   "folder for diagnosis.json, model.json, report.html; -: diagnosis.json on standard output")
+      ->required();
   add_common_options(*command, options->common);
   command->footer("Example:\n  hysteron diagnose recordings/ --model bouc-wen --by-current alpha:1,c0:1 --out out");
   command->callback([options] { run(*options); });
