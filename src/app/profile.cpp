@@ -5,7 +5,9 @@
 #include <memory>
 
 #include "app/command.hpp"
+#include "app/values.hpp"
 #include "core/error.hpp"
+#include "core/suggest.hpp"
 #include "datasets/dataset.hpp"
 #include "fit/parallel.hpp"
 #include "report/terminal.hpp"
@@ -84,7 +86,11 @@ void run(const Options& options) {
   std::vector<std::vector<std::string>> table_rows;
   for (const std::string& id : options.solvers) {
     if (find_solver(id) == nullptr) {
-      throw InputError("unknown solver '" + id + "', see `hysteron list solvers`");
+      std::vector<std::string> known;
+      for (const SolverEntry* one : solver_catalogue()) {
+        known.emplace_back(one->id);
+      }
+      throw InputError("unknown solver '" + id + "'" + suggestion(id, known) + ", see `hysteron list solvers`");
     }
   }
   for (const std::string& name : models) {
@@ -155,7 +161,7 @@ void add_profile(CLI::App& program) {
   command->add_option("--by-current", options->by_current,
                       "parameters that are polynomials in the drive, e.g. alpha:1");
   command->add_option("--budget", options->budget, "evaluations each solver may use")
-      ->check(CLI::Range(std::size_t{1}, std::size_t{1000000000}))
+      ->transform(whole_number(1, 1000000000))
       ->capture_default_str();
   command->add_flag("--json", options->json, "JSON on standard output");
   add_common_options(*command, options->common);

@@ -13,6 +13,7 @@
 #include "challenge/forms_slow.hpp"
 #include "challenge/forms_springs.hpp"
 #include "core/error.hpp"
+#include "core/suggest.hpp"
 
 namespace hysteron::challenge {
 namespace {
@@ -769,9 +770,10 @@ const HiddenEffect& hidden_effect(std::string_view id) {
   for (const HiddenEffect& effect : list()) {
     if (effect.id == id) return effect;
   }
-  std::string known;
-  for (const HiddenEffect& effect : list()) known += (known.empty() ? "" : ", ") + std::string(effect.id);
-  throw InputError("unknown effect '" + std::string(id) + "', expected one of " + known);
+  std::vector<std::string> known;
+  for (const HiddenEffect& effect : list()) known.emplace_back(effect.id);
+  throw InputError("unknown effect '" + std::string(id) + "'" + suggestion(id, known) +
+                   ", expected one of `hysteron challenge --list`");
 }
 
 FormOf hidden_form(std::string_view id) {
@@ -780,7 +782,12 @@ FormOf hidden_form(std::string_view id) {
       if (form.id == id) return {&effect, &form};
     }
   }
-  throw InputError("unknown form '" + std::string(id) + "', expected one of `hysteron challenge --list`");
+  std::vector<std::string> known;
+  for (const HiddenEffect& effect : list()) {
+    for (const HiddenForm& form : effect.forms) known.emplace_back(form.id);
+  }
+  throw InputError("unknown form '" + std::string(id) + "'" + suggestion(id, known) +
+                   ", expected one of `hysteron challenge --list`");
 }
 
 }  // namespace hysteron::challenge

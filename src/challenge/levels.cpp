@@ -8,6 +8,7 @@
 
 #include "challenge/effects.hpp"
 #include "core/error.hpp"
+#include "core/suggest.hpp"
 
 namespace hysteron::challenge {
 namespace {
@@ -194,8 +195,13 @@ Level level_of(std::string_view name) {
   const auto found = std::ranges::find(names, name, [](const auto& entry) { return entry.second; });
   if (found != names.end()) return found->first;
   std::string known;
-  for (const auto& [level, word] : names) known += (known.empty() ? "" : ", ") + std::string(word);
-  throw InputError("unknown level '" + std::string(name) + "', expected one of " + known);
+  std::vector<std::string> words;
+  for (const auto& [level, word] : names) {
+    known += (known.empty() ? "" : ", ") + std::string(word);
+    words.emplace_back(word);
+  }
+  throw InputError("unknown level '" + std::string(name) + "'" + suggestion(name, words) + ", expected one of " +
+                   known);
 }
 
 bool FormChoice::allows(const std::string& form) const {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/error.hpp"
+#include "core/suggest.hpp"
 
 namespace hysteron {
 
@@ -18,7 +19,12 @@ std::span<const ExportTarget> export_targets() {
 const ExportTarget& export_target(const std::string& id) {
   const auto found = std::ranges::find(export_targets(), id, &ExportTarget::id);
   if (found == export_targets().end()) {
-    throw InputError("--to: '" + id + "' is not known, expected c, fmu, simulink, modelica or python");
+    std::vector<std::string> known;
+    for (const ExportTarget& target : export_targets()) {
+      known.emplace_back(target.id);
+    }
+    throw InputError("--to: '" + id + "' is not known" + suggestion(id, known) +
+                     ", expected c, fmu, simulink, modelica or python");
   }
   return *found;
 }

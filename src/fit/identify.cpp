@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "core/error.hpp"
+#include "core/suggest.hpp"
 
 namespace hysteron {
 namespace {
@@ -138,7 +139,11 @@ Identification identify(const Campaign& campaign, const std::string& model, cons
   for (const std::string& id : options.solvers) {
     const SolverEntry* entry = find_solver(id);
     if (entry == nullptr) {
-      throw InputError("unknown solver '" + id + "', see `hysteron list solvers`");
+      std::vector<std::string> known;
+      for (const SolverEntry* one : solver_catalogue()) {
+        known.emplace_back(one->id);
+      }
+      throw InputError("unknown solver '" + id + "'" + suggestion(id, known) + ", see `hysteron list solvers`");
     }
     entries.push_back(entry);
   }
