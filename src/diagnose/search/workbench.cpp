@@ -301,6 +301,9 @@ Fit Workbench::searched(const Hypothesis& what, const Layout& layout, std::size_
   const RunResult run = run_solver(
       *find_solver("multistart-lm"), problem, [&](const Request& request) { return objective.evaluate(request); },
       [&](const RunResult&) { return !stopped_(); });
+  if (run.best.empty() && stopped_()) {
+    throw Stopped{};  // before the first point
+  }
   return finished(what, layout, run.best, run.cost);
 }
 
