@@ -31,29 +31,16 @@ double best_share(const Candidate& candidate, const Which& which) {
   return best;
 }
 
-// The loudest of the other contrasts.
-double loudest_beside(const Signature& own, const Evidence& evidence) {
+// The largest |z| of the contrasts that speak for nothing in the augmented model.
+double contrast_elsewhere(const Evidence& evidence) {
   double largest = 0.0;
   for (const Signature& row : evidence.signatures) {
-    largest = std::max(largest, row.id == own.id ? 0.0 : loudness(row));
+    const bool explained = std::ranges::any_of(evidence.candidates, [&](const Candidate& candidate) {
+      return std::ranges::find(row.speaks_for, candidate.id) != row.speaks_for.end();
+    });
+    largest = std::max(largest, explained ? 0.0 : std::fabs(row.z));
   }
   return largest;
-}
-
-// How the contrast that speaks for the candidate stands beside all others.
-struct ContrastFeatures {
-  double share = unknown_contrast;
-  double loudest = unknown_contrast;
-};
-
-ContrastFeatures contrast_features(const std::string& effect, const Evidence& evidence) {
-  const std::optional<Speaking> own = speaking_for(effect, evidence);
-  if (!own) {
-    return {};
-  }
-  const double others = loudest_beside(*own->signature, evidence);
-  // What no other is sure of is no more than chance.
-  return {own->z / (own->z + std::max(others, surely)), speaks(*own) && own->z >= others ? 1.0 : 0.0};
 }
 
 double chance(double value, double by_chance) { return std::max(0.0, value - std::max(by_chance, 0.0)); }
@@ -100,7 +87,8 @@ NameFeatures features_of(const Candidate& candidate, const Evidence& evidence) {
   });
   const double inside =
       best_share(candidate, [](const Contender& row) { return row.kin && !(row.holds_the_candidate && !row.apart); });
-  const ContrastFeatures contrast = contrast_features(candidate.id, evidence);
+  const std::optional<Speaking> contrast = speaking_for(candidate.id, evidence);
+  const double elsewhere = std::max(contrast_elsewhere(evidence), surely);
   return {std::log10(1.0 + std::clamp(candidate.score.mean, 0.0, 1.0) / least_prediction),
           unit(gain / std::max(evidence.base.excess(), 1e-300)),
           unit(1.0 - outside),
@@ -108,8 +96,7 @@ NameFeatures features_of(const Candidate& candidate, const Evidence& evidence) {
           unit(1.0 - law),
           unit(1.0 - chance(evidence.augmented.recurring, evidence.augmented.recurring_by_chance)),
           1.0 - static_cast<double>(candidate.on_bound) / std::max(candidate.parameters, 1),
-          contrast.share,
-          contrast.loudest,
+          contrast ? unit(contrast->z / std::max(contrast->z, elsewhere)) : unknown_contrast,
           unit(candidate.gain_alone / gain),
           unit(1.0 - candidate.gain_of_relative / (candidate.gain_of_relative + gain))};
 }

@@ -16,7 +16,7 @@ struct Feature {
 };
 
 // Of a name.
-inline constexpr std::array<Feature, 11> name_features = {{
+inline constexpr std::array<Feature, 10> name_features = {{
     {"prediction", "log10 of 1 + a thousand block scores: how much better recordings left out in turn are predicted"},
     {"portion", "gain over what the base model leaves beyond the noise"},
     {"lead", "1 less the share of the gain that the best unrelated effect or law has in its place"},
@@ -26,12 +26,9 @@ inline constexpr std::array<Feature, 11> name_features = {{
      "off without any"},
     {"quiet", "1 less the share of what stays that follows the motion, beyond chance"},
     {"inside", "1 less the share of its parameters that sit on an end of their box"},
-    {"contrast_share",
-     "z of the signature contrast that speaks for it, in its sense, over the sum of that and the largest of all others; "
-     "a half where none can be taken"},
-    {"contrast_loudest",
-     "1 where that contrast speaks (three standard errors, beyond 97.5 % of the placebos, in four of five recordings) "
-     "and no other is larger, else 0; a half where none can be taken"},
+    {"contrast_lead",
+     "z of the signature contrast that speaks for it, in its sense, over the largest of all that speak for nothing in "
+     "the model; a half where none can be taken"},
     {"alone",
      "gain alone behind the base model over that in the augmented one: what only makes up for others has none"},
     {"no_relative",
