@@ -450,7 +450,8 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const Split& split
   diagnosis.notes.push_back(split.how);
 
   SearchOptions searching;
-  searching.most_effects = options.most_effects;
+  // No name is given on a fault of the data: what effects make of it is nobody's matter.
+  searching.most_effects = doubt_of_velocity(diagnosis.bench.split().fit).empty() ? options.most_effects : 0;
   searching.candidates = candidates_of(options, diagnosis);
   searching.told = told_by_channels(fine.split().fit, searching.candidates);
   searching.laws = options.laws;

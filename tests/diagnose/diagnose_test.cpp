@@ -50,6 +50,7 @@ TEST(Diagnosis, NamesNothingWhereTheVelocityIsNotThatOfTheDisplacement) {
   EXPECT_TRUE(diagnosis->verdict.effects.empty());
   EXPECT_NE(diagnosis->verdict.reason.find("not the slope of the displacement (correlation -1.00)"), std::string::npos)
       << diagnosis->verdict.reason;
+  EXPECT_TRUE(diagnosis->search.found.empty()) << "effects would explain a fault of the data";
 }
 
 TEST(Diagnosis, NamesNothingWhereNothingIsMissing) {
