@@ -13,28 +13,32 @@ std::array<std::vector<double>*, 8> channels_of(Recording& recording) {
           &recording.acceleration, &recording.derived_acceleration, &recording.drive,    &recording.temperature};
 }
 
-std::array<const std::vector<double>*, 8> channels_of(const Recording& recording) {
-  return {&recording.time,         &recording.displacement,         &recording.velocity, &recording.force,
-          &recording.acceleration, &recording.derived_acceleration, &recording.drive,    &recording.temperature};
-}
-
 Recording every_kth(const Recording& recording, std::size_t k) {
-  Recording result;
-  result.file = recording.file;
-  result.sha256 = recording.sha256;
-  result.unused = recording.unused;
-  result.drive_kind = recording.drive_kind;
-  result.velocity_measured = recording.velocity_measured;
-  result.start = recording.start;
-  const auto from = channels_of(recording);
-  const auto to = channels_of(result);
-  for (std::size_t i = 0; i < from.size(); ++i) {
-    to[i]->reserve((from[i]->size() + k - 1) / k);
-    for (std::size_t n = 0; n < from[i]->size(); n += k) {
-      to[i]->push_back((*from[i])[n]);
+  const auto kept = [k](const std::vector<double>& channel) {
+    std::vector<double> result;
+    result.reserve((channel.size() + k - 1) / k);
+    for (std::size_t n = 0; n < channel.size(); n += k) {
+      result.push_back(channel[n]);
     }
-  }
-  return result;
+    return result;
+  };
+  // A member that is added and forgotten here does not compile.
+  const auto& [file, sha256, time, displacement, velocity, force, acceleration, derived_acceleration, drive,
+               temperature, unused, drive_kind, velocity_measured, start] = recording;
+  return {file,
+          sha256,
+          kept(time),
+          kept(displacement),
+          kept(velocity),
+          kept(force),
+          kept(acceleration),
+          kept(derived_acceleration),
+          kept(drive),
+          kept(temperature),
+          unused,
+          drive_kind,
+          velocity_measured,
+          start};
 }
 
 std::vector<const Recording*> refer_to(const std::vector<Recording>& recordings) {

@@ -44,7 +44,6 @@ struct Recording {
 
 // All channels, absent ones too.
 std::array<std::vector<double>*, 8> channels_of(Recording& recording);
-std::array<const std::vector<double>*, 8> channels_of(const Recording& recording);
 // Recordings where they are, for what needs no copy of them: all, or those of the indices.
 std::vector<const Recording*> refer_to(const std::vector<Recording>& recordings);
 std::vector<const Recording*> refer_to(const std::vector<Recording>& recordings,
