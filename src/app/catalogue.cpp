@@ -50,30 +50,13 @@ std::vector<Row> rows_of(const std::string& kind) {
   return rows;
 }
 
-json role_json(PhysicalRole role) {
-  switch (role) {
-    case PhysicalRole::none:
-      break;
-    case PhysicalRole::yield_force:
-      return "yield force";
-    case PhysicalRole::offset_force:
-      return "offset force";
-    case PhysicalRole::damping:
-      return "damping";
-    case PhysicalRole::stiffness:
-      return "stiffness";
-    case PhysicalRole::mass:
-      return "mass";
-  }
-  return nullptr;
-}
-
 json card_json(const Parameter& card) {
-  return {{"name", card.name},       {"symbol", card.symbol},
-          {"unit", card.unit},       {"meaning", card.meaning},
-          {"lower", card.box.lower}, {"upper", card.box.upper},
-          {"default", card.initial}, {"scale", card.scale == Scale::linear ? "linear" : "log"},
-          {"fixed", card.fixed},     {"role", role_json(card.role)}};
+  return {
+      {"name", card.name},       {"symbol", card.symbol},
+      {"unit", card.unit},       {"meaning", card.meaning},
+      {"lower", card.box.lower}, {"upper", card.box.upper},
+      {"default", card.initial}, {"scale", card.scale == Scale::linear ? "linear" : "log"},
+      {"fixed", card.fixed},     {"role", card.role == PhysicalRole::none ? json(nullptr) : json(name_of(card.role))}};
 }
 
 std::string_view word_of(PresetDrive drive) {

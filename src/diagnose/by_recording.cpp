@@ -73,22 +73,4 @@ ByRecording by_recording(const Workbench& bench, const Fit& base) {
   return result;
 }
 
-std::string in_words(PhysicalRole role) {
-  switch (role) {
-    case PhysicalRole::yield_force:
-      return "yield force";
-    case PhysicalRole::offset_force:
-      return "preload";
-    case PhysicalRole::damping:
-      return "damping";
-    case PhysicalRole::stiffness:
-      return "stiffness";
-    case PhysicalRole::mass:
-      return "mass";
-    case PhysicalRole::none:
-      break;
-  }
-  return {};
-}
-
 }  // namespace hysteron

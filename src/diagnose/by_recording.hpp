@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <string>
 #include <vector>
 
 #include "diagnose/residual/partition.hpp"
@@ -38,9 +37,9 @@ struct ByRecording {
 
 constexpr int descent_rounds = 10;  // of a fit to all recordings, or to a group of them
 
-ByRecording by_recording(const Workbench& bench, const Fit& base);
+// A parameter counts as different between recordings where this part of what its changes take off comes back without.
+constexpr double least_difference = 0.1;
 
-// "yield force"; empty for none.
-std::string in_words(PhysicalRole role);
+ByRecording by_recording(const Workbench& bench, const Fit& base);
 
 }  // namespace hysteron

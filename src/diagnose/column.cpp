@@ -10,13 +10,6 @@
 #include "diagnose/search/wording.hpp"
 
 namespace hysteron {
-namespace {
-
-// A parameter is said to follow the column where this part of what the column takes off comes back without its change.
-constexpr double least_part = 0.1;
-
-}  // namespace
-
 std::optional<ColumnTold> unused_column(const Workbench& bench, const ByRecording& base) {
   const std::vector<RecordedCondition> conditions = conditions_of(bench.split().fit);
   if (!base.told() || std::ranges::none_of(conditions, &RecordedCondition::unused)) {
@@ -36,9 +29,9 @@ std::optional<ColumnTold> unused_column(const Workbench& bench, const ByRecordin
                            [&](std::size_t h) { return found->cost(static_cast<Eigen::Index>(h)); });
   for (const std::size_t h : order) {
     const auto at = static_cast<Eigen::Index>(h);
-    if (found->cost(at) > least_part * (found->together - found->along)) {
+    if (found->cost(at) > least_difference * (found->together - found->along)) {
       const Parameter& card = layout.cards()[handles[h].parameter];
-      result.changes.push_back({layout.names()[handles[h].parameter], in_words(card.role),
+      result.changes.push_back({layout.names()[handles[h].parameter], std::string(name_of(card.role)),
                                 handles[h].factor ? "" : std::string(card.unit), found->change(at)});
     }
   }
@@ -55,9 +48,8 @@ std::string sentence_of(const ColumnTold& column) {
   }
   return fmt::format(
       "the parameters follow the recorded '{}', which no model uses: from {:.3g} to {:.3g} {}; all recordings together "
-      "NRMSE {:.2g}, with parameters that follow it about {:.2g}; dealt to the recordings by lot, it does as well with "
-      "a "
-      "probability of {:.1g}",
+      "NRMSE {:.2g}, with parameters that follow it about {:.2g}; dealt to the recordings by lot, it does as well "
+      "with a probability of {:.1g}",
       column.name, column.low, column.high, joined(changes, " and "), column.together, column.along, column.chance);
 }
 

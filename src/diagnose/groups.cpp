@@ -24,8 +24,6 @@ constexpr double repeatability = 0.05;
 constexpr std::size_t fewest_repeats = 2;
 // Another state of the device is what was wrong where it makes the larger part of the misfit beyond the noise.
 constexpr double larger_part = 0.5;
-// A parameter counts as different where a tenth of what the groups take off comes back without its difference.
-constexpr double part_of_the_difference = 0.1;
 
 Group everything(std::size_t count) {
   Group result(count);
@@ -172,7 +170,7 @@ void fit_groups(Belonging& result, const Workbench& bench, const Fit& joint, con
     const std::size_t parameter = handles[h].parameter;
     const Parameter& card = joint.layout->cards()[parameter];
     Difference row{joint.layout->names()[parameter],
-                   in_words(card.role),
+                   std::string(name_of(card.role)),
                    std::string(card.unit),
                    {},
                    handles[h].factor ? std::optional(drive) : std::nullopt,
@@ -180,7 +178,7 @@ void fit_groups(Belonging& result, const Workbench& bench, const Fit& joint, con
     for (const std::vector<double>& of : values) {
       row.values.push_back(of[parameter]);
     }
-    if (row.share > part_of_the_difference) {
+    if (row.share > least_difference) {
       result.differences.push_back(std::move(row));
     }
   }

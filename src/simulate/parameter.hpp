@@ -72,6 +72,24 @@ enum class PhysicalRole {
   stiffness,     // of a spring, likewise
   mass
 };
+// "yield force"; empty for none.
+constexpr std::string_view name_of(PhysicalRole role) {
+  switch (role) {
+    case PhysicalRole::yield_force:
+      return "yield force";
+    case PhysicalRole::offset_force:
+      return "offset force";
+    case PhysicalRole::damping:
+      return "damping";
+    case PhysicalRole::stiffness:
+      return "stiffness";
+    case PhysicalRole::mass:
+      return "mass";
+    case PhysicalRole::none:
+      break;
+  }
+  return {};
+}
 
 // Where a parameter is looked for.
 struct Box {
