@@ -251,9 +251,10 @@ struct Judgement {
   Verdict verdict;
 };
 
-Judgement judged(Search found, const Workbench& bench, const Workbench& fine) {
+Judgement judged(Search found, const Workbench& bench, const Workbench& fine, const std::string& doubt_of_data) {
   std::map<const Fit*, std::vector<Estimate>> estimates;  // fits are asked for several effects
-  Judgement result{std::move(found), {}, {}, {}, {}, {}, {}};
+  Judgement result;
+  result.search = std::move(found);
   result.contrasts = contrasts(fine.split().fit, fine.residuals(result.search.base).of);
   const Circumstances known = {[&](const Fit& fit, const std::string& effect) {
                                  if (!estimates.contains(&fit)) {
@@ -265,7 +266,7 @@ Judgement judged(Search found, const Workbench& bench, const Workbench& fine) {
   result.surprising = surprises(bench, result.search.augmented);
   result.evidence = evidence_of(result.search, fine, known);
   result.evidence.doubt_of_completeness = doubt_of_completeness(result.search, fine, result.surprising);
-  result.evidence.doubt_of_data = doubt_of_velocity(bench.split().fit);
+  result.evidence.doubt_of_data = doubt_of_data;
   return result;
 }
 
@@ -276,9 +277,10 @@ struct Searching {
   const Workbench& fine;
   const Workbench& every;
   SearchOptions options;
+  std::string doubt_of_data;  // why no name can be given on these recordings, known before any search
 
   [[nodiscard]] Judgement behind(const std::string& law, const SearchProgress& progress) const {
-    return judged(search(quick, fine, {law, {}, {}}, options, progress), bench, fine);
+    return judged(search(quick, fine, {law, {}, {}}, options, progress), bench, fine, doubt_of_data);
   }
   // With whether the recordings belong together or follow a column, judging ones too: that is no matter of how well a
   // fit predicts.
@@ -450,14 +452,15 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const Split& split
   diagnosis.notes.push_back(split.how);
 
   SearchOptions searching;
-  // No name is given on a fault of the data: what effects make of it is nobody's matter.
-  searching.most_effects = doubt_of_velocity(diagnosis.bench.split().fit).empty() ? options.most_effects : 0;
+  const std::string doubt = doubt_of_velocity(diagnosis.bench.split().fit);
+  // No name is given on a fault of the data, so no effects are looked for.
+  searching.most_effects = doubt.empty() ? options.most_effects : 0;
   searching.candidates = candidates_of(options, diagnosis);
   searching.told = told_by_channels(fine.split().fit, searching.candidates);
   searching.laws = options.laws;
   searching.stands = options.stands;
-  Judgement judgement = behind_asked_or_better({diagnosis.bench, quick, fine, benches.every, searching}, options.model,
-                                               progress, diagnosis.notes);
+  Judgement judgement = behind_asked_or_better({diagnosis.bench, quick, fine, benches.every, searching, doubt},
+                                               options.model, progress, diagnosis.notes);
   diagnosis.search = std::move(judgement.search);
   diagnosis.surprises = std::move(judgement.surprising);
   diagnosis.belonging = std::move(judgement.belonging);
