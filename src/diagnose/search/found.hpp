@@ -23,6 +23,7 @@ struct Found {
   double gain = 0.0;  // squares without - squares with
   double evidence = 0.0;
   std::vector<Rival> rivals;               // best first
+  bool told = false;                       // by the channels, without a model (SearchOptions::told)
   std::optional<std::string> by_law = {};  // the parameter whose richer law in the drive shows the effect
 };
 

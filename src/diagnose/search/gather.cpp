@@ -248,8 +248,7 @@ Evidence evidence_of(const Search& search, const Workbench& fine, const Circumst
     one.parameters = static_cast<int>(intervals.size());
     one.on_bound =
         static_cast<int>(std::ranges::count_if(intervals, [](const ParameterInterval& p) { return !p.bound.empty(); }));
-    const bool told = std::ranges::find(search.told, found.part) != search.told.end();
-    one.as_channels = told || (one.id == channel_lag && as_channels_show(search.augmented, known));
+    one.as_channels = found.told || (one.id == channel_lag && as_channels_show(search.augmented, known));
     result.candidates.push_back(std::move(one));
   }
   for (Candidate& one : result.candidates) {

@@ -78,25 +78,22 @@ void grow(Course& course, const std::vector<Extension>& effects, int most_effect
       std::ranges::stable_sort(tried, better);
     }
     course.stages.push_back(tried);
+    // What the channels tell joins before what is worth most.
+    std::stable_partition(tried.begin(), tried.end(), [&](const Tried& one) { return course.is_told(one.part); });
     std::optional<LeftOut> after;
-    auto chosen = std::ranges::find_if(
-        tried, [&](const Tried& one) { return one.fit && one.gain > 0.0 && course.is_told(one.part); });
-    if (chosen != tried.end()) {
-      after = left_out(course.bench, *chosen->fit);
-    }
-    const auto worth_it = [&](const Tried& one) {
-      if (!one.fit || one.gain < least_gain_of_a_place * squared(course.current.cost)) {
+    const auto chosen = std::ranges::find_if(tried, [&](const Tried& one) {
+      const bool told = course.is_told(one.part);
+      if (!one.fit || one.gain <= (told ? 0.0 : least_gain_of_a_place * squared(course.current.cost))) {
         return false;
       }
       after = left_out(course.bench, *one.fit);
+      if (told) {
+        return true;
+      }
       const LeftOut without = left_out_beside(course.bench, course.current, one.part, before);
       return worth(one, course.current, count, block_score(without.predicted, after->predicted, course.noise),
                    is_far(left));
-    };
-    const bool told = chosen != tried.end();
-    if (!told) {
-      chosen = std::ranges::find_if(tried, worth_it);
-    }
+    });
     if (chosen == tried.end()) {
       return;
     }
@@ -108,7 +105,7 @@ void grow(Course& course, const std::vector<Extension>& effects, int most_effect
       course.strongest = std::max(course.strongest, chosen->gain);
     }
     left = misfit_of(course.bench, course.current);
-    if (told) {
+    if (course.is_told(chosen->part)) {
       continue;
     }
     if (!is_far(left) && chosen->gain < negligible * course.strongest) {

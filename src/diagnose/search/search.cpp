@@ -55,7 +55,6 @@ Search search(const Workbench& bench, const Workbench& fine, const Hypothesis& b
   for (const std::string& id : options.told) {
     course.told.push_back(effect_extension(id));
   }
-  result.told = course.told;
   const Misfit left = misfit_of(bench, course.current);
   course.independent = left.independent;
   progress(0.05, "fitting other damper laws");

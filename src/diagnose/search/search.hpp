@@ -22,7 +22,6 @@ struct Search {
   Misfit misfit;
   std::vector<Found> found;         // effects of the augmented model, strongest first
   std::vector<std::string> richer;  // parameter laws that were made richer
-  std::vector<Extension> told;      // by the channels (SearchOptions::told)
   // As the comparison saw them, on the quick workbench.
   Fit quick_base;
   Fit quick_augmented;

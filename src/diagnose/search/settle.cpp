@@ -48,6 +48,7 @@ Found taken_out(const Course& course, const Extension& part) {
   const Hypothesis less = without(course.current.what, part);
   Found found;
   found.part = part;
+  found.told = course.is_told(part);
   found.without = less == course.base ? course.quick_base : course.bench.from_fit(less, course.current, fitting_rounds);
   if (found.without.cost > course.quick_base.cost) {
     // The base is among what is left: the descent from the fuller model went astray.
@@ -153,8 +154,7 @@ std::vector<Found> worth_their_place(Course& course) {
       const BlockScore score = block_score(
           left_out_beside(course.bench, found.without, part, left_out(course.bench, found.without)).predicted,
           with.predicted, course.noise);
-      if (!course.is_told(part) &&
-          !worth_keeping(found.evidence, found.gain, squared(found.without.cost), score, far)) {
+      if (!found.told && !worth_keeping(found.evidence, found.gain, squared(found.without.cost), score, far)) {
         course.current = found.without;
         course.stands(course.current);
         dropped = true;
@@ -192,7 +192,7 @@ std::vector<Found> settled(Course& course, const std::vector<Extension>& candida
                "setting " + name_of(found.part) + " against its rivals");
       done += 1.0;
       const std::optional<Fit> replacement = contested(course, found, candidates);
-      if (replacement && course.swaps < most_swaps && !course.is_told(found.part)) {
+      if (replacement && course.swaps < most_swaps && !found.told) {
         ++course.swaps;
         course.current = *replacement;
         course.stands(course.current);
@@ -208,7 +208,7 @@ std::vector<Found> settled(Course& course, const std::vector<Extension>& candida
 
 // A part that is worth its place on the samples that hypotheses are compared on and not on the finer ones, or the
 // weakest one where the model runs away there; the end where there is none.
-std::vector<Found>::const_iterator unconfirmed(const Course& course, const Workbench& fine, const Fit& augmented,
+std::vector<Found>::const_iterator unconfirmed(const Workbench& fine, const Fit& augmented,
                                                const std::vector<Found>& found) {
   if (augmented.cost >= diverged_cost) {
     return std::ranges::min_element(found, {}, &Found::gain);
@@ -218,7 +218,7 @@ std::vector<Found>::const_iterator unconfirmed(const Course& course, const Workb
   }
   const double with = left_out(fine, augmented).squares;
   return std::ranges::find_if(found, [&](const Found& one) {
-    if (course.is_told(one.part)) {
+    if (one.told) {
       return false;
     }
     const double without = left_out_beside(fine, one.without, one.part, left_out(fine, one.without)).squares;
@@ -234,7 +234,7 @@ Fit confirmed(Course& course, const Workbench& fine, const Fit& fine_base, const
     found = settled(course, candidates, progress);
     progress(0.85, "fitting the augmented model to more samples");
     Fit augmented = course.current.what == course.base ? fine_base : fine.polished(course.current, screening_rounds);
-    const auto idle = unconfirmed(course, fine, augmented, found);
+    const auto idle = unconfirmed(fine, augmented, found);
     if (idle == found.end()) {
       return augmented;
     }
