@@ -6,7 +6,7 @@
 // prepared as `hysteron diagnose` does, its base law fitted, and three methods asked which effects are missing: F tests
 // of each effect refitted behind the base, forward selection by the Bayesian information criterion, sparse regression
 // of the base's residual. Each counts its values twice: samples, as is usual, and the independent ones that the program
-// counts. What they say is kept in DIR, so that a call that was stopped goes on; the answers are opened only to score.
+// counts. What they say is kept in DIR, so that a rerun resumes; the answers are opened only to score.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>

@@ -7,7 +7,7 @@
 # press, crank: the recordings of the two magnetorheological dampers; rotary: the six of the rotary device with the
 # lowest three tensions; long: two recordings of 66,000 samples at 3 kHz, made by the program; challenge: N campaigns
 # (20) of FOLDER, an --out of `hysteron challenge`, evenly spread over it. Times are kept in build/diagnosis-speed, by
-# program: stopped, the same command goes on; the page holds every part that has been timed with today's program.
+# program: rerun the command to resume; the page holds every part that has been timed with today's program.
 # The earlier program is built from the repository's history, which has to be complete.
 set -euo pipefail
 cd "$(dirname "$0")/.."

@@ -3,7 +3,7 @@
 
   scripts/projection.py [BINARY]
 
-Runs bench/studies/projection.toml; the records stay in build/results/projection, and stopped, the same command goes on.
+Runs bench/studies/projection.toml; the records stay in build/results/projection; rerun the command to resume.
 """
 import collections
 import csv

@@ -6,7 +6,7 @@
 Candidates of a family (the label before the colon) run the same problems and seeds, one seed more a round. After the
 third round a candidate leaves when it is behind the leader of its family on the problems: one-sided sign-flip test on the
 mean log cost ratio, a problem counted once, at 5 % divided by the candidates left. The records stay in
-build/results/training; stopped, the same command goes on.
+build/results/training; rerun the command to resume.
 """
 import argparse
 import csv

@@ -1,5 +1,5 @@
 #!/bin/sh
-# Makes results/NAME.md again from bench/studies/NAME.toml; stopped, the same command goes on.
+# Makes results/NAME.md again from bench/studies/NAME.toml; rerun the command to resume.
 #   scripts/results.sh NAME [BINARY]      NAME: reference, solvers or models-real
 # The records stay in build/results/NAME.
 set -eu

@@ -6,7 +6,7 @@
 
 CAMPAIGNS holds answers.json, {"folder/campaign": {"effects": [ids], "foreign": [words], "level": word}, ...}, and those
 folders. Each is diagnosed by `hysteron diagnose FOLDER --threads 1` into OUT; a diagnosis that uses more processor time
-than the limit is ended, which its run.json says. Stopped, the same command goes on; OUT belongs to one program. With
+than the limit is ended, which its run.json says. Rerun the command to resume; OUT belongs to one program. With
 --rejudge nothing is diagnosed: the evidence in OUT is judged by the tables of today's program (hysteron_verdicts beside
 the binary). The rates are printed and written to OUT/score.json; the page gets a column in its table and a section.
 """

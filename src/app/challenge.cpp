@@ -229,7 +229,7 @@ void add_challenge(CLI::App& program) {
   auto options = std::make_shared<Options>();
   CLI::App* command = program.add_subcommand(
       "challenge", "makes campaigns with concealed physics, seals the answers, diagnoses, opens the seal, scores");
-  command->add_option("--out", options->out, "folder to write; what an interrupted call left is gone on with");
+  command->add_option("--out", options->out, "folder to write; rerun an interrupted command to resume it");
   CLI::Option* data = command->add_option(
       "--in", options->data, "hide effects in these recordings of a real damper instead of simulating one");
   command->add_option("--model", options->model, "base damper law, with --in; default campaign.toml's, else bouc-wen")

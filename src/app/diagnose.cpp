@@ -107,7 +107,7 @@ void tell_found(const Checkpoint& checkpoint, bool quiet) {
       return;
     case Checkpoint::Found::pieces:
       if (!quiet) {
-        fmt::print(stderr, "going on with {} pieces of work that {} holds\n", checkpoint.pieces(), path);
+        fmt::print(stderr, "resuming: {} finished pieces of work are in {}\n", checkpoint.pieces(), path);
       }
       return;
     case Checkpoint::Found::of_another_command:
@@ -119,7 +119,7 @@ void tell_found(const Checkpoint& checkpoint, bool quiet) {
   }
 }
 
-// Nothing where it was interrupted, which is said: what is known so far, and what the same command goes on from.
+// Nothing where it was interrupted, which is said: what is known so far, and that rerunning the command resumes.
 std::unique_ptr<Diagnosis> diagnosed(const Campaign& campaign, DiagnoseOptions options, Checkpoint* checkpoint,
                                      bool quiet) {
   ProgressLine progress(quiet);
@@ -169,7 +169,7 @@ std::unique_ptr<Diagnosis> diagnosed(const Campaign& campaign, DiagnoseOptions o
     unfinished.write(checkpoint->path().parent_path() / "interrupted.json", pieces);
   }
   fmt::print(stderr, "interrupted {}; {}\n", unfinished.sentence(),
-             pieces > 0 ? fmt::format("{} pieces of work are kept in {}, the same command goes on from there", pieces,
+             pieces > 0 ? fmt::format("{} finished pieces of work are in {}; rerun the command to resume", pieces,
                                       checkpoint->path().string())
                         : "nothing was written");
   return nullptr;

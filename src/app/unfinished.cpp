@@ -108,7 +108,7 @@ void Unfinished::write(const std::filesystem::path& path, std::size_t pieces) co
                  {"pieces_kept", pieces},
                  {"note",
                   "not a result: the effects so far have not been set against their rivals, and the errors are of "
-                  "the recordings on which hypotheses are compared; the same command goes on from here"},
+                  "the recordings on which hypotheses are compared; rerun the command to resume"},
                  {"command", command_line()}}));
 }
 

@@ -49,7 +49,7 @@ void in_parallel(std::size_t count, const Steps& steps, const std::string& stage
     loop();
   }
   if (failure) std::rethrow_exception(failure);
-  if (steps.interrupted()) throw WorkError("interrupted; the same command goes on from here");
+  if (steps.interrupted()) throw WorkError("interrupted; rerun the command to resume");
 }
 
 json settings_of(const std::vector<Task>& tasks, std::uint64_t seed) {

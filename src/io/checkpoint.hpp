@@ -1,5 +1,5 @@
-// Finished pieces of a long work, beside its results while it goes on: the same command, called again after it was
-// ended at any instant, reads them in place of working again. An SQLite file, removed when the work is done.
+// Finished pieces of a long work, beside its results until it is done: the command, rerun after it was ended at
+// any instant, reads them in place of working again. An SQLite file, removed when the work is done.
 #pragma once
 
 #include <filesystem>

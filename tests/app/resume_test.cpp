@@ -1,5 +1,5 @@
-// Work that is killed or interrupted at any instant: the same command goes on and ends with the same bytes, and nothing
-// looks finished before.
+// Work that is killed or interrupted at any instant: rerun, the command resumes and ends with the same bytes, and
+// nothing looks finished before.
 #include <gtest/gtest.h>
 #include <signal.h>
 
@@ -113,7 +113,7 @@ TEST_F(Resume, AnInterruptedDiagnosisSaysWhatIsKnownAndGoesOn) {
     if (fs::exists(folder_ / out / "diagnosis.json")) continue;  // done before the signal came
     EXPECT_EQ(outcome.out, "");
     EXPECT_TRUE(outcome.err.starts_with("interrupted while ")) << outcome.err;
-    EXPECT_NE(outcome.err.find("the same command goes on from there"), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find("rerun the command to resume"), std::string::npos) << outcome.err;
     EXPECT_EQ(std::ranges::count(outcome.err, '\n'), 1) << outcome.err;
     EXPECT_TRUE(fs::exists(partial));
     EXPECT_FALSE(fs::exists(folder_ / out / "model.json"));

@@ -1,4 +1,4 @@
-// Pieces of a workbench's work, kept for a call that goes on where this one may be ended.
+// Pieces of a workbench's work, kept so that a rerun resumes where this run may be ended.
 #include "diagnose/search/workbench.hpp"
 #include "io/sha256.hpp"
 
