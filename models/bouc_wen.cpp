@@ -49,6 +49,15 @@ struct BoucWen {
     const auto& [alpha, c0, k0, f0, x_y, share, n] = p;
     return T(speed) * n * steepest(share) / x_y;
   }
+  // The hysteresis loads while the velocity keeps the sign of z, and is then no steeper than its knee.
+  template <class T>
+  static T stiffness_near(const std::array<T, 7>& p, const std::array<T, 1>& s, const T& v, double speed,
+                          double change) {
+    const auto& [alpha, c0, k0, f0, x_y, share, n] = p;
+    const auto& [z] = s;
+    const T whole = stiffness(p, speed);
+    return select(abs(v) > T(change), select(z * v > T(0.0), T(speed) * n / x_y, whole), whole);
+  }
   template <class T>
   static T force(const std::array<T, 7>& p, const std::array<T, 1>& s, const Input<T>& in, const T& /*below*/) {
     const auto& [alpha, c0, k0, f0, x_y, share, n] = p;

@@ -12,7 +12,7 @@ template <class T>
   return share * select(z < T(0.0), -abs(v), abs(v)) + (T(1.0) - share) * v;
 }
 
-// Its largest size over |v|.
+// Its largest size over |v|; 1 while z and v have one sign.
 template <class T>
 [[gnu::always_inline]] inline T steepest(const T& share) {
   return max(T(1.0), abs(T(1.0) - T(2.0) * share));

@@ -61,21 +61,24 @@ struct ModifiedBoucWen {
   template <class T>
   static T stiffness(const std::array<T, 9>& p, double speed) {
     // One and a half times the bound: the slip changes sign between the reversals of v that steps land on.
-    return T(1.5) * stiffness_of_slip(p, T(speed));
+    const auto& [alpha, c0, c1, k0, k1, x_y, share, n, x0] = p;
+    return T(1.5) * stiffness_of_slip(p, T(speed), steepest(share));
   }
   // Spring and hysteresis only slow the slip, so that it grows no faster than the dashpots pass the acceleration on;
-  // not so a spring that pushes on.
+  // not so a spring that pushes on. The hysteresis loads while the slip keeps the sign of z.
   template <class T>
   static T stiffness_near(const std::array<T, 9>& p, const std::array<T, 2>& s, const T& v, double speed,
                           double change) {
     const auto& [alpha, c0, c1, k0, k1, x_y, share, n, x0] = p;
-    const T near = min(T(speed), abs(slip(p, s, v)) + c1 / (c0 + c1) * T(change));
-    return select(k0 < T(0.0), stiffness(p, speed), stiffness_of_slip(p, near));
+    const auto& [e, z] = s;
+    const T u = slip(p, s, v);
+    const T near = min(T(speed), abs(u) + c1 / (c0 + c1) * T(change));
+    const T steep = select(z * u > T(0.0), T(1.0), steepest(share));
+    return select(k0 < T(0.0), stiffness(p, speed), stiffness_of_slip(p, near, steep));
   }
   template <class T>
-  static T stiffness_of_slip(const std::array<T, 9>& p, const T& u) {
+  static T stiffness_of_slip(const std::array<T, 9>& p, const T& u, const T& steep) {
     const auto& [alpha, c0, c1, k0, k1, x_y, share, n, x0] = p;
-    const T steep = steepest(share);
     const T series = c0 + c1;
     return (abs(k0) + abs(alpha) * (T(1.0) + steep) / x_y) / series + u * n * steep / x_y;
   }
