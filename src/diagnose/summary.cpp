@@ -14,8 +14,7 @@
 namespace hysteron {
 namespace {
 
-constexpr std::size_t most_sizes = 2;      // of an effect, in its sentence
-constexpr std::size_t most_contrasts = 3;  // that speak for nothing that is named
+constexpr std::size_t most_sizes = 2;  // of an effect, in its sentence
 
 std::string percent(double share) { return fmt::format("{:.0f} %", 100.0 * share); }
 
@@ -174,7 +173,6 @@ std::string sentence_of_contrasts(const Diagnosis& diagnosis) {
     }
   }
   std::ranges::stable_sort(loud, std::greater{}, [](const Signature* row) { return loudness(*row); });
-  loud.resize(std::min(loud.size(), most_contrasts));
   std::vector<std::string> phrases;
   for (const Signature* row : loud) {
     phrases.push_back(fmt::format("{}, {} ({:.0f} of {} recordings)", row->what, size_text(row->value, row->unit, 2),

@@ -168,8 +168,11 @@ TEST(Features, AContrastThatSpeaksTellsThatSomethingIsMissing) {
       std::ranges::find(missing_features, std::string_view("spoken"), &Feature::name) - missing_features.begin());
   Evidence evidence = plain();
   EXPECT_EQ(features_of(evidence)[at], 1.0);
-  evidence.signatures[0].consistency = 0.5;
-  EXPECT_EQ(features_of(evidence)[at], 0.0) << "half of the recordings say the opposite";
+  evidence.signatures[0].placebo_quantile = 0.9;
+  EXPECT_EQ(features_of(evidence)[at], 0.0) << "a tenth of the placebos say as much";
+  evidence = plain();
+  evidence.signatures[0].z = 2.9;
+  EXPECT_EQ(features_of(evidence)[at], 0.0) << "shown, and not loud";
   evidence = plain();
   evidence.signatures[0].sign = {-1};
   EXPECT_EQ(features_of(evidence)[at], 0.0) << "in a sense that speaks for nothing";

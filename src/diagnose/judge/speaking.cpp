@@ -31,18 +31,15 @@ double loudness(const Signature& signature) {
   return result;
 }
 
-bool speaks(const Speaking& speaking) {
-  constexpr double loud = 3.0;
-  constexpr double beyond_placebos = 0.975;
-  constexpr double in_most = 0.8;
-  return speaking.z >= loud && speaking.signature->placebo_quantile >= beyond_placebos &&
-         speaking.signature->consistency >= in_most;
-}
-
 bool shows(const Speaking& speaking) {
   constexpr double surely = 2.0;
   constexpr double beyond_placebos = 0.95;
   return speaking.z >= surely && speaking.signature->placebo_quantile >= beyond_placebos;
+}
+
+bool speaks(const Speaking& speaking) {
+  constexpr double loud = 3.0;
+  return shows(speaking) && speaking.z >= loud;
 }
 
 }  // namespace hysteron

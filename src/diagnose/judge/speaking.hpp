@@ -19,11 +19,10 @@ std::optional<Speaking> speaking_for(const std::string& effect, const Evidence& 
 // z of a contrast in the sense that suits it best of those of the effects it speaks for.
 double loudness(const Signature& signature);
 
-// Three standard errors in the effect's sense, beyond 97.5 % of the placebos, and the same sign in four of five
-// recordings: what noise and the misfit of a bare law do not do (docs/contrasts.md).
-bool speaks(const Speaking& speaking);
-
 // Two standard errors in the effect's sense, and beyond 95 % of the placebos: enough to be seen by itself.
 bool shows(const Speaking& speaking);
+
+// Shows, by three standard errors: what noise and the misfit of a bare law do not do (docs/contrasts.md).
+bool speaks(const Speaking& speaking);
 
 }  // namespace hysteron
