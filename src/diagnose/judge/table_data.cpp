@@ -15,10 +15,10 @@ constexpr Knot set_knots[] = {{-3.213, 0.123}, {-1.463, 0.2213}, {-0.1308, 0.376
                               {1.195, 0.7857}, {1.731, 0.8902},  {2.367, 0.939},    {3.224, 0.9898}};
 constexpr double set_intercept = -13.188;
 
-constexpr double missing_weights[] = {1.563, 1.411, 1.086, 2.068, 1.387, 1.668};
-constexpr Knot missing_knots[] = {{-1.923, 0.07143}, {-1.586, 0.119}, {-1.063, 0.2143},
-                                  {-0.2953, 0.5},    {1.289, 0.8333}, {6.33, 0.996}};
-constexpr double missing_intercept = -1.9877;
+constexpr double missing_weights[] = {1.564, 1.412, 1.078, 2.075, 1.381, 1.661};
+constexpr Knot missing_knots[] = {{-1.918, 0.07143}, {-1.584, 0.119}, {-1.065, 0.2143},
+                                  {-0.3004, 0.5},    {1.282, 0.8333}, {6.341, 0.996}};
+constexpr double missing_intercept = -1.983;
 
 constexpr double of_channels = 0.9583;
 
