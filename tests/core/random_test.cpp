@@ -192,6 +192,7 @@ TEST(Suggestion, NamesTheNearestKnownWord) {
   EXPECT_EQ(suggestion("boucwen", known), " (did you mean 'bouc-wen'?)");
   EXPECT_EQ(suggestion("bingam", known), " (did you mean 'bingham'?)");
   EXPECT_EQ(suggestion("lugre", known), " (did you mean 'lugre'?)");
+  EXPECT_EQ(suggestion("fti", {"list", "fit"}), " (did you mean 'fit'?)");
 }
 
 TEST(Suggestion, IsEmptyWhenNothingIsNear) {
