@@ -19,6 +19,7 @@
 #include "io/output.hpp"
 #include "report/html.hpp"
 #include "report/terminal.hpp"
+#include "respond/refine.hpp"
 
 namespace hysteron::app {
 namespace {
@@ -40,6 +41,9 @@ struct FitOptions {
   std::vector<std::string> bounds;
   std::vector<std::string> settings;
   std::string out;
+  bool response = false;  // recordings of a mass on the damper
+  Rig rig;
+  std::string interpolation = "cubic";
 };
 
 IdentifyOptions identify_options(const FitOptions& options, const Campaign& campaign) {
@@ -114,11 +118,35 @@ json final_json(const Identification& result) {
           {"evaluations", run.evaluations}, {"budget", run.budget}, {"stopped", run.stopped}};
 }
 
+json response_json(const ResponseFit& fit, const Rig& rig, const std::string& interpolation) {
+  const auto finite = [](double value) { return std::isfinite(value) && value < diverged_cost ? json(value) : json(); };
+  json rows = json::array();
+  for (const ResponseScore& score : fit.scores) {
+    rows.push_back({{"file", score.file}, {"nrmse", finite(score.nrmse)}, {"rmse_m", finite(score.rmse)}});
+  }
+  return {{"mass_kg", rig.mass},
+          {"stiffness_n_per_m", rig.stiffness},
+          {"damping_n_s_per_m", rig.damping},
+          {"interpolation", interpolation},
+          {"nrmse_of_equation_of_motion", finite(fit.before)},
+          {"nrmse", finite(fit.cost)},
+          {"evaluations", fit.run.evaluations},
+          {"stopped", fit.run.stopped},
+          {"recordings", rows}};
+}
+
 void run(const FitOptions& options) {
   const auto begun = std::chrono::steady_clock::now();
   std::vector<std::string> remarks;
-  const Campaign campaign = load(options.data, true, &remarks);
+  Campaign campaign = load(options.data, !options.response, &remarks);
   refuse_short(campaign);
+  Rig rig = options.rig;
+  rig.interpolation = interpolation_of(options.interpolation);
+  std::vector<Recording> responses;  // the motion under the force on the mass; `campaign` is the damper's own then
+  if (options.response) {
+    responses = std::move(campaign.recordings);
+    campaign.recordings = damper_recordings(responses, rig);
+  }
   const std::string model = options.model.empty() ? campaign.model : options.model;
   if (model.empty()) {
     throw InputError("no model: expected --model NAME or a model in campaign.toml, see `hysteron list models`");
@@ -129,6 +157,10 @@ void run(const FitOptions& options) {
   normaliser(campaign.recordings.front(), identify_with.objective.normalisation);
   if (options.stages == "two" && identify_with.layout.by_current.empty() && identify_with.layout.by_frequency.empty()) {
     throw InputError("--stages two: no parameter has a law, expected --by-current or --by-frequency");
+  }
+
+  if (options.stages == "two" && options.response) {
+    throw InputError("--stages two: values of conditions are not fitted to a response, expected one stage");
   }
 
   const bool to_files = !is_standard_output(options.out);
@@ -144,6 +176,21 @@ void run(const FitOptions& options) {
     return !interrupted();
   };
   Identification result = identify(campaign, model, identify_with, show);
+  std::optional<ResponseFit> response;
+  if (options.response && !interrupted()) {
+    response = refine(result, responses, rig, identify_with, [&](const RunResult& run) {
+      progress.show("lm: motion of the mass", static_cast<double>(run.evaluations) / static_cast<double>(run.budget),
+                    fmt::format("{} of {} evaluations, best NRMSE of the displacement {}", run.evaluations, run.budget,
+                                run.cost < diverged_cost ? format_number(run.cost, 4) : "-"));
+      return !interrupted();
+    });
+    result.cost = predicted_nrmse(result.layout, result.terms, refer_to(campaign.recordings, result.fitted),
+                                  identify_with.objective);
+    if (result.roles_given && !result.heldout.empty()) {
+      result.nrmse_heldout = predicted_nrmse(result.layout, result.terms, refer_to(campaign.recordings, result.heldout),
+                                             identify_with.objective);
+    }
+  }
   // An error that is not finite is none; the recordings it comes from are named below.
   const auto drop_if_not_finite = [](std::optional<double>& error) {
     if (error && !std::isfinite(*error)) error.reset();
@@ -245,6 +292,7 @@ void run(const FitOptions& options) {
       {"parameters", estimates},
       {"recordings", rows},
       {"stages", two ? stages_json(*two, result, campaign) : json(nullptr)},
+      {"response", response ? response_json(*response, rig, options.interpolation) : json(nullptr)},
       {"warnings", warnings},
       {"provenance", model_file["provenance"]}};
 
@@ -272,6 +320,13 @@ void run(const FitOptions& options) {
     page["summary"].push_back({{"label", "NRMSE, held-out recordings"},
                                {"value", format_number(*result.nrmse_heldout, 3)},
                                {"note", "fitted without " + heldout_names}});
+  }
+  if (response) {
+    page["summary"].push_back({{"label", "NRMSE, displacement of the mass"},
+                               {"value", format_number(response->cost, 3)},
+                               {"note",
+                                "simulated motion; forces on this page are of the equation of motion, with the "
+                                "noise of its acceleration"}});
   }
   page["summary"].push_back(
       {{"label", "Evaluations"},
@@ -332,7 +387,16 @@ void run(const FitOptions& options) {
                           format_number(scores[k].rmse, 4), fmt::format("{:.1f}", scores[k].fit_percent),
                           held_out[k] ? (result.roles_given ? "validate" : "held out in the check") : ""});
   }
-  say(fmt::format("{}\n", table({"recording", "NRMSE", "RMSE [N]", "fit [%]", "remark"}, table_rows)));
+  say(fmt::format("{}\n", table({response ? "force of the equation of motion" : "recording", "NRMSE", "RMSE [N]",
+                                 "fit [%]", "remark"},
+                                table_rows)));
+  if (response) {
+    table_rows.clear();
+    for (const ResponseScore& score : response->scores) {
+      table_rows.push_back({score.file, format_number(score.nrmse, 4), format_number(1e3 * score.rmse, 4)});
+    }
+    say(fmt::format("{}\n", table({"motion of the mass", "NRMSE", "RMSE [mm]"}, table_rows)));
+  }
   if (two) {
     say(stages_text(*two, result));
   }
@@ -343,6 +407,13 @@ void run(const FitOptions& options) {
   if (result.final_run) {
     say(fmt::format("{} by {}: {} further evaluations, {}\n", result.final_stage, result.final_run->solver,
                     result.final_run->evaluations, result.final_run->stopped));
+  }
+  if (response) {
+    say(
+        fmt::format("lm on the motion of the mass: NRMSE of the displacement {} after {} evaluations, {} with the "
+                    "parameters of the equation of motion; {}\nforce of the equation of motion: ",
+                    format_number(response->cost, 4), response->run.evaluations, format_number(response->before, 4),
+                    response->run.stopped));
   }
   say(fmt::format("overall NRMSE {} ({} weighting, normalised by {})", format_number(result.cost, 4),
                   options.common.weighting, normalisation));
@@ -394,6 +465,20 @@ void add_fit(CLI::App& program) {
   command->add_option("--set", options->settings, "SETTING=NUMBER of the solver; repeatable")
       ->delimiter(',')
       ->allow_extra_args(false);
+  CLI::Option* response = command->add_flag(
+      "--response", options->response,
+      "the recordings are of a mass on the damper: its displacement, and the force on it (none: free decay)");
+  command->add_option("--mass", options->rig.mass, "kg, with --response")->needs(response)->check(CLI::PositiveNumber);
+  command->add_option("--stiffness", options->rig.stiffness, "N/m, of a spring beside the damper, with --response")
+      ->needs(response);
+  command->add_option("--damping", options->rig.damping, "N s/m, of a dashpot beside the damper, with --response")
+      ->needs(response);
+  command
+      ->add_option("--interpolation", options->interpolation,
+                   "of the force on the mass between its samples: linear, cubic, band-limited; with --response")
+      ->check(CLI::IsMember({"linear", "cubic", "band-limited"}))
+      ->needs(response);
+  response->needs(command->get_option("--mass"));
   command
       ->add_option("--out", options->out,
                    "folder for model.json, fit.json, report.html; -: model.json on standard output")
@@ -403,6 +488,7 @@ void add_fit(CLI::App& program) {
       "Example:\n  hysteron fit recordings/ --model bouc-wen --by-current alpha:1,c0:1 --out out\n"
       "  hysteron fit recordings/ --model modified-bouc-wen --effects offset-force --solver pso,ga,multistart-lm --out "
       "out\n"
+      "  hysteron fit shaker/ --response --mass 250 --stiffness 2e4 --model bouc-wen --out out\n"
       "  hysteron fit recordings/ --model bouc-wen --solver mine --solver-command \"mine=python3 mine.py\" --out out");
   command->callback([options] { run(*options); });
 }

@@ -1,6 +1,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "core/unit_text.hpp"
 #include "fit/correlation.hpp"
@@ -47,10 +48,11 @@ namespace {
 // N (1 - r) / (1 + r) of residuals whose lag-1 correlation is r. Directions the data leave open make the parameters
 // in them unidentifiable; they are looked for among all coordinates, since a parameter whose partner in a redundant
 // pair sits on a bound is no better determined.
-Uncertainty uncertainty_of(const Identification& result, const Objective& objective, const std::vector<double>& u) {
-  const Layout& layout = objective.layout();
+// `spreads`: the jackknife of the point over its free coordinates, where it can be had.
+template <class Spreads>
+Uncertainty uncertainty_of(const Layout& layout, const Response& response, double independent,
+                           const std::vector<double>& u, const Spreads& spreads_of) {
   const auto d = static_cast<Eigen::Index>(layout.dimension());
-  const Response response = objective.evaluate({u, true});
   Eigen::MatrixXd full = Eigen::Map<const Eigen::MatrixXd>(response.gauss_newton.data(), d, d);
   std::vector<bool> open(static_cast<std::size_t>(d), false);
   std::vector<Eigen::Index> free;
@@ -77,9 +79,7 @@ Uncertainty uncertainty_of(const Identification& result, const Objective& object
   }
   if (m > 0) {
     const CorrelationEigen eigen(full(free, free));
-    const double r = residual_correlation(objective, result.terms);
-    const double samples = static_cast<double>(objective.samples()) * (1.0 - r) / (1.0 + r);
-    const double variance = response.cost[0] * response.cost[0] / std::max(samples - static_cast<double>(m), 1.0);
+    const double variance = response.cost[0] * response.cost[0] / std::max(independent - static_cast<double>(m), 1.0);
     Eigen::MatrixXd inverse = Eigen::MatrixXd::Zero(m, m);
     for (Eigen::Index e = 0; e < m; ++e) {
       if (!eigen.open(e)) {
@@ -113,7 +113,7 @@ Uncertainty uncertainty_of(const Identification& result, const Objective& object
     const auto deviation = [&](const Spread& spread) -> Eigen::VectorXd {
       return (free_to_terms * spread.covariance * free_to_terms.transpose()).diagonal().cwiseMax(0.0).cwiseSqrt();
     };
-    const std::optional<Jackknife> spreads = jackknife(objective, u, free);
+    const std::optional<Jackknife> spreads = spreads_of(free);
     if (spreads) {
       std_error = std_error.cwiseMax(deviation(spreads->stretches));
       half_width = half_width.cwiseMax(spreads->stretches.quantile * deviation(spreads->stretches));
@@ -136,16 +136,9 @@ Uncertainty unknown(std::size_t dimension) {
           Eigen::VectorXd::Zero(d)};
 }
 
-}  // namespace
-
-void estimate(Identification& result, const Objective& objective, const std::vector<double>& u, DriveKind drive_kind) {
+void add_estimates(Identification& result, const Uncertainty& uncertainty, const std::vector<double>& u,
+                   DriveKind drive_kind) {
   const Layout& layout = result.layout;
-  Uncertainty uncertainty = unknown(layout.dimension());
-  try {
-    uncertainty = uncertainty_of(result, objective, u);
-  } catch (const Stopped&) {
-    result.warnings.emplace_back("interrupted before the standard errors were worked out");
-  }
   for (const ParameterLaw& law : layout.laws()) {
     const std::size_t count = law.drive_nodes.size() * law.frequency_nodes.size();
     bool law_open = false;
@@ -186,6 +179,29 @@ void estimate(Identification& result, const Objective& objective, const std::vec
       result.estimates.push_back(std::move(estimate));
     }
   }
+}
+
+}  // namespace
+
+void estimate(Identification& result, const Objective& objective, const std::vector<double>& u, DriveKind drive_kind) {
+  Uncertainty uncertainty = unknown(result.layout.dimension());
+  try {
+    const double r = residual_correlation(objective, result.terms);
+    uncertainty = uncertainty_of(objective.layout(), objective.evaluate({u, true}),
+                                 static_cast<double>(objective.samples()) * (1.0 - r) / (1.0 + r), u,
+                                 [&](const std::vector<Eigen::Index>& free) { return jackknife(objective, u, free); });
+  } catch (const Stopped&) {
+    result.warnings.emplace_back("interrupted before the standard errors were worked out");
+  }
+  add_estimates(result, uncertainty, u, drive_kind);
+}
+
+void estimate(Identification& result, const Response& derivatives, double independent, const std::vector<double>& u,
+              DriveKind drive_kind) {
+  add_estimates(result,
+                uncertainty_of(result.layout, derivatives, independent, u,
+                               [](const std::vector<Eigen::Index>&) { return std::optional<Jackknife>(); }),
+                u, drive_kind);
 }
 
 }  // namespace hysteron

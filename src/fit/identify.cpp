@@ -117,6 +117,23 @@ void check_integration(Identification& result, const std::vector<double>& best, 
 
 }  // namespace
 
+std::vector<std::string> warnings_of(const std::vector<Estimate>& estimates) {
+  std::vector<std::string> result;
+  for (const Estimate& estimate : estimates) {
+    if (estimate.term.drive_power + estimate.term.frequency_power > 0) {
+      continue;
+    }
+    if (estimate.at_bound) {
+      result.push_back("parameter " + estimate.name + " sits on its " + *estimate.at_bound +
+                       " bound: the data want it outside the box, or do not need it");
+    }
+    if (!estimate.identifiable) {
+      result.push_back("parameter " + estimate.name + " is not identifiable from these recordings");
+    }
+  }
+  return result;
+}
+
 Identification identify(const Campaign& campaign, const std::string& model, const IdentifyOptions& options,
                         const Progress& progress) {
   std::vector<std::size_t> all(campaign.recordings.size());
@@ -244,17 +261,8 @@ Identification identify(const Campaign& campaign, const std::string& model, cons
   objective.reset();
 
   check_integration(result, best, campaign, options);
-  for (const Estimate& estimate : result.estimates) {
-    if (estimate.term.drive_power + estimate.term.frequency_power > 0) {
-      continue;
-    }
-    if (estimate.at_bound) {
-      result.warnings.push_back("parameter " + estimate.name + " sits on its " + *estimate.at_bound +
-                                " bound: the data want it outside the box, or do not need it");
-    }
-    if (!estimate.identifiable) {
-      result.warnings.push_back("parameter " + estimate.name + " is not identifiable from these recordings");
-    }
+  for (std::string& warning : warnings_of(result.estimates)) {
+    result.warnings.push_back(std::move(warning));
   }
   return result;
 }

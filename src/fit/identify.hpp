@@ -89,5 +89,12 @@ double residual_correlation(const Objective& objective, const std::vector<Term>&
 // result.estimates; result.layout and result.terms must be those of the point.
 void estimate(Identification& result, const Objective& objective, const std::vector<double>& point,
               DriveKind drive_kind);
+// The same of another objective: from its cost and derivatives at the point, and how many independent samples it sums
+// over; from the curvature alone, without a jackknife.
+void estimate(Identification& result, const Response& derivatives, double independent, const std::vector<double>& point,
+              DriveKind drive_kind);
+
+// What a reader has to be told of estimates: on a bound, or not identifiable.
+std::vector<std::string> warnings_of(const std::vector<Estimate>& estimates);
 
 }  // namespace hysteron

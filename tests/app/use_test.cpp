@@ -1,6 +1,7 @@
 // The program in surroundings that are not as they should be. Every test runs HYSTERON_PROGRAM in a temporary folder of
 // its own.
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <stdlib.h>
 #include <sys/ioctl.h>
@@ -8,7 +9,9 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
 #include <thread>
@@ -80,6 +83,48 @@ TEST_F(Use, LongRecordingsAreAveragedWithAWordAboutIt) {
   ASSERT_EQ(run({"simulate", "out/model.json", "long.csv", "--out", "force.csv"}).status, 0);
   const std::string rows = read(folder_ / "force.csv");
   EXPECT_EQ(std::ranges::count(rows, '\n'), 9002);
+}
+
+// A mass on a spring and a dashpot let go: x = x0 exp(-d t) (cos w t + d / w sin w t), in closed form.
+TEST_F(Use, AFreeDecayTellsTheDamperBesideAMass) {
+  const double mass = 2.0;
+  const double damping = 8.0;
+  const double stiffness = 800.0;
+  const double d = damping / (2.0 * mass);
+  const double w = std::sqrt(stiffness / mass - d * d);
+  std::string text = "time [s],displacement [mm]\n";
+  for (int n = 0; n < 1000; ++n) {
+    const double t = n / 500.0;
+    text += fmt::format("{},{}\n", t, 10.0 * std::exp(-d * t) * (std::cos(w * t) + d / w * std::sin(w * t)));
+  }
+  fs::create_directories(folder_ / "decay");
+  write(folder_ / "decay" / "d.csv", text);
+  const auto fitted = [&](const std::string& out, const std::string& threads) {
+    const Outcome outcome = run({"fit", "decay", "--response", "--mass", "2", "--model", "viscous", "--budget", "500",
+                                 "--threads", threads, "--quiet", "--out", out});
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find("motion of the mass"), std::string::npos) << outcome.out;
+    return read(folder_ / out / "fit.json");
+  };
+  const std::string one = fitted("one", "1");
+  const nlohmann::json fit = nlohmann::json::parse(one);
+  EXPECT_LT(fit.at("response").at("nrmse"), 1e-6);
+  for (const nlohmann::json& parameter : fit.at("parameters")) {
+    const std::string name = parameter.at("name");
+    const double truth = name == "c0" ? damping : stiffness;
+    if (name != "f0") {
+      EXPECT_NEAR(parameter.at("value"), truth, 1e-4 * truth) << name;
+    }
+  }
+  fitted("two", "2");
+  EXPECT_EQ(read(folder_ / "one" / "model.json").substr(0, 200), read(folder_ / "two" / "model.json").substr(0, 200));
+}
+
+TEST_F(Use, AResponseWantsTheMass) {
+  const Outcome outcome = run({"fit", "data", "--response", "--model", "viscous", "--out", "out"});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_NE(outcome.err.find("--response requires --mass"), std::string::npos) << outcome.err;
+  EXPECT_FALSE(fs::exists(folder_ / "out"));
 }
 
 TEST_F(Use, APublishedTableTakesSettingsOfItsSolvers) {
