@@ -313,20 +313,21 @@ void run(const FitOptions& options) {
                    {"equations", equations},
                    {"reference", result.layout.model().law->reference}};
   page["summary"] = json::array();
-  page["summary"].push_back({{"label", "NRMSE, fitted recordings"},
-                             {"value", format_number(result.cost, 3)},
-                             {"note", "root mean square over recordings, normalised by " + normalisation}});
-  if (result.nrmse_heldout) {
-    page["summary"].push_back({{"label", "NRMSE, held-out recordings"},
-                               {"value", format_number(*result.nrmse_heldout, 3)},
-                               {"note", "fitted without " + heldout_names}});
-  }
   if (response) {
     page["summary"].push_back({{"label", "NRMSE, displacement of the mass"},
                                {"value", format_number(response->cost, 3)},
                                {"note",
                                 "simulated motion; forces on this page are of the equation of motion, with the "
                                 "noise of its acceleration"}});
+  }
+  page["summary"].push_back(
+      {{"label", response ? "NRMSE, force of the equation of motion" : "NRMSE, fitted recordings"},
+       {"value", format_number(result.cost, 3)},
+       {"note", "root mean square over recordings, normalised by " + normalisation}});
+  if (result.nrmse_heldout) {
+    page["summary"].push_back({{"label", "NRMSE, held-out recordings"},
+                               {"value", format_number(*result.nrmse_heldout, 3)},
+                               {"note", "fitted without " + heldout_names}});
   }
   page["summary"].push_back(
       {{"label", "Evaluations"},
