@@ -194,6 +194,26 @@ TEST(March, IsAccurateOnUnevenSamples) {
   expect_accurate(motion_of(time, multisine(8)), 43, 60, "uneven multisine");
 }
 
+// A share far above its default box: unloading is then up to 39 times as stiff as loading, which has larger steps.
+TEST(March, IsAccurateWhereUnloadingIsStiff) {
+  for (const double rate : {50.0, 200.0, 1000.0, 5000.0}) {
+    for (const Motion& motion :
+         {motion_of(uniform_time(rate, 0.5), sine), motion_of(uniform_time(rate, 0.5), multisine(11))}) {
+      Motion tight = motion;
+      tight.step_limit = 0.02;
+      for (const char* id : {"bouc-wen", "modified-bouc-wen"}) {
+        const Part& part = *find_model(id);
+        for (std::uint64_t i = 0; i < 12; ++i) {
+          Vector p = draw(part, 44, i);
+          p[parameter_index(part, "share")] = 1.5 * std::pow(20.0 / 1.5, static_cast<double>(i) / 11.0);
+          EXPECT_LT(error_of(simulate(law(part), motion, p), simulate(law(part), tight, p)), 1e-4)
+              << id << " at " << rate << " Hz, draw " << i;
+        }
+      }
+    }
+  }
+}
+
 Vector bouc_wen(double alpha, double c0, double k0, double x_y, double share, double n) {
   const Part& part = *find_model("bouc-wen");
   Vector p(part.parameters.size(), 0.0);
