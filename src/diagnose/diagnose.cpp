@@ -52,6 +52,32 @@ std::vector<Estimate> estimates_of(const Workbench& bench, const Fit& fit) {
   return identification.estimates;
 }
 
+// Estimates of the fits that have been asked for: one fit is asked for several effects, and derivatives behind series
+// elements take long.
+class Estimates {
+ public:
+  explicit Estimates(const Workbench& bench) : bench_(&bench) {}
+
+  // Valid until the next one.
+  const std::vector<Estimate>& of(const Fit& fit) {
+    const auto known =
+        std::ranges::find_if(known_, [&](const Known& one) { return one.what == fit.what && one.point == fit.point; });
+    if (known != known_.end()) {
+      return known->estimates;
+    }
+    return known_.emplace_back(fit.what, fit.point, estimates_of(*bench_, fit)).estimates;
+  }
+
+ private:
+  struct Known {
+    Hypothesis what;
+    std::vector<double> point;
+    std::vector<Estimate> estimates;
+  };
+  const Workbench* bench_;
+  std::vector<Known> known_;
+};
+
 std::vector<ParameterInterval> intervals_of(const std::vector<Estimate>& estimates, const std::string& effect) {
   std::vector<ParameterInterval> result;
   for (const Estimate& row : estimates) {
@@ -116,9 +142,11 @@ std::string law_instead(const Search& search) {
   return search.augmented.what.model == search.base.what.model ? std::string{} : search.augmented.what.model;
 }
 
+// The effect of the augmented model in whose place a name stands: mostly itself.
+std::string place_of(const Named& named) { return named.in_place_of.value_or(named.id); }
+
 const Fit& without_of(const Search& search, const Named& named) {
-  const auto found = std::ranges::find_if(
-      search.found, [&](const Found& one) { return one.part.effect == named.in_place_of.value_or(named.id); });
+  const auto found = std::ranges::find(search.found, place_of(named), [](const Found& one) { return one.part.effect; });
   return found->without;
 }
 
@@ -249,20 +277,17 @@ struct Judgement {
   std::optional<ColumnTold> column;
   Evidence evidence;
   Verdict verdict;
+  std::optional<Estimates> estimates;
 };
 
 Judgement judged(Search found, const Workbench& bench, const Workbench& fine, const std::string& doubt_of_data) {
-  std::map<const Fit*, std::vector<Estimate>> estimates;  // fits are asked for several effects
   Judgement result;
+  result.estimates.emplace(fine);
   result.search = std::move(found);
   result.contrasts = contrasts(fine.split().fit, fine.residuals(result.search.base).of);
-  const Circumstances known = {[&](const Fit& fit, const std::string& effect) {
-                                 if (!estimates.contains(&fit)) {
-                                   estimates[&fit] = estimates_of(fine, fit);
-                                 }
-                                 return intervals_of(estimates[&fit], effect);
-                               },
-                               velocity_channel_lag(bench.split().fit), result.contrasts};
+  const Circumstances known = {
+      [&](const Fit& fit, const std::string& effect) { return intervals_of(result.estimates->of(fit), effect); },
+      velocity_channel_lag(bench.split().fit), result.contrasts};
   result.surprising = surprises(bench, result.search.augmented);
   result.evidence = evidence_of(result.search, fine, known);
   result.evidence.doubt_of_completeness = doubt_of_completeness(result.search, fine, result.surprising);
@@ -351,6 +376,9 @@ void score_on_all(Search& found, const std::vector<Named>& names, const Workbenc
   found.base = bench.scored(found.base);
   found.augmented = bench.scored(found.augmented);
   for (Found& one : found.found) {
+    if (std::ranges::find(names, one.part.effect, place_of) == names.end()) {
+      continue;
+    }
     one.without = bench.scored(one.without);
     for (Rival& rival : one.rivals) {
       if (rival.fit && std::ranges::find(names, rival.part.effect, &Named::id) != names.end()) {
@@ -487,7 +515,7 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const Split& split
   diagnosis.drift_of_base = drift_of(fine, diagnosis.search.base);
   diagnosis.drift_of_augmented = drift_of(fine, diagnosis.search.augmented);
   for (const Named& named : names) {
-    diagnosis.parameters.push_back(intervals_of(estimates_of(fine, fit_of(diagnosis.search, named)), named.id));
+    diagnosis.parameters.push_back(intervals_of(judgement.estimates->of(fit_of(diagnosis.search, named)), named.id));
     diagnosis.sentences.push_back(
         sentence_of(diagnosis, named, diagnosis.parameters.back()) +
         (instead.empty() ? "" : " All this behind " + instead + ", which takes the place of " + options.model + "."));
@@ -497,7 +525,7 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const Split& split
     diagnosis.views.push_back(view_of(contrast_of(diagnosis, named.id), fine.split().fit, of_base.of));
   }
   for (const Named& shape : diagnosis.verdict.doubtful) {
-    diagnosis.shapes.push_back(intervals_of(estimates_of(fine, diagnosis.search.augmented), shape.id));
+    diagnosis.shapes.push_back(intervals_of(judgement.estimates->of(diagnosis.search.augmented), shape.id));
   }
   std::vector<std::string> absent;
   for (const std::string& id : searching.candidates) {
