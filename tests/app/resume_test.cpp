@@ -50,7 +50,7 @@ class Resume : public Program {
     const fs::path log = folder_ / out / "diagnosis.partial-wal";
     constexpr std::uintmax_t tables = 24000;
     std::error_code none;
-    for (int k = 0; k < 5000; ++k) {
+    for (int k = 0; k < 60000; ++k) {
       const std::uintmax_t size = fs::file_size(log, none);
       if (!none && size > tables) return;
       usleep(1000);
@@ -162,7 +162,7 @@ TEST_F(Resume, AChangedCommandStartsAfresh) {
     // Told before the work, which need not be waited for.
     const std::string afresh = "diagnosis.partial is of other recordings, options or another program: starting afresh";
     bool told = false;
-    for (int k = 0; k < 3000 && !told; ++k) {
+    for (int k = 0; k < 60000 && !told; ++k) {
       told = read(folder_ / "stderr.txt").find(afresh) != std::string::npos;
       usleep(1000);
     }
