@@ -252,8 +252,14 @@ json score_hidden(const std::filesystem::path& out, const std::string& hash) {
   const json plain = written_in(out, campaign_name(0), "diagnosis.json");
   const Said as_recorded = said_in(plain, {});
   json campaigns = json::array();
+  int not_diagnosed = 0;
   for (const json& answer : answers.at("campaigns")) {
     const auto name = answer.at("campaign").get<std::string>();
+    const auto folder = out / "diagnoses" / name;
+    if (!std::filesystem::exists(folder / "diagnosis.json") && !std::filesystem::exists(folder / "failed.txt")) {
+      ++not_diagnosed;
+      continue;
+    }
     const auto id = answer.at("hidden").get<std::string>();
     const bool placebo = answer.at("placebo").get<bool>();
     Names hidden;
@@ -314,6 +320,7 @@ json score_hidden(const std::filesystem::path& out, const std::string& hash) {
           {"seed", answers.at("seed")},
           {"seal", read_file(out / "seal.sha256").substr(0, 64)},
           {"base_residual_n", number_of(answers, "base_residual_n")},
+          {"not_diagnosed", not_diagnosed},
           {"as_recorded",
            {{"verdict", plain.is_object() ? plain.at("verdict") : json(nullptr)},
             {"named", as_recorded.claims.definite},

@@ -37,13 +37,13 @@ std::string hide_all(const std::filesystem::path& out, const Campaign& campaign,
                      std::uint64_t seed, const BaseResidual& residual = {});
 
 // Opens the seal, holding it against `hash` (empty: the one of seal.sha256), and scores:
-// {"schema","seed","seal","base_residual_n","as_recorded":{"verdict","named","candidates"},"sizes":[..],"placebos":rate,
-//  "names":rate,"reliability":[..],"campaigns":[{"campaign","hidden","placebo","size","share","verdict","answer","named",
-//  "candidates","outcome","parameters":[..],"nrmse_heldout_before","nrmse_heldout_after"}]}
+// {"schema","seed","seal","base_residual_n","not_diagnosed","as_recorded":{"verdict","named","candidates"},"sizes":[..],
+//  "placebos":rate,"names":rate,"reliability":[..],"campaigns":[{"campaign","hidden","placebo","size","share","verdict",
+//  "answer","named","candidates","outcome","parameters":[..],"nrmse_heldout_before","nrmse_heldout_after"}]}
 // Outcomes: found (named; of several, all), part (some of several), in a set, suggested, in the model (not named, but
 // in the augmented model, and not in that of the recordings as they are), not found; wrong: a name that neither was
-// hidden nor stands as recorded; of placebos refused or wrong; failed: no diagnosis. What stands as recorded is neither
-// right nor wrong: it is left out of "answer".
+// hidden nor stands as recorded; of placebos refused or wrong; failed: the diagnosis was. Campaigns not reached are not
+// counted. What stands as recorded is neither right nor wrong: it is left out of "answer".
 [[nodiscard]] nlohmann::json score_hidden(const std::filesystem::path& out, const std::string& hash);
 
 }  // namespace hysteron::challenge

@@ -45,17 +45,21 @@ std::string hidden_markdown(const json& result) {
   int effects = 0;
   int found = 0;
   int in_set = 0;
+  int suggested = 0;
   for (const json& row : result.at("campaigns")) {
     if (row.at("placebo")) continue;
     ++effects;
     found += row.at("outcome") == "found" ? 1 : 0;
     in_set += row.at("outcome") == "in a set" ? 1 : 0;
+    suggested += row.at("outcome") == "suggested" ? 1 : 0;
   }
   text += fmt::format(
-      "Of {} hidden effects {} were named and {} stand in a declared set. {} placebos got a name that the recordings "
-      "as "
-      "they are do not have. Of the names beside those, {} were hidden.\n\n",
-      effects, found, in_set, counted(result.at("placebos")), counted(result.at("names")));
+      "Of {} hidden effects {} were named, {} stand in a declared set and {} are suggested. {} placebos got a name "
+      "that "
+      "the recordings as they are do not have. Of the names beside those, {} were hidden.",
+      effects, found, in_set, suggested, counted(result.at("placebos")), counted(result.at("names")));
+  const int left = result.at("not_diagnosed");
+  text += left > 0 ? fmt::format(" {} campaigns have not been diagnosed and are not counted.\n\n", left) : "\n\n";
   text += fmt::format("Seed {}, sha256 of the sealed answers {}.\n\n", result.at("seed").get<std::uint64_t>(),
                       result.at("seal").get<std::string>());
   text += fmt::format("As recorded: {}; named: {}; candidates: {}; suggested: {}.", word(plain.at("verdict")),
@@ -88,8 +92,8 @@ std::string hidden_markdown(const json& result) {
   if (!hidden.empty()) {
     text +=
         "## Hidden effects\n\nSize: RMS of the change of force over what the base law leaves. Share: the same over the "
-        "RMS "
-        "of the force; for what is in series,\ndeflection at the peak force over the smallest amplitude, of the same "
+        "RMS of the force; for what is in series,\ndeflection at the peak force over the smallest amplitude, of the "
+        "same "
         "share. Answer: without what stands for the recordings as they are.\nA name is wrong when it neither was "
         "hidden "
         "nor stands for the recordings as they are. In the model: without a name, as what stays\nunexplained may be "

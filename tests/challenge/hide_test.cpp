@@ -1,5 +1,6 @@
 #include "challenge/hide.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -288,7 +289,15 @@ TEST_F(HideRun, WritesCampaignsThatDoNotTellAndScoresThem) {
   EXPECT_EQ(modelled.at("parameters")[0].at("found"), 3.5);
   diagnosed("campaign-0000", "unattributed", {"inertia"});
   EXPECT_EQ(score_hidden(out_, hash).at("campaigns")[0].at("outcome"), "not found");
+  // One that was not reached is no failure, and not counted; one whose diagnosis failed is.
+  EXPECT_EQ(score_hidden(out_, hash).at("not_diagnosed"), 0);
   std::filesystem::remove_all(out_ / "diagnoses" / inertia);
+  const nlohmann::json partial = score_hidden(out_, hash);
+  EXPECT_EQ(partial.at("not_diagnosed"), 1);
+  ASSERT_EQ(partial.at("campaigns").size(), 1U);
+  EXPECT_NE(hidden_markdown(partial).find("1 campaigns have not been diagnosed"), std::string::npos);
+  std::filesystem::create_directories(folder);
+  write_file_atomically(folder / "failed.txt", "no candidate\n");
   EXPECT_EQ(score_hidden(out_, hash).at("campaigns")[0].at("outcome"), "failed");
 }
 
@@ -306,6 +315,11 @@ TEST_F(HideRun, SizesAreThoseOfTheBaseResidual) {
   EXPECT_EQ(asked, 1);
   EXPECT_THROW(hide_all(out_ / "other", plain, tasks, 7), InputError);
   diagnosed("campaign-0000", "unattributed", {});
+  for (std::size_t k = 1; k <= tasks.size(); ++k) {
+    const std::filesystem::path folder = out_ / "diagnoses" / fmt::format("campaign-{:04}", k);
+    std::filesystem::create_directories(folder);
+    write_file_atomically(folder / "failed.txt", "not worked at here\n");
+  }
   std::set<std::string> placebos;
   const nlohmann::json scored = score_hidden(out_, hash);
   for (const nlohmann::json& row : scored.at("campaigns")) {
