@@ -9,6 +9,7 @@
 
 #include "challenge/claims.hpp"
 #include "challenge/hide.hpp"
+#include "challenge/run.hpp"
 #include "challenge/score.hpp"
 #include "challenge/seal.hpp"
 #include "core/error.hpp"
@@ -255,8 +256,7 @@ json score_hidden(const std::filesystem::path& out, const std::string& hash) {
   int not_diagnosed = 0;
   for (const json& answer : answers.at("campaigns")) {
     const auto name = answer.at("campaign").get<std::string>();
-    const auto folder = out / "diagnoses" / name;
-    if (!std::filesystem::exists(folder / "diagnosis.json") && !std::filesystem::exists(folder / "failed.txt")) {
+    if (!was_reached(out / "diagnoses" / name)) {
       ++not_diagnosed;
       continue;
     }

@@ -122,6 +122,10 @@ int diagnose_all(const std::filesystem::path& out, const Diagnose& diagnose, con
   return failed;
 }
 
+bool was_reached(const std::filesystem::path& diagnosis) {
+  return std::filesystem::exists(diagnosis / "diagnosis.json") || std::filesystem::exists(diagnosis / "failed.txt");
+}
+
 json score_all(const std::filesystem::path& out, const std::string& hash, const FormChoice& choice) {
   const json answers = open_seal(out, hash);
   json campaigns = json::array();
@@ -131,7 +135,7 @@ json score_all(const std::filesystem::path& out, const std::string& hash, const 
     const auto folder = out / "diagnoses" / answer.at("campaign").get<std::string>();
     const auto path = folder / "diagnosis.json";
     json diagnosis;
-    if (!std::filesystem::exists(path) && !std::filesystem::exists(folder / "failed.txt")) {
+    if (!was_reached(folder)) {
       ++left;
       continue;
     }

@@ -34,6 +34,9 @@ std::string make_all(const std::filesystem::path& out, const std::vector<Task>& 
 // Diagnoses every campaign that has no diagnosis.json yet; returns how many failed.
 int diagnose_all(const std::filesystem::path& out, const Diagnose& diagnose, const Steps& steps);
 
+// Whether a campaign's diagnosis, in its folder, was done or failed.
+[[nodiscard]] bool was_reached(const std::filesystem::path& diagnosis);
+
 // Opens the seal, holding it against `hash` (empty: the one of seal.sha256), and scores what was diagnosed or failed:
 // challenge.json's content, with "not_diagnosed" counting the rest. With a choice only campaigns that hold one of its
 // forms or foreign causes, and none of those left out.

@@ -7,6 +7,7 @@
 #include "fit/correlation.hpp"
 #include "fit/identify.hpp"
 #include "fit/jackknife.hpp"
+#include "fit/neighbours.hpp"
 
 namespace hysteron {
 namespace {
@@ -26,19 +27,15 @@ struct Uncertainty {
 
 // Lag-1 correlation of the residuals, pooled: a coloured residual carries fewer independent samples than it has.
 double residual_correlation(const Objective& objective, const std::vector<Term>& terms) {
-  double product = 0.0;
-  double square = 0.0;
+  NeighbourCorrelation pooled;
   for (const Target& target : objective.targets()) {
-    const std::vector<double> force = predict(objective.layout().model(), objective.layout().held(), terms, target);
-    double before = 0.0;
-    for (std::size_t n = 0; n < force.size(); ++n) {
-      const double residual = (force[n] - target.force[n]) / target.normaliser;
-      product += n > 0 ? residual * before : 0.0;
-      square += residual * residual;
-      before = residual;
+    std::vector<double> residual = predict(objective.layout().model(), objective.layout().held(), terms, target);
+    for (std::size_t n = 0; n < residual.size(); ++n) {
+      residual[n] = (residual[n] - target.force[n]) / target.normaliser;
     }
+    pooled.add(residual);
   }
-  return square > 0.0 ? std::clamp(product / square, 0.0, 0.9999) : 0.0;
+  return pooled.value();
 }
 
 namespace {

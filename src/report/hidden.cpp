@@ -59,7 +59,7 @@ std::string hidden_markdown(const json& result) {
       "the recordings as they are do not have. Of the names beside those, {} were hidden.",
       effects, found, in_set, suggested, counted(result.at("placebos")), counted(result.at("names")));
   const int left = result.at("not_diagnosed");
-  text += left > 0 ? fmt::format(" {} campaigns have not been diagnosed and are not counted.\n\n", left) : "\n\n";
+  text += left > 0 ? fmt::format(" Campaigns not diagnosed, and not counted: {}.\n\n", left) : "\n\n";
   text += fmt::format("Seed {}, sha256 of the sealed answers {}.\n\n", result.at("seed").get<std::uint64_t>(),
                       result.at("seal").get<std::string>());
   text += fmt::format("As recorded: {}; named: {}; candidates: {}; suggested: {}.", word(plain.at("verdict")),

@@ -8,6 +8,7 @@
 
 #include "core/drive.hpp"
 #include "core/error.hpp"
+#include "fit/neighbours.hpp"
 #include "fit/parallel.hpp"
 #include "respond/respond.hpp"
 
@@ -219,20 +220,6 @@ std::vector<double> unit_point(const Layout& layout, const std::vector<Term>& te
   return result;
 }
 
-// Lag-1 correlation of the misfits, pooled.
-double correlation(const ResponseObjective& objective, const std::vector<double>& point, std::size_t recordings) {
-  double product = 0.0;
-  double square = 0.0;
-  for (std::size_t r = 0; r < recordings; ++r) {
-    const std::vector<double> values = objective.misfit_of(point, r);
-    for (std::size_t n = 0; n < values.size(); ++n) {
-      product += n > 0 ? values[n] * values[n - 1] : 0.0;
-      square += values[n] * values[n];
-    }
-  }
-  return square > 0.0 ? std::clamp(product / square, 0.0, 0.9999) : 0.0;
-}
-
 // Derivatives by the first `kept` coordinates while the others follow.
 Response without_starts(const Response& whole, std::size_t kept) {
   const auto d = static_cast<Eigen::Index>(whole.gradient.size());
@@ -302,7 +289,11 @@ ResponseFit refine(Identification& result, const std::vector<Recording>& respons
   const std::vector<double> shared(point.begin(), point.begin() + static_cast<std::ptrdiff_t>(layout.dimension()));
   result.terms = layout.terms(shared);
 
-  const double r = correlation(objective, point, count);
+  NeighbourCorrelation pooled;
+  for (std::size_t k = 0; k < count; ++k) {
+    pooled.add(objective.misfit_of(point, k));
+  }
+  const double r = pooled.value();
   const double independent = static_cast<double>(objective.samples()) * (1.0 - r) / (1.0 + r);
   for (const std::string& stale : warnings_of(result.estimates)) {
     std::erase(result.warnings, stale);

@@ -295,7 +295,7 @@ TEST_F(HideRun, WritesCampaignsThatDoNotTellAndScoresThem) {
   const nlohmann::json partial = score_hidden(out_, hash);
   EXPECT_EQ(partial.at("not_diagnosed"), 1);
   ASSERT_EQ(partial.at("campaigns").size(), 1U);
-  EXPECT_NE(hidden_markdown(partial).find("1 campaigns have not been diagnosed"), std::string::npos);
+  EXPECT_NE(hidden_markdown(partial).find("not diagnosed, and not counted: 1."), std::string::npos);
   std::filesystem::create_directories(folder);
   write_file_atomically(folder / "failed.txt", "no candidate\n");
   EXPECT_EQ(score_hidden(out_, hash).at("campaigns")[0].at("outcome"), "failed");
