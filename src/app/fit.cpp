@@ -469,11 +469,15 @@ void add_fit(CLI::App& program) {
   CLI::Option* response = command->add_flag(
       "--response", options->response,
       "the recordings are of a mass on the damper: its displacement, and the force on it (none: free decay)");
-  command->add_option("--mass", options->rig.mass, "kg, with --response")->needs(response)->check(CLI::PositiveNumber);
+  command->add_option("--mass", options->rig.mass, "kg, with --response")
+      ->needs(response)
+      ->check(real_number(1e-9, 1e12));
   command->add_option("--stiffness", options->rig.stiffness, "N/m, of a spring beside the damper, with --response")
-      ->needs(response);
+      ->needs(response)
+      ->check(real_number(-1e15, 1e15));
   command->add_option("--damping", options->rig.damping, "N s/m, of a dashpot beside the damper, with --response")
-      ->needs(response);
+      ->needs(response)
+      ->check(real_number(-1e15, 1e15));
   command
       ->add_option("--interpolation", options->interpolation,
                    "of the force on the mass between its samples: linear, cubic, band-limited; with --response")

@@ -10,6 +10,7 @@
 #include "app/command.hpp"
 #include "app/model_file.hpp"
 #include "app/result.hpp"
+#include "app/values.hpp"
 #include "core/drive.hpp"
 #include "core/error.hpp"
 #include "io/campaign.hpp"
@@ -150,9 +151,11 @@ void add_respond(CLI::App& program) {
       ->expected(1);
   command->add_option("--column", options->data.columns, "channel=NAME [UNIT] of a column; repeatable")
       ->allow_extra_args(false);
-  command->add_option("--mass", options->oscillator.mass, "kg")->required()->check(CLI::PositiveNumber);
-  command->add_option("--stiffness", options->oscillator.stiffness, "N/m, of a spring beside the model");
-  command->add_option("--damping", options->oscillator.damping, "N s/m, of a dashpot beside the model");
+  command->add_option("--mass", options->oscillator.mass, "kg")->required()->check(real_number(1e-9, 1e12));
+  command->add_option("--stiffness", options->oscillator.stiffness, "N/m, of a spring beside the model")
+      ->check(real_number(-1e15, 1e15));
+  command->add_option("--damping", options->oscillator.damping, "N s/m, of a dashpot beside the model")
+      ->check(real_number(-1e15, 1e15));
   command
       ->add_option("--excitation", options->excitation,
                    "force: on the mass; base: displacement of the ground; auto: what the file holds")

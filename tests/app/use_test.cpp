@@ -124,6 +124,11 @@ TEST_F(Use, AResponseWantsTheMass) {
   const Outcome outcome = run({"fit", "data", "--response", "--model", "viscous", "--out", "out"});
   EXPECT_EQ(outcome.status, 2);
   EXPECT_NE(outcome.err.find("--response requires --mass"), std::string::npos) << outcome.err;
+  for (const char* mass : {"0", "-3", "nan", "inf", "20kg"}) {
+    const Outcome wrong = run({"fit", "data", "--response", "--mass", mass, "--model", "viscous", "--out", "out"});
+    EXPECT_EQ(wrong.status, 2) << mass;
+    EXPECT_NE(wrong.err.find("is not a number from 1e-09 to 1e+12"), std::string::npos) << wrong.err;
+  }
   EXPECT_FALSE(fs::exists(folder_ / "out"));
 }
 
