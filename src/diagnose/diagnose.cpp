@@ -65,7 +65,7 @@ class Estimates {
     if (known != known_.end()) {
       return known->estimates;
     }
-    return known_.emplace_back(fit.what, fit.point, estimates_of(*bench_, fit)).estimates;
+    return known_.emplace_back(Known{fit.what, fit.point, estimates_of(*bench_, fit)}).estimates;
   }
 
  private:
