@@ -26,8 +26,9 @@ bool jitters(const Track& track, const Hold& hold) {
   return path > std::max(least_jitter * track.stroke, jitter * std::fabs(track.x[n] - track.x[hold.samples.first]));
 }
 
-double mean_between(const Track& track, const Values& values, const Hold& hold, std::size_t shift, double from,
-                    double to) {
+// Empty where no sample falls between: recordings of slow motions are sampled more coarsely than the early force lasts.
+std::optional<double> mean_between(const Track& track, const Values& values, const Hold& hold, std::size_t shift,
+                                   double from, double to) {
   const std::size_t first = hold.samples.first;
   const std::size_t size = hold.samples.end - first;
   double sum = 0.0;
@@ -39,15 +40,15 @@ double mean_between(const Track& track, const Values& values, const Hold& hold, 
       count += 1.0;
     }
   }
-  return count > 0.0 ? sum / count : 0.0;
+  return count > 0.0 ? std::optional(sum / count) : std::nullopt;
 }
 
 // What relaxes, as a share of the peak force, of a residual that is moved within the hold.
-double relaxation(const Track& track, const Hold& hold, std::size_t shift) {
+std::optional<double> relaxation(const Track& track, const Hold& hold, std::size_t shift) {
   const Values& force = jitters(track, hold) ? track.force : track.missing;
-  const double early = mean_between(track, force, hold, shift, early_from, early_to);
-  const double late = mean_between(track, force, hold, shift, late_from, late_to);
-  return hold.direction * (early - late) / track.peak;
+  const std::optional<double> early = mean_between(track, force, hold, shift, early_from, early_to);
+  const std::optional<double> late = mean_between(track, force, hold, shift, late_from, late_to);
+  return early && late ? std::optional(hold.direction * (*early - *late) / track.peak) : std::nullopt;
 }
 
 std::vector<Event> relaxations(std::span<const Track> tracks, std::optional<std::size_t> placebo) {
@@ -64,7 +65,9 @@ std::vector<Event> relaxations(std::span<const Track> tracks, std::optional<std:
         shift = placebo_shift(*placebo, 1000 * track.recording + k, hold.samples.end - hold.samples.first, 0.0);
         sign = placebo_sign(*placebo, track.recording, k);
       }
-      result.push_back({track.recording, sign * relaxation(track, hold, shift)});
+      if (const std::optional<double> size = relaxation(track, hold, shift)) {
+        result.push_back({track.recording, sign * *size});
+      }
     }
   }
   return result;
