@@ -37,7 +37,22 @@ Motion beginning_of(const Motion& motion, std::size_t count) {
   first(motion.a, result.a, count);
   first(motion.jerk, result.jerk, count);
   first(motion.drive, result.drive, count);
+  first(motion.load, result.load, count);
   first(motion.intervals, result.intervals, count - 1);
+  return result;
+}
+
+// The measured force less its fastest noise: at each sample the parabola through the five samples around it.
+std::vector<double> smoothed_force(const Recording& recording) {
+  constexpr std::array<double, 5> weights = {-3.0 / 35.0, 12.0 / 35.0, 17.0 / 35.0, 12.0 / 35.0, -3.0 / 35.0};
+  const std::vector<double>& force = recording.force;
+  std::vector<double> result = force;
+  for (std::size_t n = 2; n + 2 < force.size(); ++n) {
+    result[n] = 0.0;
+    for (std::size_t k = 0; k < weights.size(); ++k) {
+      result[n] += weights[k] * force[n + k - 2];
+    }
+  }
   return result;
 }
 
@@ -123,6 +138,9 @@ Target make_target(const Recording& recording, const ObjectiveOptions& options) 
 Target make_target(const Recording& recording, const ObjectiveOptions& options, bool lean) {
   Target target;
   target.motion = motion_of(recording, options.tolerance, lean);
+  if (options.under_measured_force) {
+    target.motion.load = smoothed_force(recording);
+  }
   target.fastest = fastest_of(target.motion);
   target.force = recording.force;
   target.frequency = dominant_frequency(recording);

@@ -15,7 +15,10 @@ struct ObjectiveOptions {
   Weighting weighting = Weighting::per_recording;
   double tolerance = 1e-4;  // relative error of the integration
   bool comparing = false;   // coarser than any tolerance: comparing_motion
-  int threads = 0;          // 0: OpenMP's default
+  // Series elements bear the measured force, so that no balance is solved (simulate/under_load.hpp). For starts of a
+  // descent, not for forces.
+  bool under_measured_force = false;
+  int threads = 0;  // 0: OpenMP's default
   // Leave out of the cost the run-in of recordings that begin in mid-motion and never come back to their start, so that
   // the initial hysteresis is neither known nor found by marching a period beforehand.
   bool skip_run_in = false;

@@ -141,6 +141,7 @@ void prepare(const Motion& lean, std::size_t first, std::size_t last, Motion& pi
   part(lean.v, piece.v);
   part(lean.a, piece.a);
   part(lean.drive, piece.drive);
+  part(lean.load, piece.load);
   piece.jerk = slopes(lean.time, lean.a, first, last);
   add_intervals(piece.time, slopes(lean.time, lean.v, first, last), piece);
 }

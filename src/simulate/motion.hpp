@@ -41,6 +41,7 @@ struct Motion {
   std::vector<double> a;
   std::vector<double> jerk;
   std::vector<double> drive;  // empty: zero
+  std::vector<double> load;   // N, force that series elements are taken to bear; empty: that of the model, by balance
   std::vector<MotionInterval> intervals;
   double lead = 0.0;  // s marched before the first sample
   // Largest |lambda| h a sub-step may have: 0.5 at the default tolerance of 1e-4 of peak force.

@@ -197,8 +197,8 @@ Fit Workbench::finished(const Hypothesis& what, const Layout& layout, std::vecto
 }
 
 // Independent descents in step, so that their points share packs.
-Fit Workbench::descended(const Hypothesis& what, const Layout& layout, const Objective& objective,
-                         const std::vector<std::vector<double>>& starts, int rounds) const {
+Workbench::Reached Workbench::reached(const Layout& layout, const Objective& objective,
+                                      const std::vector<std::vector<double>>& starts, int rounds) const {
   const SolverEntry* entry = find_solver("lm");
   struct Run {
     std::unique_ptr<Solver> solver;
@@ -258,7 +258,7 @@ Fit Workbench::descended(const Hypothesis& what, const Layout& layout, const Obj
     }
   }
   const auto best = std::ranges::min_element(runs, {}, &Run::cost);
-  return finished(what, layout, best->best, best->cost);
+  return {best->best, best->cost};
 }
 
 Fit Workbench::descended(const Hypothesis& what, const Layout& layout, const std::vector<std::vector<double>>& starts,
@@ -275,8 +275,9 @@ Fit Workbench::descended(const Hypothesis& what, const Layout& layout, const std
     add_recordings(key, *others);
   }
   return fit_piece(key, what, layout, [&] {
-    return descended(what, layout, Objective(layout, others != nullptr ? *others : split_.fit, options_), starts,
-                     rounds);
+    const Reached best =
+        reached(layout, Objective(layout, others != nullptr ? *others : split_.fit, options_), starts, rounds);
+    return finished(what, layout, best.point, best.cost);
   });
 }
 
@@ -381,8 +382,39 @@ Starts Workbench::starts(const Hypothesis& what, const Fit& warm, const Fit* als
   return {std::move(shared), std::move(starts), std::move(known), std::move(sizes)};
 }
 
+// The point that descents reach under the measured force.
+std::vector<double> Workbench::under_measured_force(const Starts& starts, int rounds) const {
+  ByteWriter key;
+  key.text("under the measured force");
+  add_layout(key, *starts.layout);
+  key.whole(static_cast<std::uint64_t>(rounds));
+  for (const std::vector<double>& start : starts.points) {
+    key.numbers(start);
+  }
+  const std::string bytes = piece(key, [&] {
+    ObjectiveOptions options = options_;
+    options.under_measured_force = true;
+    ByteWriter result;
+    result.numbers(
+        reached(*starts.layout, Objective(*starts.layout, split_.fit, options), starts.points, rounds).point);
+    return result.bytes();
+  });
+  return ByteReader(bytes).numbers();
+}
+
 Fit Workbench::from_starts(const Hypothesis& what, const Starts& starts, int rounds) const {
-  return descended(what, *starts.layout, starts.points, rounds);
+  const bool balances = std::ranges::any_of(what.effects, [](const std::string& id) { return find_effect(id)->bends; });
+  if (!balances || starts.points.size() < 2) {
+    return descended(what, *starts.layout, starts.points, rounds);
+  }
+  // What the descents reach without solving for the balance of forces, or the best start as it is: the better one goes
+  // on with the balance solved. It is near, so that half the rounds do.
+  std::vector<double> reached = under_measured_force(starts, rounds);
+  std::vector<double> both = starts.points.front();
+  both.insert(both.end(), reached.begin(), reached.end());
+  const std::vector<double> cost = Objective(*starts.layout, split_.fit, options_).evaluate({both, false}).cost;
+  return descended(what, *starts.layout, {cost[1] < cost[0] ? std::move(reached) : starts.points.front()},
+                   (rounds + 1) / 2);
 }
 
 Fit Workbench::from_fit(const Hypothesis& what, const Fit& warm, int rounds, const Fit* also) const {

@@ -110,8 +110,13 @@ class Workbench {
   [[nodiscard]] Fit descended(const Hypothesis& what, const Layout& layout,
                               const std::vector<std::vector<double>>& starts, int rounds,
                               const std::vector<Recording>* others = nullptr) const;
-  [[nodiscard]] Fit descended(const Hypothesis& what, const Layout& layout, const Objective& objective,
-                              const std::vector<std::vector<double>>& starts, int rounds) const;
+  struct Reached {
+    std::vector<double> point;
+    double cost;
+  };
+  [[nodiscard]] Reached reached(const Layout& layout, const Objective& objective,
+                                const std::vector<std::vector<double>>& starts, int rounds) const;
+  [[nodiscard]] std::vector<double> under_measured_force(const Starts& starts, int rounds) const;
 
   DataScale scale_;
   Split split_;
