@@ -19,8 +19,9 @@ struct Rival {
 
 struct Found {
   Extension part;
-  Fit without;        // the final hypothesis less this part, refitted
-  double gain = 0.0;  // squares without - squares with
+  Fit without;         // the final hypothesis less this part, refitted
+  double gain = 0.0;   // squares without - squares with
+  double alone = 0.0;  // squares that it takes off alone behind the base, from the best start seen; 0 for laws
   double evidence = 0.0;
   std::vector<Rival> rivals;               // best first
   bool told = false;                       // by the channels, without a model (SearchOptions::told)

@@ -220,9 +220,10 @@ Evidence evidence_of(const Search& search, const Workbench& fine, const Circumst
     one.id = found.part.effect;
     one.gain = without.squares - augmented.squares;
     one.score = comparison(augmented, without, noise);
+    one.gain_alone = found.alone;
     for (const Tried& tried : search.first_stage) {
       if (tried.part == found.part) {
-        one.gain_alone = tried.gain;
+        one.gain_alone = std::max(one.gain_alone, tried.gain);
       }
     }
     const std::vector<const Rival*> close = close_rivals(found);

@@ -226,6 +226,24 @@ std::vector<Found>::const_iterator unconfirmed(const Workbench& fine, const Fit&
   });
 }
 
+// What the part takes off alone behind the base. A first look from the base's own parameters may have gone astray where
+// the augmented model, which knows the part's size and shape, has not.
+double gain_alone(const Course& course, const Extension& part) {
+  const Hypothesis alone = with(course.base, part);
+  double cost = course.quick_base.cost;
+  for (const Fit& fit : course.seen) {
+    if (same_parts(fit.what, alone)) {
+      cost = std::min(cost, fit.cost);
+    }
+  }
+  if (!same_parts(course.current.what, alone)) {
+    cost = std::min(cost, course.bench.from_fit(alone, course.current, fitting_rounds).cost);
+  } else {
+    cost = std::min(cost, course.current.cost);
+  }
+  return squared(course.quick_base.cost) - squared(cost);
+}
+
 }  // namespace
 
 Fit confirmed(Course& course, const Workbench& fine, const Fit& fine_base, const std::vector<Extension>& candidates,
@@ -236,6 +254,10 @@ Fit confirmed(Course& course, const Workbench& fine, const Fit& fine_base, const
     Fit augmented = course.current.what == course.base ? fine_base : fine.polished(course.current, screening_rounds);
     const auto idle = unconfirmed(fine, augmented, found);
     if (idle == found.end()) {
+      for (Found& one : found) {
+        // A richer law is no name, and one of another effect's parameter is nothing without that effect.
+        one.alone = one.part.is_law() ? 0.0 : gain_alone(course, one.part);
+      }
       return augmented;
     }
     course.current = idle->without;
