@@ -3,8 +3,8 @@
 #     scripts/setup.sh [PACKAGE ...]     further ones
 set -euo pipefail
 packages=(g++ cmake ninja-build pkg-config npm libeigen3-dev libfmt-dev libcli11-dev nlohmann-json3-dev
-  libtomlplusplus-dev zlib1g-dev libhdf5-dev libmatio-dev libnlopt-dev libboost-dev libsqlite3-dev libzip-dev
-  librandom123-dev libgtest-dev libbenchmark-dev python3 "$@")
+  libtomlplusplus-dev zlib1g-dev libhdf5-dev libmatio-dev libnlopt-dev libboost-dev libsqlite3-dev libzip-dev libexpat1-dev
+  librandom123-dev libgtest-dev libbenchmark-dev python3 python3-openpyxl "$@")
 missing=()
 for package in "${packages[@]}"; do
   # npm may also come with another installation of Node.js.

@@ -28,13 +28,22 @@ std::string typed;
 }  // namespace
 
 void add_data_options(CLI::App& command, DataOptions& options) {
-  command.add_option("DATA", options.data, "CSV or MAT files, or folders of them with an optional campaign.toml")
+  command
+      .add_option("DATA", options.data,
+                  "CSV, MAT, TDMS, MDF 4, RPC III or xlsx files, or folders of them with an optional campaign.toml")
       ->required();
+  add_column_options(command, options);
+  command
+      .add_option("--skip", options.skip, "lines at the head of every CSV file, or rows of a sheet, that are not read")
+      ->transform(whole_number(0, 100000));
+}
+
+void add_column_options(CLI::App& command, DataOptions& options) {
   command
       .add_option("--column", options.columns, "channel=NAME [UNIT] of a column, e.g. force=\"CH1 [kgf]\"; repeatable")
       ->allow_extra_args(false);
-  command.add_option("--skip", options.skip, "lines at the head of every CSV file that are not read")
-      ->transform(whole_number(0, 100000));
+  command.add_option("--group", options.group,
+                     "group of TDMS and MDF files, or sheet of workbooks, that is read alone");
 }
 
 void add_keep_option(CLI::App& command, DataOptions& options) {
@@ -48,6 +57,7 @@ void add_keep_option(CLI::App& command, DataOptions& options) {
 
 ReadOptions read_options(const DataOptions& options) {
   ReadOptions read;
+  read.group = options.group;
   read.skip = options.skip;
   read.keep_samples = options.keep_samples;
   for (const std::string& mapping : options.columns) {

@@ -19,10 +19,13 @@ namespace hysteron::app {
 struct DataOptions {
   std::vector<std::string> data;
   std::vector<std::string> columns;  // force="CH1 [kgf]"
-  int skip = 0;                      // lines at the head of every CSV file
+  std::string group;                 // group or sheet of files that have them
+  int skip = 0;                      // lines at the head of every CSV file, rows of a sheet
   std::size_t keep_samples = 0;      // of all recordings together, 0 for all
 };
 void add_data_options(CLI::App& command, DataOptions& options);
+// --column and --group alone, for commands whose recordings are not all that they take.
+void add_column_options(CLI::App& command, DataOptions& options);
 // For commands that identify; the others take every sample.
 void add_keep_option(CLI::App& command, DataOptions& options);
 ReadOptions read_options(const DataOptions& options);

@@ -98,8 +98,7 @@ void add_export(CLI::App& program) {
   command->add_option(
       "--motion", options->motion,
       "recording whose motion the test vector replays; default a motion of 10 mm and a drive about 0.5");
-  command->add_option("--column", options->data.columns, "channel=NAME [UNIT] of a column of it; repeatable")
-      ->allow_extra_args(false);
+  add_column_options(*command, options->data);
   command->add_option("--tolerance", options->tolerance, "relative force error allowed to the integration")
       ->check(CLI::Range(1e-10, 1e-2))
       ->capture_default_str();

@@ -144,10 +144,8 @@ void add_profile(CLI::App& program) {
   auto options = std::make_shared<Options>();
   CLI::App* command =
       program.add_subcommand("profile", "where the time of a fit goes: solver, simulation, idle threads");
-  command->add_option("DATA", options->data.data,
-                      "CSV or MAT files, or folders of them; default the dataset rd8040-twin");
-  command->add_option("--column", options->data.columns, "channel=NAME [UNIT] of a column; repeatable")
-      ->allow_extra_args(false);
+  command->add_option("DATA", options->data.data, "recordings, or folders of them; default the dataset rd8040-twin");
+  add_column_options(*command, options->data);
   command->add_option("--model", options->models, "damper laws, one after the other; default that of the data")
       ->delimiter(',')
       ->allow_extra_args(false);

@@ -96,6 +96,23 @@ double BlockMeans::bend() const {
   return variance > 0.0 ? std::sqrt(std::max(bent, 0.0) / variance) : 0.0;
 }
 
+void thin(Channels& channels, const Sources& sources, const ReadOptions& options, const std::string& file) {
+  const std::size_t samples = channels[time_at].size();
+  if (options.keep_samples == 0 || samples <= options.keep_samples) return;
+  const std::size_t k = (samples + options.keep_samples - 1) / options.keep_samples;
+  BlockMeans means(sources, k);
+  Row row{};
+  for (std::size_t n = 0; n < samples; ++n) {
+    for (std::size_t i = 0; i < channels.size(); ++i) {
+      if (!channels[i].empty()) row[i] = channels[i][n];
+    }
+    means.add(row);
+  }
+  const double bend = means.bend();
+  channels = means.take();
+  if (options.remark) options.remark(thinning_remark(file, samples, k, channels[time_at], bend));
+}
+
 Remark thinning_remark(const std::string& file, std::size_t read, std::size_t k, const std::vector<double>& time,
                        double bend) {
   const std::size_t kept = time.size();

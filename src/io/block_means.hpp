@@ -57,6 +57,10 @@ class BlockMeans {
   std::size_t seen_ = 0;
 };
 
+// Channels of a recording in memory, averaged where they have more samples than `options` keep of it, which is
+// remarked. All have the length of the first, or are empty.
+void thin(Channels& channels, const Sources& sources, const ReadOptions& options, const std::string& file);
+
 // What happened, in one line: samples read and kept, what is between them, and whether the motion is told by them.
 [[nodiscard]] Remark thinning_remark(const std::string& file, std::size_t read, std::size_t k,
                                      const std::vector<double>& time, double bend);

@@ -10,9 +10,9 @@
 #include "core/printable.hpp"
 #include "io/block_means.hpp"
 #include "io/campaign_file.hpp"
-#include "io/csv.hpp"
 #include "io/file.hpp"
-#include "io/mat.hpp"
+#include "io/format.hpp"
+#include "io/sha256.hpp"
 #include "io/text.hpp"
 
 namespace hysteron {
@@ -35,19 +35,31 @@ bool is_folder(const fs::path& path) {
   return fs::is_directory(path, code);
 }
 
-// The recordings of a folder in bytewise order of name; hidden files are not recordings.
+InFolders in_folders(const std::string& ending) {
+  for (const InputFormat* format : formats()) {
+    for (const Ending& known : format->endings) {
+      if (known.text == ending) return known.in_folders;
+    }
+  }
+  return InFolders::none;
+}
+
+// The recordings of a folder in bytewise order of name; hidden files are not recordings, nor are those that office
+// programs keep beside an open file (~$NAME).
 std::vector<std::string> names_in(const fs::path& folder) {
   std::vector<std::string> names;
+  std::vector<std::string> if_alone;
   std::error_code code;
   for (fs::directory_iterator at(folder, code), end; !code && at != end; at.increment(code)) {
     const std::string name = at->path().filename().string();
-    const auto extension = extension_of(at->path());
-    if ((extension == ".csv" || extension == ".mat") && !name.starts_with('.') && !is_folder(at->path())) {
-      names.push_back(name);
-    }
+    const InFolders taken = in_folders(extension_of(at->path()));
+    if (taken == InFolders::none || name.starts_with('.') || name.starts_with("~$") || is_folder(at->path())) continue;
+    (taken == InFolders::all ? names : if_alone).push_back(name);
   }
   if (code)
     throw InputError(folder.string(), 0, "the folder cannot be read (" + code.message() + "), expected recordings");
+  // Beside recordings, a workbook holds what somebody wrote about them.
+  if (names.empty()) names = std::move(if_alone);
   std::ranges::sort(names);
   return names;
 }
@@ -97,14 +109,15 @@ void add_folder(const fs::path& folder, Campaign& campaign, std::vector<Item>& i
     const fs::path path = folder / entry.file;
     if (!fs::exists(path, code) || is_folder(path)) {
       throw InputError(toml.string(), entry.line,
-                       "there is no recording " + in_quotes(entry.file) + " in the folder, expected a CSV or MAT file");
+                       "there is no recording " + in_quotes(entry.file) + " in the folder, expected a file with one");
     }
     items.push_back({path, entry.file, base, entry.role});
   }
   if (!declared.entries.empty()) return;
   const auto names = names_in(folder);
   if (names.empty())
-    throw InputError(folder.string(), 0, "the folder holds no recordings, expected .csv or .mat files");
+    throw InputError(folder.string(), 0,
+                     "the folder holds no recordings, expected files such as .csv, .mat, .tdms, .mf4, .rsp or .xlsx");
   for (const auto& name : names) items.push_back({folder / name, name, base, Role::unassigned});
 }
 
@@ -137,17 +150,20 @@ void tell_apart(std::vector<Item>& items) {
 }  // namespace
 
 Recording load_recording(const fs::path& path, const ReadOptions& options) {
-  const auto extension = extension_of(path);
-  constexpr std::string_view text_extensions[] = {".csv", ".txt", ".tsv", ".dat"};
-  const bool is_mat = extension == ".mat";
-  // What is no file at all is said first.
-  { const InputFile there(path); }
-  if (!is_mat && std::ranges::find(text_extensions, extension) == std::end(text_extensions)) {
+  const InputFormat* format = find_format(path);
+  if (format == nullptr) {
     throw InputError(path.string(), 0,
-                     "unknown kind of file " + in_quotes(extension) +
-                         ", expected .csv, .txt, .tsv, .dat or .mat, or a folder of recordings");
+                     "unknown kind of file " + in_quotes(extension_of(path)) + ", expected " + list_of_endings() +
+                         ", or a folder of recordings");
   }
-  Recording recording = is_mat ? read_mat(path, options) : read_csv(path, options);
+  Recording recording;
+  if (format->read != nullptr) {
+    recording = format->read(path, options);
+  } else {
+    const std::string bytes = read_file(path);
+    recording = format->parse(bytes, path.string(), options);
+    recording.sha256 = sha256_hex(bytes);
+  }
   recording.file = valid_utf8(path.filename().string());
   return recording;
 }
@@ -166,11 +182,9 @@ std::size_t limit_of_each(const std::vector<Item>& items, std::size_t total) {
   if (total == 0 || bytes / shortest_row <= total) return total;
   std::vector<std::size_t> samples;
   for (const Item& item : items) {
-    // A MAT file tells its samples when it is read: two channels of numbers, unless they are packed.
-    constexpr std::uintmax_t sample = 16;
-    std::error_code code;
-    samples.push_back(extension_of(item.path) == ".mat" ? fs::file_size(item.path, code) / sample
-                                                        : count_rows(item.path));
+    // What is no recording is told when it is read.
+    const InputFormat* format = find_format(item.path);
+    samples.push_back(format == nullptr ? 0 : format->samples(item.path));
   }
   return kept_of_each(samples, total);
 }
@@ -178,7 +192,7 @@ std::size_t limit_of_each(const std::vector<Item>& items, std::size_t total) {
 }  // namespace
 
 Campaign load_campaign(const std::vector<std::string>& data, const ReadOptions& options) {
-  if (data.empty()) throw InputError("no recordings given, expected CSV or MAT files or folders of them");
+  if (data.empty()) throw InputError("no recordings given, expected files or folders of them");
   Campaign campaign;
   std::vector<Item> items;
   for (const auto& argument : data) {

@@ -90,7 +90,7 @@ class Assigner {
     for (const auto& [channel, value] : options_.columns) map(channel, value);
     for (std::size_t i = 0; i < columns_.size(); ++i) match(i);
     match_last_words();
-    require(Quantity::time);
+    if (options_.time_required) require(Quantity::time);
     if (options_.displacement_required) require(Quantity::displacement);
     if (options_.force_required) require(Quantity::force);
     return sources_;
@@ -159,16 +159,13 @@ class Assigner {
   // "Total Time", "Axial_Force": a channel that no column names alone is the one column whose last word names it.
   void match_last_words() {
     for (const Quantity quantity : {Quantity::time, Quantity::displacement, Quantity::force, Quantity::current}) {
-      if (source(quantity).column >= 0 || (quantity == Quantity::current && source(Quantity::voltage).column >= 0)) {
+      if (source(quantity).column >= 0 || (quantity == Quantity::current && source(Quantity::voltage).column >= 0) ||
+          (quantity == Quantity::time && !options_.time_required)) {
         continue;
       }
       std::vector<std::size_t> found;
       for (std::size_t i = 0; i < columns_.size(); ++i) {
-        const std::string_view name = columns_[i].name;
-        const std::size_t cut = name.find_last_of(" _-.");
-        const std::string_view last = cut == std::string_view::npos ? std::string_view{} : name.substr(cut + 1);
-        // A single letter may be anything.
-        if (!taken_[i] && last.size() > 1 && quantity_of_name(last) == quantity) found.push_back(i);
+        if (!taken_[i] && quantity_of_last_word(columns_[i].name) == quantity) found.push_back(i);
       }
       const std::string channel(quantity_name(quantity));
       if (found.size() > 1 && quantity != Quantity::current) {
@@ -215,6 +212,13 @@ std::optional<Quantity> quantity_of_name(std::string_view name) {
     if (lower == synonym) return quantity;
   }
   return std::nullopt;
+}
+
+std::optional<Quantity> quantity_of_last_word(std::string_view name) {
+  const std::size_t cut = name.find_last_of(" _-.");
+  const std::string_view last = cut == std::string_view::npos ? std::string_view{} : name.substr(cut + 1);
+  // A single letter may be anything.
+  return last.size() > 1 ? quantity_of_name(last) : std::nullopt;
 }
 
 Column split_column(std::string_view text) {

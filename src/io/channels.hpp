@@ -25,7 +25,8 @@ struct Remark {
 
 struct ReadOptions {
   // Channel -> column, e.g. "force" -> "CH1 [kgf]": the column's full text or name; a unit given here overrides
-  // the file's. In MAT files also a column number "3 [kN]" or "MATRIX:3 [kN]", counted from 1.
+  // the file's. In MAT files also a column number "3 [kN]" or "MATRIX:3 [kN]", counted from 1; in files with groups
+  // also "GROUP/NAME".
   std::map<std::string, std::string> columns;
   bool force_required = true;
   bool displacement_required = true;
@@ -33,6 +34,9 @@ struct ReadOptions {
   // Samples kept of all recordings together, 0 for all samples (io/block_means.hpp).
   std::size_t keep_samples = 0;
   std::function<void(const Remark&)> remark = {};
+  // Group of a TDMS or MDF file, or sheet of a workbook, that alone is read; empty for all of them.
+  std::string group = {};
+  bool time_required = true;  // otherwise only a mapping and a column's whole name make it the time
 };
 
 // A column as the file names it.
@@ -61,6 +65,9 @@ inline constexpr double shortest_step = 1e-30;  // s
 
 // The channel a column name stands for, by its usual synonyms and without case.
 [[nodiscard]] std::optional<Quantity> quantity_of_name(std::string_view name);
+
+// The channel that the last word of "Total Time" or "Axial_Force" names; nothing for a single word or letter.
+[[nodiscard]] std::optional<Quantity> quantity_of_last_word(std::string_view name);
 
 // "force [kN]" or "force (kN)" -> name and unit; the unit is empty when there is none.
 [[nodiscard]] Column split_column(std::string_view text);

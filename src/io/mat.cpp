@@ -57,7 +57,7 @@ class MatReader {
     const std::size_t samples = channels[0].size();
     const std::vector<UnusedColumn> others = unused(sources, samples);
     variables_ = {};  // as large as the channels
-    if (options_.keep_samples > 0 && samples > options_.keep_samples) thin(channels, sources);
+    thin(channels, sources, options_, file_);
     Recording recording = make_recording(std::move(channels));
     recording.unused.insert(recording.unused.end(), others.begin(), others.end());
     remark_on_sizes(recording, sources, columns_, options_, file_);
@@ -66,24 +66,6 @@ class MatReader {
 
  private:
   [[noreturn]] void fail(const std::string& message) const { throw InputError(file_, 0, message); }
-
-  void thin(Channels& channels, const Sources& sources) const {
-    const std::size_t samples = channels[0].size();
-    const std::size_t k = (samples + options_.keep_samples - 1) / options_.keep_samples;
-    BlockMeans means(sources, k);
-    Row row{};
-    for (std::size_t n = 0; n < samples; ++n) {
-      for (std::size_t i = 0; i < channels.size(); ++i) {
-        if (!channels[i].empty()) row[i] = channels[i][n];
-      }
-      means.add(row);
-    }
-    const double bend = means.bend();
-    channels = means.take();
-    if (options_.remark) {
-      options_.remark(thinning_remark(file_, samples, k, channels[0], bend));
-    }
-  }
 
   // Units by lower-case variable name.
   [[nodiscard]] std::map<std::string, std::string> read_units() const {

@@ -97,7 +97,7 @@ TEST(Campaign, WrongTomlIsOneClearLine) {
       {"unknown role", schema + "[[recording]]\nfile = \"r1.csv\"\nrole = \"test\"\n",
        ":4: unknown role 'test', expected 'fit' or 'validate'"},
       {"missing file", schema + "[[recording]]\nfile = \"r9.csv\"\n",
-       ":3: there is no recording 'r9.csv' in the folder, expected a CSV or MAT file"},
+       ":3: there is no recording 'r9.csv' in the folder, expected a file with one"},
       {"absolute file", schema + "[[recording]]\nfile = \"/r1.csv\"\n",
        ":3: 'file' is '/r1.csv', expected a name relative to the folder"},
       {"file outside", schema + "[[recording]]\nfile = \"../r1.csv\"\n",
@@ -127,13 +127,15 @@ TEST(Campaign, WrongArguments) {
   const auto message = [](std::vector<std::string> data) {
     return message_of<InputError>([&] { (void)load_campaign(data); });
   };
-  EXPECT_EQ(message({}), "no recordings given, expected CSV or MAT files or folders of them");
-  EXPECT_EQ(message({path}), path + ": the folder holds no recordings, expected .csv or .mat files");
+  EXPECT_EQ(message({}), "no recordings given, expected files or folders of them");
+  EXPECT_EQ(message({path}),
+            path + ": the folder holds no recordings, expected files such as .csv, .mat, .tdms, .mf4, .rsp or .xlsx");
   EXPECT_EQ(message({path + "/no.csv"}), path + "/no.csv: there is no such file, expected a readable file");
   const auto pdf = folder.write("a.pdf", "x").string();
-  EXPECT_EQ(message({pdf}), pdf +
-                                ": unknown kind of file '.pdf', expected .csv, .txt, .tsv, .dat or .mat, or a folder "
-                                "of recordings");
+  EXPECT_EQ(message({pdf}),
+            pdf +
+                ": unknown kind of file '.pdf', expected .csv, .txt, .tsv, .dat, .mat, .mf4, .mdf, .rsp, .rpc, .rpc3, "
+                ".drv, .tim, .tdms, .xlsx or .xlsm, or a folder of recordings");
   const auto csv = folder.write("a.csv", good).string();
   EXPECT_EQ(message({csv, path + "/./a.csv"}), path + "/./a.csv: the recording is given twice, expected each once");
   EXPECT_EQ(message({path, csv}), csv + ": the recording is given twice, expected each once");

@@ -1,0 +1,223 @@
+// RPC III time histories of MTS test rigs. Source: MTS, RPC III File Formats.
+//
+// A header of blocks of 512 bytes, each of four entries: a key of 32 bytes and a value of 96, both text that ends with
+// NUL. The first three are FORMAT, NUM_HEADER_BLOCKS and NUM_PARAMS. Behind it lie groups: PTS_PER_GROUP points of the
+// first channel, then of the second, and so on; all channels have one rate, 1 / DELTA_T. FRAMES frames of PTS_PER_FRAME
+// points are valid; the last group is filled up, or, by some programs, cut off. Integers are multiplied by
+// SCALE.CHAN_n. SAMPLES, where a program writes it, is the number of points before the last frame is filled up.
+#include <charconv>
+#include <cmath>
+#include <map>
+
+#include "core/error.hpp"
+#include "core/printable.hpp"
+#include "io/bytes.hpp"
+#include "io/format.hpp"
+#include "io/mat_variable.hpp"
+#include "io/measured.hpp"
+#include "io/text.hpp"
+
+namespace hysteron {
+namespace {
+
+constexpr std::size_t block = 512;  // bytes
+constexpr std::size_t key_size = 32;
+constexpr std::size_t value_size = 96;
+constexpr std::uint64_t most_blocks = 1024;
+constexpr std::uint64_t most_channels = 4096;
+
+class Rpc3Reader {
+ public:
+  Rpc3Reader(std::string_view bytes, const std::string& file) : bytes_(bytes), file_(file) {}
+
+  std::vector<MeasuredChannel> run() {
+    try {
+      read_header();
+      read_layout();
+    } catch (const BeyondTheEnd&) {
+      fail("the header is cut off, expected a complete RPC III file");
+    }
+    const double step = number("DELTA_T");
+    if (!(step > 0.0 && std::isfinite(step))) {
+      fail("DELTA_T is " + in_quotes(text("DELTA_T")) + ", expected a time in s above zero");
+    }
+    std::vector<MeasuredChannel> channels;
+    for (std::uint64_t c = 0; c < channels_; ++c) {
+      const std::string number_of_it = std::to_string(c + 1);
+      MeasuredChannel channel;
+      channel.name = without_quotes(text_or_none("DESC.CHAN_" + number_of_it));
+      if (channel.name.empty()) channel.name = "CHAN_" + number_of_it;
+      channel.unit = without_quotes(text_or_none("UNITS.CHAN_" + number_of_it));
+      channel.count = static_cast<std::size_t>(samples_);
+      channel.clock = Clock{0.0, step};
+      channel.values = [this, c] { return numbers_of(c); };
+      channels.push_back(std::move(channel));
+    }
+    return channels;
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& message) const { throw InputError(file_, 0, message); }
+
+  // Text before the first NUL.
+  static std::string_view cut(std::string_view field) {
+    return trimmed(field.substr(0, std::min(field.find('\0'), field.size())));
+  }
+
+  static std::string without_quotes(std::string_view text) {
+    if (text.size() >= 2 && text.front() == '"' && text.back() == '"') text = text.substr(1, text.size() - 2);
+    text = trimmed(text);
+    std::string result = valid_utf8(text);
+    if (result == text) return result;
+    // Windows and the programs of its time: a micron, a degree.
+    result.clear();
+    for (const char c : text) append_utf8(result, static_cast<unsigned char>(c));
+    return result;
+  }
+
+  void read_header() {
+    ByteCursor cursor(bytes_);
+    const auto next = [&] {
+      const std::string_view key = cut(cursor.take(key_size));
+      return std::pair(key, cut(cursor.take(value_size)));
+    };
+    for (const std::string_view expected : {"FORMAT", "NUM_HEADER_BLOCKS", "NUM_PARAMS"}) {
+      const auto [key, value] = next();
+      if (key != expected) {
+        fail("the header says " + in_quotes(key) + " where " + std::string(expected) +
+             " belongs, expected an RPC III file");
+      }
+      entries_[std::string(key)] = value;
+    }
+    const std::uint64_t blocks = count("NUM_HEADER_BLOCKS", 1, most_blocks);
+    data_at_ = blocks * block;
+    const std::uint64_t entries = count("NUM_PARAMS", 3, blocks * (block / (key_size + value_size)));
+    for (std::uint64_t k = 3; k < entries; ++k) {
+      const auto [key, value] = next();
+      if (!key.empty()) entries_[std::string(key)] = value;
+    }
+  }
+
+  void read_layout() {
+    const std::string format = text("FORMAT");
+    if (format == "ASCII") fail("FORMAT is ASCII, expected binary data");
+    if (format != "BINARY_IEEE_LITTLE_END" && format != "BINARY_IEEE_BIG_END" && format != "BINARY") {
+      fail("FORMAT is " + in_quotes(format) + ", expected BINARY_IEEE_LITTLE_END, BINARY_IEEE_BIG_END or BINARY");
+    }
+    layout_.order = format == "BINARY_IEEE_BIG_END" ? std::endian::big : std::endian::little;
+    const std::string kind = text_or_none("FILE_TYPE");
+    if (!kind.empty() && kind != "TIME_HISTORY") fail("FILE_TYPE is " + in_quotes(kind) + ", expected TIME_HISTORY");
+    if (const std::string half = text_or_none("HALF_FRAMES"); !half.empty() && half != "0") {
+      fail("HALF_FRAMES is " + in_quotes(half) + ", expected 0: save the file without half frames at its ends");
+    }
+    std::string type = text_or_none("DATA_TYPE");
+    if (type.empty()) type = "SHORT_INTEGER";
+    if (type != "SHORT_INTEGER" && type != "FLOATING_POINT") {
+      fail("DATA_TYPE is " + in_quotes(type) + ", expected SHORT_INTEGER or FLOATING_POINT");
+    }
+    is_integer_ = type == "SHORT_INTEGER";
+    layout_.kind = is_integer_ ? NumberLayout::Kind::signed_integer : NumberLayout::Kind::floating;
+    layout_.size = is_integer_ ? 2 : 4;
+    constexpr std::uint64_t most_points = std::uint64_t{1} << 40U;
+    channels_ = count("CHANNELS", 1, most_channels);
+    const std::uint64_t frame = count("PTS_PER_FRAME", 1, most_points);
+    const std::uint64_t frames = count("FRAMES", 1, most_points / frame);
+    group_ = count("PTS_PER_GROUP", frame, most_points);
+    if (group_ % frame != 0) {
+      fail("PTS_PER_GROUP is " + std::to_string(group_) + ", expected a multiple of PTS_PER_FRAME, " +
+           std::to_string(frame));
+    }
+    const std::uint64_t points = frame * frames;
+    const std::uint64_t groups = points / group_ + (points % group_ != 0 ? 1 : 0);
+    const std::uint64_t there = bytes_.size() - std::min<std::uint64_t>(bytes_.size(), data_at_);
+    const std::uint64_t point = channels_ * layout_.size;
+    if (there == groups * group_ * point) {
+      last_group_ = group_;
+    } else if (there == points * point) {
+      last_group_ = points - (groups - 1) * group_;
+    } else {
+      fail("the header tells of " + std::to_string(groups * group_ * point) + " bytes of data and " +
+           std::to_string(there) + " are there, the file is cut off or damaged, expected a complete RPC III file");
+    }
+    groups_ = groups;
+    samples_ = text_or_none("SAMPLES").empty() ? points : count("SAMPLES", 0, points);
+  }
+
+  [[nodiscard]] std::vector<double> numbers_of(std::uint64_t channel) const {
+    double scale = 1.0;
+    if (is_integer_) scale = number("SCALE.CHAN_" + std::to_string(channel + 1));
+    std::vector<double> values;
+    values.reserve(static_cast<std::size_t>(samples_));
+    for (std::uint64_t g = 0; g < groups_ && values.size() < samples_; ++g) {
+      const std::uint64_t stored = g + 1 == groups_ ? last_group_ : group_;
+      std::uint64_t at = data_at_ + (g * group_ * channels_ + channel * stored) * layout_.size;
+      for (std::uint64_t k = 0; k < stored && values.size() < samples_; ++k, at += layout_.size) {
+        values.push_back(scale * value_at(bytes_, at, layout_));
+      }
+    }
+    return values;
+  }
+
+  [[nodiscard]] std::string text_or_none(const std::string& key) const {
+    const auto found = entries_.find(key);
+    return found == entries_.end() ? std::string() : std::string(found->second);
+  }
+
+  [[nodiscard]] std::string text(const std::string& key) const {
+    const std::string value = text_or_none(key);
+    if (value.empty()) fail("the header has no " + key + ", expected a complete RPC III header");
+    return value;
+  }
+
+  [[nodiscard]] std::uint64_t count(const std::string& key, std::uint64_t least, std::uint64_t most) const {
+    const std::string value = text(key);
+    std::uint64_t result = 0;
+    const auto read = std::from_chars(value.data(), value.data() + value.size(), result);
+    if (read.ec != std::errc() || read.ptr != value.data() + value.size() || result < least || result > most) {
+      fail(key + " is " + in_quotes(value) + ", expected a whole number from " + std::to_string(least) + " to " +
+           std::to_string(most));
+    }
+    return result;
+  }
+
+  [[nodiscard]] double number(const std::string& key) const {
+    const std::string value = text(key);
+    double result = 0.0;
+    const auto read =
+        std::from_chars(value.data() + (value.starts_with('+') ? 1 : 0), value.data() + value.size(), result);
+    if (read.ec != std::errc() || read.ptr != value.data() + value.size()) {
+      fail(key + " is " + in_quotes(value) + ", expected a number");
+    }
+    return result;
+  }
+
+  std::string_view bytes_;
+  const std::string& file_;
+  std::map<std::string, std::string_view> entries_;
+  std::uint64_t data_at_ = 0;
+  NumberLayout layout_;
+  bool is_integer_ = true;
+  std::uint64_t channels_ = 0;
+  std::uint64_t group_ = 0;  // points of a channel in a group
+  std::uint64_t groups_ = 0;
+  std::uint64_t last_group_ = 0;  // points of a channel that are stored in the last group
+  std::uint64_t samples_ = 0;     // of a channel
+};
+
+// Drive files hold what the rig was told, without a force.
+constexpr Ending endings[] = {{".rsp"}, {".rpc"}, {".rpc3"}, {".drv", InFolders::none}, {".tim", InFolders::none}};
+
+bool begins(std::string_view head) { return head.starts_with(std::string_view("FORMAT\0", 7)); }
+
+Recording parse(std::string_view bytes, const std::string& file, const ReadOptions& options) {
+  Rpc3Reader reader(bytes, file);
+  return recording_of(reader.run(), file, options);
+}
+
+}  // namespace
+
+extern const InputFormat format_rpc3;
+const InputFormat format_rpc3 = {
+    .name = "RPC III", .endings = endings, .begins = begins, .parse = parse, .samples = samples_by_size};
+
+}  // namespace hysteron

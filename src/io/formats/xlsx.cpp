@@ -1,0 +1,506 @@
+// Workbooks of Excel and of programs that write alike (Office Open XML, .xlsx). Source: ECMA-376, part 1, chapters 12
+// and 18.
+//
+// A workbook is a zip archive of XML. One of its sheets is read as CSV text is: the same names, units, rules and
+// messages, whose line numbers are the rows of the sheet. The table of a sheet begins with the first row of names that
+// has numbers below; its columns are those with a name, and it ends where all of them are empty.
+#include <zip.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cstring>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/error.hpp"
+#include "io/bytes.hpp"
+#include "io/csv.hpp"
+#include "io/format.hpp"
+#include "io/text.hpp"
+#include "io/xml.hpp"
+
+namespace hysteron {
+namespace {
+
+constexpr std::uint32_t most_rows = 1'048'576;  // of a sheet
+constexpr std::uint32_t most_columns = 16'384;
+constexpr std::size_t longest_cell = 32'767;  // characters
+// Sheets of measured numbers shrink to a fifth or a tenth. What grows more than this is no recording.
+constexpr std::uint64_t most_growth = 100;
+constexpr std::uint64_t growth_allowed = std::uint64_t{1} << 20U;  // bytes that may grow by any factor
+constexpr std::uint64_t largest_part = std::uint64_t{2} << 30U;    // unpacked
+
+// A part of a workbook that is not what it should be, without the name of the file.
+class Damage : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+class Archive {
+ public:
+  explicit Archive(std::string_view bytes) : room_(growth_allowed + most_growth * bytes.size()) {
+    zip_error_t error;
+    zip_error_init(&error);
+    zip_source_t* source = zip_source_buffer_create(bytes.data(), bytes.size(), 0, &error);
+    if (source == nullptr) throw std::bad_alloc();
+    archive_ = zip_open_from_source(source, ZIP_RDONLY, &error);
+    zip_error_fini(&error);
+    if (archive_ == nullptr) {
+      zip_source_free(source);
+      throw Damage("the zip archive cannot be opened, the file is cut off or damaged");
+    }
+  }
+  ~Archive() { zip_discard(archive_); }
+  Archive(const Archive&) = delete;
+  Archive& operator=(const Archive&) = delete;
+
+  // The XML of a part, told in pieces.
+  void read(const std::string& path, XmlEvents events) {
+    const zip_int64_t index = zip_name_locate(archive_, path.c_str(), ZIP_FL_ENC_RAW);
+    zip_stat_t stat;
+    zip_stat_init(&stat);
+    constexpr zip_uint64_t needed =
+        ZIP_STAT_SIZE | ZIP_STAT_COMP_SIZE | ZIP_STAT_COMP_METHOD | ZIP_STAT_ENCRYPTION_METHOD;
+    if (index < 0 || zip_stat_index(archive_, static_cast<zip_uint64_t>(index), 0, &stat) != 0 ||
+        (stat.valid & needed) != needed) {
+      throw Damage("it has no part " + in_quotes(path) + ", the file is damaged");
+    }
+    if (stat.encryption_method != ZIP_EM_NONE) throw Damage("it is encrypted");
+    if (stat.comp_method != ZIP_CM_STORE && stat.comp_method != ZIP_CM_DEFLATE) {
+      throw Damage("its part " + in_quotes(path) + " is packed by method " + std::to_string(stat.comp_method));
+    }
+    if (stat.size > largest_part || stat.size > growth_allowed + most_growth * stat.comp_size) {
+      throw Damage("its part " + in_quotes(path) + " of " + std::to_string(stat.comp_size) + " bytes unpacks to " +
+                   std::to_string(stat.size) + ", which no recording does");
+    }
+    // Parts may be made of the same bytes.
+    if (stat.size > room_)
+      throw Damage("its parts unpack to more than a hundred times its size, which no recording does");
+    room_ -= stat.size;
+    const std::unique_ptr<zip_file_t, int (*)(zip_file_t*)> file(
+        zip_fopen_index(archive_, static_cast<zip_uint64_t>(index), 0), zip_fclose);
+    if (!file) throw Damage("its part " + in_quotes(path) + " cannot be unpacked, the file is damaged");
+    XmlReader reader(std::move(events));
+    std::string piece(std::size_t{1} << 16U, '\0');
+    zip_uint64_t total = 0;
+    for (;;) {
+      const zip_int64_t got = zip_fread(file.get(), piece.data(), piece.size());
+      // The checksum of a part is found wrong at its end.
+      if (got < 0 || (total += static_cast<zip_uint64_t>(got)) > stat.size || (got == 0 && total != stat.size)) {
+        throw Damage("its part " + in_quotes(path) + " cannot be unpacked, the file is damaged");
+      }
+      if (got == 0) break;
+      reader.add(std::string_view(piece).substr(0, static_cast<std::size_t>(got)));
+    }
+    reader.finish();
+  }
+
+ private:
+  zip_t* archive_ = nullptr;
+  std::uint64_t room_;  // bytes that may still be unpacked
+};
+
+// "xl/workbook.xml" and "worksheets/sheet1.xml" -> "xl/worksheets/sheet1.xml"; a target that begins with a slash counts
+// from the archive.
+std::string resolved(std::string_view part, std::string_view target) {
+  if (target.starts_with('/')) return std::string(target.substr(1));
+  std::string folder(part.substr(0, part.rfind('/') == std::string_view::npos ? 0 : part.rfind('/') + 1));
+  while (target.starts_with("../") && !folder.empty()) {
+    target.remove_prefix(3);
+    folder.pop_back();
+    folder.resize(folder.rfind('/') == std::string::npos ? 0 : folder.rfind('/') + 1);
+  }
+  return folder + std::string(target);
+}
+
+struct Relation {
+  std::string id;
+  std::string type;
+  std::string target;  // a path in the archive
+};
+
+// What a part relates to; `part` empty: what the archive does.
+std::vector<Relation> relations_of(Archive& archive, const std::string& part) {
+  const std::size_t slash = part.rfind('/');
+  const std::string folder = slash == std::string::npos ? "" : part.substr(0, slash + 1);
+  const std::string name = slash == std::string::npos ? part : part.substr(slash + 1);
+  std::vector<Relation> relations;
+  XmlEvents events;
+  events.begin = [&](std::string_view element, const XmlAttributes& attributes) {
+    if (element != "Relationship" || attribute(attributes, "TargetMode") == "External") return;
+    relations.push_back({std::string(attribute(attributes, "Id")), std::string(attribute(attributes, "Type")),
+                         resolved(part, attribute(attributes, "Target"))});
+  };
+  archive.read(folder + "_rels/" + name + ".rels", std::move(events));
+  return relations;
+}
+
+struct Cell {
+  enum class Kind : std::uint8_t { number, text, error };
+  std::uint32_t column = 0;
+  Kind kind = Kind::number;
+  std::uint32_t length = 0;
+  std::size_t at = 0;  // in Sheet::letters
+};
+
+struct SheetRow {
+  std::uint32_t number = 0;
+  std::size_t first = 0;  // in Sheet::cells
+  std::size_t count = 0;
+};
+
+struct Sheet {
+  std::string name;
+  std::string letters;
+  std::vector<Cell> cells;  // those that are not empty
+  std::vector<SheetRow> rows;
+
+  [[nodiscard]] std::string_view text(const Cell& cell) const {
+    return std::string_view(letters).substr(cell.at, cell.length);
+  }
+  [[nodiscard]] std::span<const Cell> cells_of(const SheetRow& row) const {
+    return std::span(cells).subspan(row.first, row.count);
+  }
+};
+
+// "AB12" -> 27, counted from 0; nothing where it is none.
+std::optional<std::uint32_t> column_of(std::string_view reference) {
+  std::uint32_t column = 0;
+  std::size_t letters = 0;
+  for (; letters < reference.size() && reference[letters] >= 'A' && reference[letters] <= 'Z'; ++letters) {
+    column = 26 * column + static_cast<std::uint32_t>(reference[letters] - 'A' + 1);
+    if (column > most_columns) return std::nullopt;
+  }
+  return letters == 0 ? std::nullopt : std::optional(column - 1);
+}
+
+std::optional<std::uint32_t> whole(std::string_view text) {
+  std::uint32_t value = 0;
+  const auto read = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (read.ec != std::errc() || read.ptr != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+// Texts that cells name by number.
+std::vector<std::string> shared_texts(Archive& archive, const std::string& path) {
+  std::vector<std::string> texts;
+  bool in_text = false;
+  int phonetic = 0;  // how a text is read aloud, which is not part of it
+  XmlEvents events;
+  events.begin = [&](std::string_view name, const XmlAttributes& /*attributes*/) {
+    if (name == "si") texts.emplace_back();
+    if (name == "rPh") ++phonetic;
+    in_text = name == "t" && phonetic == 0;
+  };
+  events.end = [&](std::string_view name) {
+    if (name == "rPh") --phonetic;
+    in_text = false;
+  };
+  events.text = [&](std::string_view piece) {
+    if (!in_text || texts.empty()) return;
+    if (texts.back().size() + piece.size() > 4 * longest_cell) throw Damage("a text longer than a cell holds");
+    texts.back() += piece;
+  };
+  archive.read(path, std::move(events));
+  return texts;
+}
+
+class SheetParser {
+ public:
+  SheetParser(Sheet& sheet, const std::vector<std::string>& texts) : sheet_(sheet), texts_(texts) {}
+
+  [[nodiscard]] XmlEvents events() {
+    XmlEvents events;
+    events.begin = [this](std::string_view name, const XmlAttributes& attributes) { begin(name, attributes); };
+    events.end = [this](std::string_view name) { end(name); };
+    events.text = [this](std::string_view piece) {
+      if (!in_value_) return;
+      if (value_.size() + piece.size() > 4 * longest_cell) throw Damage("a text longer than a cell holds");
+      value_ += piece;
+    };
+    return events;
+  }
+
+ private:
+  void begin(std::string_view name, const XmlAttributes& attributes) {
+    if (name == "row") {
+      begin_row(attribute(attributes, "r"));
+    } else if (name == "c") {
+      if (sheet_.rows.empty()) throw Damage("a cell outside of a row");
+      const std::string_view reference = attribute(attributes, "r");
+      const std::optional<std::uint32_t> column = reference.empty() ? next_column_ : column_of(reference);
+      if (!column || *column >= most_columns || *column < next_column_) {
+        throw Damage("a cell " + in_quotes(reference) + " out of order");
+      }
+      column_ = *column;
+      next_column_ = *column + 1;
+      type_ = attribute(attributes, "t");
+      value_.clear();
+      in_cell_ = true;
+    }
+    in_value_ = in_cell_ && (name == "v" || (name == "t" && phonetic_ == 0));
+    if (name == "rPh") ++phonetic_;
+  }
+
+  void begin_row(std::string_view number) {
+    if (in_cell_) throw Damage("a row in a cell");
+    const std::optional<std::uint32_t> row = number.empty() ? next_row_ : whole(number);
+    if (!row || *row < next_row_ || *row > most_rows) throw Damage("a row " + in_quotes(number) + " out of order");
+    next_row_ = *row + 1;
+    next_column_ = 0;
+    sheet_.rows.push_back({*row, sheet_.cells.size(), 0});
+  }
+
+  void end(std::string_view name) {
+    if (name == "rPh") --phonetic_;
+    in_value_ = false;
+    if (name != "c") return;
+    in_cell_ = false;
+    Cell::Kind kind = Cell::Kind::text;
+    std::string_view text = value_;
+    if (type_ == "s") {
+      const std::optional<std::uint32_t> k = whole(value_);
+      if (!k || *k >= texts_.size()) throw Damage("a cell with text " + in_quotes(value_) + ", which is not there");
+      text = texts_[*k];
+    } else if (type_.empty() || type_ == "n") {
+      kind = Cell::Kind::number;
+    } else if (type_ == "e") {
+      kind = Cell::Kind::error;
+    }
+    text = trimmed(text);
+    if (text.empty()) return;
+    if (sheet_.letters.size() + text.size() > largest_part) throw Damage("more text than 2 GiB");
+    sheet_.cells.push_back({column_, kind, static_cast<std::uint32_t>(text.size()), sheet_.letters.size()});
+    sheet_.letters += text;
+    ++sheet_.rows.back().count;
+  }
+
+  Sheet& sheet_;
+  const std::vector<std::string>& texts_;
+  std::uint32_t next_row_ = 1;
+  std::uint32_t next_column_ = 0;
+  std::uint32_t column_ = 0;
+  std::string type_;
+  std::string value_;
+  bool in_cell_ = false;
+  bool in_value_ = false;
+  int phonetic_ = 0;
+};
+
+// The table of a sheet.
+struct Table {
+  std::size_t header = 0;  // in Sheet::rows
+  std::vector<std::uint32_t> columns;
+};
+
+// How many of the columns hold a number in a row.
+std::size_t numbers_in(const Sheet& sheet, const SheetRow& row, const std::vector<std::uint32_t>& columns) {
+  return static_cast<std::size_t>(std::ranges::count_if(sheet.cells_of(row), [&](const Cell& cell) {
+    return cell.kind == Cell::Kind::number && std::ranges::binary_search(columns, cell.column);
+  }));
+}
+
+// The first row with two names or more that has numbers below half of them, next to it or below a row of units.
+std::optional<Table> table_of(const Sheet& sheet, std::uint32_t skip) {
+  constexpr std::size_t most_rows_before = 200;
+  std::size_t looked_at = 0;
+  for (std::size_t r = 0; r < sheet.rows.size() && looked_at < most_rows_before; ++r) {
+    if (sheet.rows[r].number <= skip) continue;
+    ++looked_at;
+    Table table{r, {}};
+    for (const Cell& cell : sheet.cells_of(sheet.rows[r])) {
+      if (cell.kind == Cell::Kind::text) table.columns.push_back(cell.column);
+    }
+    if (table.columns.size() < 2) continue;
+    for (std::size_t below = r + 1; below < std::min(r + 3, sheet.rows.size()); ++below) {
+      const std::size_t numbers = numbers_in(sheet, sheet.rows[below], table.columns);
+      if (numbers >= 2 && 2 * numbers >= table.columns.size()) return table;
+    }
+  }
+  return std::nullopt;
+}
+
+// A cell as a field between semicolons, without what would end one.
+void append_field(std::string& text, const Sheet& sheet, const Cell& cell) {
+  std::string_view content = sheet.text(cell);
+  // "#N/A" in the first column would make its row a comment.
+  if (cell.kind == Cell::Kind::error && content.starts_with('#')) content.remove_prefix(1);
+  for (const char c : content) {
+    const auto byte = static_cast<unsigned char>(c);
+    text += byte < 0x20 || byte == 0x7F ? ' ' : c == ';' ? ',' : c == '"' ? '\'' : c;
+  }
+}
+
+// The table as text: row N of the sheet is line N, what is not of the table is left out.
+std::string text_of(const Sheet& sheet, const Table& table) {
+  std::string text;
+  std::uint32_t line = 1;
+  for (std::size_t r = table.header; r < sheet.rows.size(); ++r) {
+    const SheetRow& row = sheet.rows[r];
+    const std::span<const Cell> cells = sheet.cells_of(row);
+    const bool empty = std::ranges::none_of(
+        cells, [&](const Cell& cell) { return std::ranges::binary_search(table.columns, cell.column); });
+    if (empty || (r > table.header && row.number != line)) break;
+    text.append(row.number - line, '\n');
+    auto cell = cells.begin();
+    for (std::size_t k = 0; k < table.columns.size(); ++k) {
+      if (k > 0) text += ';';
+      while (cell != cells.end() && cell->column < table.columns[k]) ++cell;
+      if (cell != cells.end() && cell->column == table.columns[k]) append_field(text, sheet, *cell);
+    }
+    text += '\n';
+    line = row.number + 1;
+  }
+  return text;
+}
+
+// Whether a header names a channel, by itself or by a mapping.
+bool names_a_channel(const Sheet& sheet, const Table& table, const ReadOptions& options) {
+  return std::ranges::any_of(sheet.cells_of(sheet.rows[table.header]), [&](const Cell& cell) {
+    const Column column = split_column(sheet.text(cell));
+    return quantity_of_name(column.name).has_value() || quantity_of_last_word(column.name).has_value() ||
+           std::ranges::any_of(options.columns, [&](const auto& entry) {
+             return lower_case(split_column(entry.second).name) == lower_case(column.name) ||
+                    trimmed(entry.second) == column.text;
+           });
+  });
+}
+
+class WorkbookReader {
+ public:
+  WorkbookReader(std::string_view bytes, const std::string& file, const ReadOptions& options)
+      : archive_(bytes), file_(file), options_(options) {}
+
+  Recording run() {
+    find_sheets();
+    if (!options_.group.empty()) {
+      const auto wanted = std::ranges::find_if(
+          names_, [&](const std::string& name) { return lower_case(name) == lower_case(options_.group); });
+      if (wanted == names_.end()) {
+        fail("no sheet " + in_quotes(options_.group) + " for --group, expected one of " + list(names_));
+      }
+      const Sheet sheet = read_sheet(static_cast<std::size_t>(wanted - names_.begin()));
+      const auto table = table_of(sheet, skip());
+      if (!table) fail("sheet " + in_quotes(sheet.name) + " has no row of names above rows of numbers, expected one");
+      return read_table(sheet, *table);
+    }
+    std::optional<Sheet> chosen;
+    std::optional<Table> table;
+    std::vector<std::string> with_tables;
+    for (std::size_t k = 0; k < names_.size(); ++k) {
+      Sheet sheet = read_sheet(k);
+      auto of_sheet = table_of(sheet, skip());
+      if (!of_sheet || !names_a_channel(sheet, *of_sheet, options_)) continue;
+      with_tables.push_back(sheet.name);
+      if (chosen) continue;
+      chosen = std::move(sheet);
+      table = std::move(of_sheet);
+    }
+    if (!chosen) {
+      fail(
+          "no sheet has a row of names such as time, displacement and force above rows of numbers, expected one; the "
+          "sheets are " +
+          list(names_));
+    }
+    if (with_tables.size() > 1) {
+      fail(std::to_string(with_tables.size()) + " sheets hold recordings (" + list(with_tables) +
+           "), expected one, or --group NAME to choose a sheet");
+    }
+    return read_table(*chosen, *table);
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& message) const { throw InputError(file_, 0, message); }
+
+  [[nodiscard]] std::uint32_t skip() const { return static_cast<std::uint32_t>(std::max(options_.skip, 0)); }
+
+  static std::string list(const std::vector<std::string>& names) {
+    constexpr std::size_t most = 20;
+    std::string text;
+    for (std::size_t k = 0; k < std::min(names.size(), most); ++k) text += (k > 0 ? ", " : "") + in_quotes(names[k]);
+    return names.size() > most ? text + " and " + std::to_string(names.size() - most) + " more" : text;
+  }
+
+  void find_sheets() {
+    std::string workbook;
+    for (const Relation& relation : relations_of(archive_, "")) {
+      if (relation.type.ends_with("/officeDocument")) workbook = relation.target;
+    }
+    if (workbook.empty()) throw Damage("it holds no workbook");
+    const std::vector<Relation> relations = relations_of(archive_, workbook);
+    for (const Relation& relation : relations) {
+      if (relation.type.ends_with("/sharedStrings")) texts_ = shared_texts(archive_, relation.target);
+    }
+    XmlEvents events;
+    events.begin = [&](std::string_view element, const XmlAttributes& attributes) {
+      if (element != "sheet") return;
+      const std::string_view id = attribute(attributes, "*:id");
+      for (const Relation& relation : relations) {
+        // Sheets of charts hold no cells.
+        if (relation.id != id || !relation.type.ends_with("/worksheet")) continue;
+        constexpr std::size_t most_sheets = 1000;
+        if (names_.size() == most_sheets) throw Damage("it has more than 1000 sheets");
+        if (std::ranges::find(paths_, relation.target) != paths_.end()) throw Damage("it names a sheet twice");
+        names_.emplace_back(attribute(attributes, "name"));
+        paths_.push_back(relation.target);
+        return;
+      }
+    };
+    archive_.read(workbook, std::move(events));
+    if (names_.empty()) throw Damage("it has no sheet");
+  }
+
+  [[nodiscard]] Sheet read_sheet(std::size_t k) {
+    Sheet sheet;
+    sheet.name = names_[k];
+    SheetParser parser(sheet, texts_);
+    archive_.read(paths_[k], parser.events());
+    return sheet;
+  }
+
+  [[nodiscard]] Recording read_table(const Sheet& sheet, const Table& table) const {
+    const std::uint32_t row = sheet.rows[table.header].number;
+    if (options_.remark && table.header > 0 && row > skip() + 1) {
+      options_.remark({file_, Remark::Kind::dialect, "header",
+                       "the header is taken from row " + std::to_string(row) + " of sheet " + in_quotes(sheet.name) +
+                           ", rows before it are not read"});
+    }
+    return parse_csv(text_of(sheet, table), file_, options_);
+  }
+
+  Archive archive_;
+  const std::string& file_;
+  const ReadOptions& options_;
+  std::vector<std::string> texts_;
+  std::vector<std::string> names_;  // of the sheets
+  std::vector<std::string> paths_;
+};
+
+constexpr Ending endings[] = {{".xlsx", InFolders::without_others}, {".xlsm", InFolders::without_others}};
+
+bool begins(std::string_view head) { return head.starts_with("PK\x03\x04"); }
+
+Recording parse(std::string_view bytes, const std::string& file, const ReadOptions& options) {
+  const auto fail = [&](const std::string& what) {
+    throw InputError(file, 0, "the workbook is not read: " + what + ", expected an .xlsx file");
+  };
+  if (bytes.starts_with("\xD0\xCF\x11\xE0")) fail("it is an old .xls file or protected by a password");
+  try {
+    return WorkbookReader(bytes, file, options).run();
+  } catch (const Damage& damage) {
+    fail(damage.what());
+  } catch (const XmlDamage& damage) {
+    fail(std::string("its XML is not as it should be, ") + damage.what());
+  }
+  return {};
+}
+
+}  // namespace
+
+extern const InputFormat format_xlsx;
+const InputFormat format_xlsx = {
+    .name = "xlsx", .endings = endings, .begins = begins, .parse = parse, .samples = samples_by_size};
+
+}  // namespace hysteron
