@@ -10,7 +10,9 @@
 #include "app/result.hpp"
 #include "compare/criteria.hpp"
 #include "core/error.hpp"
+#include "io/mat5_writer.hpp"
 #include "io/output.hpp"
+#include "report/csv.hpp"
 #include "report/html.hpp"
 #include "report/terminal.hpp"
 
@@ -26,6 +28,7 @@ struct Options {
   std::vector<std::string> words;
   DataOptions data;
   std::string out;
+  bool mat = false;
   CommonOptions common;
 };
 
@@ -112,6 +115,41 @@ json loops_json(const Recording& recording, std::size_t r, const std::vector<Com
     }
   }
   return row;
+}
+
+// The table of models and that of recordings, as CSV and, if wanted, both in one MAT file.
+std::vector<std::pair<std::string, std::string>> table_files(const json& file, bool mat) {
+  const auto number = [](const json& value) {
+    return value.is_null() ? std::string() : fmt::format("{}", value.get<double>());
+  };
+  std::vector<std::vector<std::string>> models;
+  for (const json& model : file["models"]) {
+    const json& nrmse = model["nrmse"];
+    models.push_back({model["label"].get<std::string>(), std::to_string(model["free_parameters"].get<std::size_t>()),
+                      number(nrmse["overall"]), number(nrmse["fitted"]), number(nrmse["unseen"]), number(model["aic"]),
+                      number(model["bic"]), number(model["residual"]["autocorrelation"][0]),
+                      number(model["residual"]["lags_outside"])});
+  }
+  std::vector<std::vector<std::string>> recordings;
+  for (const json& recording : file["recordings"]) {
+    for (std::size_t k = 0; k < models.size(); ++k) {
+      recordings.push_back({recording["file"].get<std::string>(), models[k][0],
+                            recording["fitted"][k].get<bool>() ? "1" : "0", number(recording["nrmse"][k]),
+                            number(recording["rmse_n"][k]), number(recording["fit_percent"][k])});
+    }
+  }
+  const std::string of_models = csv_table({"model", "free_parameters", "nrmse_overall", "nrmse_fitted", "nrmse_unseen",
+                                           "aic", "bic", "lag_1_correlation", "lags_outside"},
+                                          models);
+  const std::string of_recordings =
+      csv_table({"recording", "model", "fitted", "nrmse", "rmse_n", "fit_percent"}, recordings);
+  std::vector<std::pair<std::string, std::string>> files = {{"models.csv", of_models},
+                                                            {"recordings.csv", of_recordings}};
+  if (mat) {
+    files.emplace_back("tables.mat",
+                       mat5_of({{"models", mat_table(of_models)}, {"recordings", mat_table(of_recordings)}}));
+  }
+  return files;
 }
 
 void run(const Options& options) {
@@ -255,6 +293,9 @@ void run(const Options& options) {
     make_output_folder(options.out);
     write_file_atomically(out / "compare.json", json_text(file));
     write_file_atomically(out / "report.html", compare_page_html(page));
+    for (const auto& [name, text] : table_files(file, options.mat)) {
+      write_file_atomically(out / name, text);
+    }
   }
 
   const auto cell = [](const std::optional<double>& value) {
@@ -299,15 +340,17 @@ void add_compare(CLI::App& program) {
       program.add_subcommand("compare", "several models on the same recordings: errors, criteria, residuals, loops");
   command
       ->add_option("MODEL.json DATA", options->words,
-                   "models written by fit or diagnose, and CSV or MAT files or folders of them, in any order")
+                   "models written by fit or diagnose, and recordings or folders of them, in any order")
       ->required()
       ->expected(2, 10000);
   add_keep_option(*command, options->data);
-  command->add_option("--column", options->data.columns, "channel=NAME [UNIT] of a column; repeatable")
-      ->allow_extra_args(false);
+  add_column_options(*command, options->data);
   command
-      ->add_option("--out", options->out, "folder for compare.json and report.html; -: compare.json on standard output")
+      ->add_option(
+          "--out", options->out,
+          "folder for compare.json, models.csv, recordings.csv and report.html; -: compare.json on standard output")
       ->required();
+  command->add_flag("--mat", options->mat, "also write the tables as tables.mat, for MATLAB");
   add_common_options(*command, options->common);
   command->footer("Example:\n  hysteron compare a/model.json b/model.json recordings/ --out comparison");
   command->callback([options] { run(*options); });

@@ -47,6 +47,7 @@ void add_report(CLI::App& program) {
     std::string out;
     bool times = false;
     bool ioh = false;
+    bool mat = false;
     bool json = false;
   };
   auto options = std::make_shared<Options>();
@@ -56,6 +57,7 @@ void add_report(CLI::App& program) {
   command->add_option("--out", options->out, "folder for the report, default DIR");
   command->add_flag("--times", options->times, "times in the report too; without it equal studies give equal files");
   command->add_flag("--ioh", options->ioh, "also write ioh/ in the format of IOHprofiler");
+  command->add_flag("--mat", options->mat, "also write runs, traces and parameters as tables.mat, for MATLAB");
   command->add_flag("--json", options->json, "the analysis, or the diagnosis, as JSON on standard output");
   command->footer("Example:\n  hysteron report out --times --ioh");
   command->callback([options] {
@@ -65,8 +67,8 @@ void add_report(CLI::App& program) {
       static_cast<void>(read_file(folder));  // says so, with the nearest name
     }
     if (std::filesystem::exists(folder / "diagnosis.json")) {
-      if (options->times || options->ioh) {
-        throw InputError("--times and --ioh are of a study, " + options->folder + " holds a diagnosis");
+      if (options->times || options->ioh || options->mat) {
+        throw InputError("--times, --ioh and --mat are of a study, " + options->folder + " holds a diagnosis");
       }
       report_diagnosis(folder, options->out.empty() ? folder : std::filesystem::path(options->out), options->json);
       return;
@@ -74,7 +76,7 @@ void add_report(CLI::App& program) {
     const Store store = open_gathered(options->folder);
     const StudyView view = view_of(store, store.records(), options->folder);
     const std::filesystem::path out = options->out.empty() ? options->folder : options->out;
-    write_study_report(folder, out, view, options->times, options->ioh);
+    write_study_report(folder, out, view, {options->times, options->ioh, options->mat});
     if (options->json) {
       fmt::print("{}", json_text(view.analysis));
       return;

@@ -129,7 +129,7 @@ void run(const Options& options) {
   }
   if (!options.out.empty()) {
     const StudyView view = view_of(store, std::move(records), out);
-    write_study_report(out, out, view, false, false);
+    write_study_report(out, out, view, {});
     write_file_atomically(out / (options.table + ".md"), reproduction_markdown(*entry, result, used));
     write_file_atomically(out / (options.table + ".json"), json_text(reproduction_json(*entry, result, used)));
   }

@@ -131,7 +131,7 @@ void run(Options& options) {
     peak = std::max(peak, std::fabs(response.displacement[n]));
     force_peak = std::max(force_peak, std::fabs(response.force[n]));
   }
-  write_result(options.out, text);
+  write_table(options.out, text);
   say_beside(options.out,
              fmt::format("{} samples, largest displacement {:.6g} mm{}, largest force of the model {:.6g} N\n",
                          count - first, 1e3 * peak, base ? " relative to the base" : "", force_peak));
@@ -146,11 +146,10 @@ void add_respond(CLI::App& program) {
   command->add_option("MODEL", options->model, "model.json written by fit or diagnose")->required();
   command
       ->add_option("EXCITATION", options->data.data,
-                   "CSV or MAT file with time and a force on the mass, or a displacement of the base")
+                   "file with time and a force on the mass, or a displacement of the base")
       ->required()
       ->expected(1);
-  command->add_option("--column", options->data.columns, "channel=NAME [UNIT] of a column; repeatable")
-      ->allow_extra_args(false);
+  add_column_options(*command, options->data);
   command->add_option("--mass", options->oscillator.mass, "kg")->required()->check(real_number(1e-9, 1e12));
   command->add_option("--stiffness", options->oscillator.stiffness, "N/m, of a spring beside the model")
       ->check(real_number(-1e15, 1e15));
@@ -179,8 +178,10 @@ void add_respond(CLI::App& program) {
       ->check(CLI::Range(1e-13, 1e-2))
       ->capture_default_str();
   command
-      ->add_option("--out", options->out,
-                   "CSV to write: motion relative to the base, force of the model; -: standard output")
+      ->add_option(
+          "--out", options->out,
+          "file to write, CSV, or MAT by its ending .mat: motion relative to the base, force of the model; -: standard "
+          "output")
       ->required();
   command->footer(
       "Examples:\n"

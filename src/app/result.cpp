@@ -1,9 +1,12 @@
 #include "app/result.hpp"
 
 #include <cstdio>
+#include <filesystem>
 
 #include "app/command.hpp"
+#include "io/mat5_writer.hpp"
 #include "io/output.hpp"
+#include "io/text.hpp"
 
 namespace hysteron::app {
 
@@ -13,6 +16,11 @@ void write_result(const std::string& out, std::string_view bytes) {
   } else {
     write_file_atomically(out, bytes);
   }
+}
+
+void write_table(const std::string& out, const std::string& csv) {
+  const bool mat = lower_case(std::filesystem::path(out).extension().string()) == ".mat";
+  write_result(out, mat ? mat5_of_columns(csv) : csv);
 }
 
 void say_beside(const std::string& out, std::string_view text) {

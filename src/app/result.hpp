@@ -8,6 +8,9 @@ namespace hysteron::app {
 
 // To a file as write_file_atomically does, or, for `-`, to standard output, whose failure main tells.
 void write_result(const std::string& out, std::string_view bytes);
+// A table as CSV text with units behind its names: as it is, or as a MAT file of one vector a column where `out` ends
+// in .mat.
+void write_table(const std::string& out, const std::string& csv);
 // What is said beside it: on standard output, which the result takes where `out` is `-`; then on standard error.
 void say_beside(const std::string& out, std::string_view text);
 

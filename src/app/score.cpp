@@ -6,6 +6,9 @@
 #include "app/command.hpp"
 #include "app/finite.hpp"
 #include "app/model_file.hpp"
+#include "app/result.hpp"
+#include "core/error.hpp"
+#include "report/csv.hpp"
 #include "report/terminal.hpp"
 
 namespace hysteron::app {
@@ -15,6 +18,7 @@ void add_score(CLI::App& program) {
     std::string model;
     DataOptions data;
     CommonOptions common;
+    std::string out;
     bool json = false;
   };
   auto options = std::make_shared<Options>();
@@ -23,9 +27,13 @@ void add_score(CLI::App& program) {
   add_data_options(*command, options->data);
   add_keep_option(*command, options->data);
   add_common_options(*command, options->common);
+  command->add_option("--out", options->out, "file for the table of recordings, CSV, or MAT by its ending .mat");
   command->add_flag("--json", options->json, "JSON on standard output");
   command->footer("Example:\n  hysteron score out/model.json other-recordings/ --json");
   command->callback([options] {
+    if (is_standard_output(options->out)) {
+      throw InputError("--out -: the scores are on standard output already, expected a file");
+    }
     const ObjectiveOptions objective = objective_options(options->common);
     const StoredModel stored = read_model(options->model);
     const Campaign campaign = load(options->data);
@@ -36,6 +44,14 @@ void add_score(CLI::App& program) {
           predict(stored.model, stored.held, stored.terms, make_target(recording, objective));
       require_finite(force, recording);
       scores.push_back(score(force, recording, objective.normalisation));
+    }
+    if (!options->out.empty()) {
+      std::vector<std::vector<std::string>> cells;
+      for (std::size_t k = 0; k < scores.size(); ++k) {
+        cells.push_back({campaign.recordings[k].file, fmt::format("{}", scores[k].nrmse),
+                         fmt::format("{}", scores[k].rmse), fmt::format("{}", scores[k].fit_percent)});
+      }
+      write_table(options->out, csv_table({"recording", "nrmse", "rmse [N]", "fit_percent"}, cells));
     }
     const double total = overall(scores, campaign.recordings, objective.normalisation, objective.weighting);
     if (options->json) {

@@ -135,7 +135,7 @@ void add_simulate(CLI::App& program) {
       "simulate", "predicted force of a fitted model or a published parameter set on the motion of a recording");
   command
       ->add_option("MODEL RECORDING", options->words,
-                   "model.json written by fit or diagnose, then one CSV or MAT file; its force may be missing. With "
+                   "model.json written by fit or diagnose, then one recording; its force may be missing. With "
                    "--preset the recording alone")
       ->required()
       ->expected(1, 2);
@@ -146,9 +146,11 @@ void add_simulate(CLI::App& program) {
   command
       ->add_option("--drive", options->drive, "constant current or voltage for the preset, instead of the recording's")
       ->check(real_number(-1e9, 1e9));
-  command->add_option("--column", options->data.columns, "channel=NAME [UNIT] of a column; repeatable")
-      ->allow_extra_args(false);
-  command->add_option("--out", options->out, "CSV to write: time [s],force [N]; -: standard output")->required();
+  add_column_options(*command, options->data);
+  command
+      ->add_option("--out", options->out,
+                   "file to write, CSV, or MAT by its ending .mat: time [s],force [N]; -: standard output")
+      ->required();
   command->add_option("--tolerance", options->tolerance, "relative force error allowed to the integration")
       ->check(real_number(1e-10, 1e-2))
       ->capture_default_str();
@@ -190,7 +192,7 @@ void add_simulate(CLI::App& program) {
       force = predict(stored.model, stored.held, stored.terms, make_target(recording, objective));
     }
     require_finite(force, recording);
-    write_result(options->out, csv_of_prediction(recording.time, force));
+    write_table(options->out, csv_of_prediction(recording.time, force));
   });
 }
 

@@ -4,6 +4,7 @@
 
 #include "core/error.hpp"
 #include "io/json_reader.hpp"
+#include "io/mat5_writer.hpp"
 #include "io/output.hpp"
 #include "report/study.hpp"
 #include "report/terminal.hpp"
@@ -90,10 +91,10 @@ StudyView view_of(const std::string& plan, const std::optional<std::string>& ide
   return view;
 }
 
-std::map<std::string, std::string> study_report(const std::filesystem::path& folder, const StudyView& view, bool times,
-                                                bool ioh) {
+std::map<std::string, std::string> study_report(const std::filesystem::path& folder, const StudyView& view,
+                                                const StudyFiles& wanted) {
   const std::vector<RunRecord>& records = view.records;
-  const json shown = times ? view.times : json(nullptr);
+  const json shown = wanted.times ? view.times : json(nullptr);
   std::map<std::string, std::string> files;
   try {
     files["analysis.json"] = json_text(view.analysis);
@@ -105,7 +106,12 @@ std::map<std::string, std::string> study_report(const std::filesystem::path& fol
     files["parameters.csv"] = parameters_csv(view.plan, records);
     files["columns.csv"] = data_dictionary_csv();
     files["environment.json"] = json_text(view.times);
-    if (ioh) {
+    if (wanted.mat) {
+      files["tables.mat"] = mat5_of({{"runs", mat_table(files["runs.csv"])},
+                                     {"traces", mat_table(files["traces.csv"])},
+                                     {"parameters", mat_table(files["parameters.csv"])}});
+    }
+    if (wanted.ioh) {
       for (auto& [name, content] : ioh_files(view.plan, records)) files["ioh/" + name] = std::move(content);
     }
   } catch (const json::exception&) {
@@ -115,8 +121,8 @@ std::map<std::string, std::string> study_report(const std::filesystem::path& fol
 }
 
 void write_study_report(const std::filesystem::path& from, const std::filesystem::path& folder, const StudyView& view,
-                        bool times, bool ioh) {
-  const std::map<std::string, std::string> files = study_report(from, view, times, ioh);
+                        const StudyFiles& wanted) {
+  const std::map<std::string, std::string> files = study_report(from, view, wanted);
   make_output_folder(folder);
   for (const auto& [name, content] : files) {
     const std::filesystem::path path = folder / name;

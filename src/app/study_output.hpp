@@ -49,13 +49,19 @@ StudyView view_of(const std::string& plan, const std::optional<std::string>& ide
                   std::vector<RunRecord> records, const std::vector<RunTiming>& timings,
                   const std::filesystem::path& folder);
 
+// What a report of a study holds besides its tables and its page.
+struct StudyFiles {
+  bool times = false;  // wall time in the report too
+  bool ioh = false;    // ioh/ in the format of IOHprofiler
+  bool mat = false;    // tables.mat
+};
+
 // report.html, report.md, tables.tex, runs.csv, traces.csv, parameters.csv, columns.csv, analysis.json, and
-// environment.json with everything that varies between identical studies. `times` puts wall time into the report too.
-// The study is that of the folder `from`.
+// environment.json with everything that varies between identical studies. The study is that of the folder `from`.
 void write_study_report(const std::filesystem::path& from, const std::filesystem::path& folder, const StudyView& view,
-                        bool times, bool ioh);
+                        const StudyFiles& wanted);
 // The names of these files in the folder and what is in them, all made before the first is written.
-std::map<std::string, std::string> study_report(const std::filesystem::path& from, const StudyView& view, bool times,
-                                                bool ioh);
+std::map<std::string, std::string> study_report(const std::filesystem::path& from, const StudyView& view,
+                                                const StudyFiles& wanted);
 
 }  // namespace hysteron::app

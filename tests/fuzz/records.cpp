@@ -74,7 +74,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     Store store = Store::memory();
     store.add(entries);
     const app::StudyView view = app::view_of(named, std::nullopt, store.records(), store.timings(), "study");
-    static_cast<void>(app::study_report("study", view, true, true));
+    static_cast<void>(app::study_report("study", view, {.times = true, .ioh = true, .mat = true}));
     static_cast<void>(study_terminal(view.analysis, view.times));
   });
   return 0;
