@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <utility>
 
 #include "app/command.hpp"
 #include "app/result.hpp"
@@ -18,10 +19,30 @@ namespace hysteron::app {
 namespace {
 
 std::string csv_of(const Recording& recording) {
-  std::string text = "time [s],displacement [m],velocity [m/s],force [N],current [A]\n";
+  std::string text = "time [s],displacement [m],velocity [m/s],force [N],";
+  text += recording.drive_kind == DriveKind::voltage ? "voltage [V]\n" : "current [A]\n";
   for (std::size_t n = 0; n < recording.size(); ++n) {
     text += fmt::format("{},{},{},{},{}\n", recording.time[n], recording.displacement[n], recording.velocity[n],
                         recording.force[n], recording.drive[n]);
+  }
+  return text;
+}
+
+// Roles and laws, where the dataset says any; the roles of those written.
+std::string campaign_toml(const Campaign& campaign, const std::string& only) {
+  const bool roles = std::ranges::any_of(campaign.roles, [](Role role) { return role != Role::unassigned; });
+  if (!roles && campaign.by_current.empty() && campaign.by_frequency.empty()) return {};
+  std::string text = fmt::format("schema = \"hysteron.campaign/1\"\nmodel = \"{}\"\n", campaign.model);
+  for (const auto& [section, laws] :
+       {std::pair{"by_current", campaign.by_current}, {"by_frequency", campaign.by_frequency}}) {
+    if (laws.empty()) continue;
+    text += fmt::format("\n[{}]\n", section);
+    for (const auto& [name, order] : laws) text += fmt::format("{} = {}\n", name, order);
+  }
+  for (std::size_t k = 0; k < campaign.recordings.size(); ++k) {
+    if (campaign.roles[k] == Role::unassigned || campaign.recordings[k].file.find(only) == std::string::npos) continue;
+    text += fmt::format("\n[[recording]]\nfile = \"{}\"\nrole = \"{}\"\n", campaign.recordings[k].file,
+                        campaign.roles[k] == Role::fit ? "fit" : "validate");
   }
   return text;
 }
@@ -101,6 +122,9 @@ void add_generate(CLI::App& program) {
       for (const Recording& recording : campaign.recordings) {
         if (recording.file.find(options->only) == std::string::npos) continue;
         write_file_atomically(std::filesystem::path(options->out) / recording.file, csv_of(recording));
+      }
+      if (const std::string toml = campaign_toml(campaign, options->only); !toml.empty()) {
+        write_file_atomically(std::filesystem::path(options->out) / "campaign.toml", toml);
       }
     }
     fmt::print("{} recordings in {}\n", written, options->out);
