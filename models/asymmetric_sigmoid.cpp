@@ -4,9 +4,8 @@
 // The source writes (1 - e^-u) / (1 + e^-u) = tanh(u / 2) with u = alpha (v + v_h): v_t = 2 / alpha, c_c = f_t k_vc,
 // c_e = f_t k_ve. Its 16 parameters are these eight as functions of the current and of the excitation's peak speed
 // v_m = sqrt(v^2 - a x). The latter holds for one sine about x = 0 only, so it is not part of this model: the eight are
-// constants here, and the dependence on current or frequency is put on them as polynomials, as for any other model. The
-// identification study that quotes the 16 functions leaves the force itself out, and its v_h vanishes at zero current,
-// where its own curves show a loop: not what was fitted, so the 16 are not made up from it here. The acceleration is
+// constants here, and the dependence on current or frequency is put on them as polynomials, as for any other model;
+// wang-sigmoid has the sixteen. The acceleration is
 // that of models/motion_filter.hpp with tau = 2 ms; a_s = 0.2 m/s^2 rounds its sign. Source: Wang, Ma, Rakheja, Su,
 // Proc. IMechE D 217 (2003) 537-550, and Wang et al. 2004 in the form quoted by the Nelder-Mead identification of the
 // modified Bouc-Wen model.

@@ -1,6 +1,7 @@
 // Guo-Hu: accumulator preload, dashpot and an arc tangent of the velocity shifted by the branch.
 //   F = f0 + c0 v + (2 / pi) f_y atan((v - v_h b) / v_y),   b = tanh(a / a_s), the sign of the acceleration
-// The source writes atan(K (v - v_0 sgn(a))): v_y = 1 / K, v_h = v_0.
+// The source writes atan(K (v - v_0 sgn(a))) + m a: v_y = 1 / K, v_h = v_0. Its mass term is the effect inertia, so that
+// guo-hu+inertia is the whole of it.
 // The acceleration is that of models/motion_filter.hpp with tau = 2 ms; a_s = 0.2 m/s^2 rounds its sign.
 // Source: Guo, Hu, Yi, J. Vib. Control 10 (2004) 461-471, doi 10.1177/1077546304038968.
 #include "models/motion_filter.hpp"
@@ -35,7 +36,8 @@ struct GuoHu {
   static constexpr std::string_view reference =
       "Guo, Hu, Yi, J. Vib. Control 10 (2004) 461-471, doi 10.1177/1077546304038968";
   static constexpr std::string_view equations[] = {"F = f0 + c0 v + (2 / pi) f_y atan((v - v_h b) / v_y)",
-                                                   "b = tanh(a / a_s)", "a from h' = (v - h) / tau"};
+                                                   "b = tanh(a / a_s)", "a from h' = (v - h) / tau",
+                                                   "the source's m a is the effect inertia: guo-hu+inertia"};
   static constexpr int states = 1;
   static constexpr Parameter parameters[] = {
       {.name = "f_y", .unit = "N", .meaning = "yield force", .box = {0, 3e3}, .initial = 500, .linear = true, .role = PhysicalRole::yield_force},

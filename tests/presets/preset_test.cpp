@@ -60,7 +60,7 @@ struct Sine {
 
 Vector simulated(const Preset& preset, double drive, const Sine& motion) {
   const CompositeModel model = make_model(preset.model, {preset.effects.begin(), preset.effects.end()});
-  return simulate(model, make_motion(motion.time, motion.x, motion.v, {}, 1e-8),
+  return simulate(model, make_motion(motion.time, motion.x, motion.v, Vector(motion.time.size(), drive), 1e-8),
                   preset.parameters(quantities(preset, drive, motion.w / (2.0 * std::numbers::pi))));
 }
 
@@ -112,7 +112,9 @@ TEST(Presets, AreCompleteAndSimulate) {
     for (const double share : {0.0, 0.3, 1.0}) {
       const double drive = preset->drive_low + share * (preset->drive_high - preset->drive_low);
       ASSERT_EQ(preset->parameters(quantities(*preset, drive, 1.2)).size(), model.parameter_count());
-      const Vector force = simulated(*preset, drive, Sine(1.2, 0.01, 1.0));
+      // A set of one sine alone means nothing on another.
+      const Vector force =
+          simulated(*preset, drive, preset->id == "nelder-mead-tables" ? Sine(1.0, 0.0025, 1.0) : Sine(1.2, 0.01, 1.0));
       EXPECT_TRUE(std::ranges::all_of(force, [](double f) { return std::isfinite(f); })) << drive;
       EXPECT_GT(largest(force), 0.1) << drive;
       EXPECT_LT(largest(force), 2e4) << drive;
@@ -214,6 +216,37 @@ TEST(Presets, LagOfTheDriveIsFirstOrder) {
     EXPECT_NEAR(result[n], 1.0 + 50.0 * (t - 0.01 * (1.0 - std::exp(-t / 0.01))), 1e-12);
   }
   EXPECT_EQ(lagged(time, drive, 0.0), drive);
+}
+
+// The sixteen parameters at one current and one sine: the force as Wang et al. write it, with the exponentials.
+TEST(Presets, NelderMeadTablesGiveTheForceOfTheSource) {
+  const Preset* preset = find_preset("nelder-mead-tables");
+  ASSERT_NE(preset, nullptr);
+  const Sine motion(1.0, 0.0025, 1.0);
+  const double v_m = motion.a * motion.w;
+  double before = 0.0;
+  for (const double current : {0.1, 0.2, 0.3, 0.4, 0.5}) {
+    const auto q = [&](std::string_view name) { return quantity(*preset, name, current); };
+    const auto gain = [&](const char* slope, const char* turn) {
+      return 1.0 / (1.0 + std::exp(-q(slope) * (current + q(turn)))) - 1.0 / (1.0 + std::exp(-q(slope) * q(turn)));
+    };
+    const double f_t = q("f0") * (1.0 + std::exp(q("a1") * v_m)) * (1.0 + q("k2") * gain("a2", "I0"));
+    const double width = q("k4") * v_m * (1.0 + q("k3") * gain("a3", "I1"));
+    const double alpha = q("a0") / (1.0 + q("k0") * v_m);
+    const Vector force = simulated(*preset, current, motion);
+    for (std::size_t n = 5; n < force.size(); n += 40) {
+      const double v = motion.v[n];
+      const double a = -motion.w * motion.w * motion.x[n];
+      if (std::fabs(a) < 0.08) continue;  // where the rounded sign of the acceleration turns
+      const double u = alpha * (v - q("k6") * v_m + std::copysign(width, a * width));
+      const double damping = (v > 0.0 ? q("k1c") * v : -q("k1e") * v) * std::exp(-q("a4") * v_m);
+      const double expected = f_t * ((1.0 - std::exp(-u)) / (1.0 + std::exp(-u)) * (1.0 + damping) + q("k5"));
+      EXPECT_NEAR(force[n], expected, 0.01 * f_t) << current << " A, sample " << n;
+    }
+    // A magnetorheological damper: stronger with every step of the current.
+    EXPECT_GT(f_t, before) << current;
+    before = f_t;
+  }
 }
 
 }  // namespace
