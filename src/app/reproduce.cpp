@@ -72,12 +72,13 @@ std::string reproduction_markdown(const PublishedTable& entry, const Reproductio
   return text;
 }
 
-// Gives the study's solvers these settings, each to those that know it. Returns what was changed, "pso: topology = 0".
+// Gives the study's solvers these settings, each to those that know it and are not there as they ship. Returns what was changed, "pso: topology = 0".
 std::vector<std::string> set(Study& study, const std::map<std::string, double>& settings) {
   std::vector<std::string> changed;
   for (const auto& [name, value] : settings) {
     bool known = false;
     for (SolverSpec& solver : study.solvers) {
+      if (solver.shipped) continue;
       const SolverEntry* entry = find_solver(solver.id);
       const auto row = std::ranges::find(entry->settings, name, &Setting::name);
       if (row == entry->settings.end()) continue;

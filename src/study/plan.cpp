@@ -138,6 +138,7 @@ Plan make_plan(const Study& study, const std::string& version) {
     const std::vector<DataGroup> groups = groups_of(data, study.file);
     for (const DataGroup& group : groups) {
       for (const ModelSpec& model : study.models) {
+        if (!model.on.empty() && std::ranges::find(model.on, data.label) == model.on.end()) continue;
         try {
           const DataScale scale = scale_of(group.fitted);
           Layout layout(make_model(model.model, model.effects), scale, model.layout);

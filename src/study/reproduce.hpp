@@ -68,6 +68,10 @@ Study least_squares_table_2(const ReproduceOptions& options);
 Reproduction least_squares_table_2_result(const Plan& plan, const std::vector<RunRecord>& records);
 Study lm_table_1(const ReproduceOptions& options);
 Reproduction lm_table_1_result(const Plan& plan, const std::vector<RunRecord>& records);
+Study nelder_mead_tables(const ReproduceOptions& options);
+Reproduction nelder_mead_tables_result(const Plan& plan, const std::vector<RunRecord>& records);
+Study review_polynomials(const ReproduceOptions& options);
+Reproduction review_polynomials_result(const Plan& plan, const std::vector<RunRecord>& records);
 
 }  // namespace reproduce
 }  // namespace hysteron

@@ -19,6 +19,7 @@ struct ModelSpec {
   std::vector<std::string> effects;
   LayoutOptions layout;
   int line = 0;
+  std::vector<std::string> on = {};  // labels of the data it is for; empty: all
 };
 
 struct DataSpec {
@@ -41,6 +42,7 @@ struct SolverSpec {
   std::map<std::string, double> settings;
   int line = 0;
   bool project = false;  // without the affine coordinates (fit/projection.hpp)
+  bool shipped = false;  // keeps the program's defaults, whatever a command sets
 };
 
 enum class StartPoint {

@@ -40,7 +40,8 @@ const Allowed& allowed() {
       {"src/plugin", {"core", "fit", "simulate"}},
       {"presets", {"presets/support"}},
       {"datasets", {"core", "datasets/support", "io", "presets/support", "simulate"}},
-      {"src/study", {"core", "datasets", "external", "fit", "io", "report", "simulate"}},
+      {"src/study",
+       {"core", "datasets", "datasets/support", "external", "fit", "io", "presets/support", "report", "simulate"}},
   };
   return table;
 }

@@ -5,8 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 
+#include "datasets/support/stepped_voltage.hpp"
+#include "presets/support/rd8040_polynomials.hpp"
 #include "study/run.hpp"
 
 namespace hysteron {
@@ -38,12 +41,16 @@ TEST_P(Table, CanBeMade) {
 
 INSTANTIATE_TEST_SUITE_P(All, Table,
                          ::testing::Values("table-v", "table-vi", "table-vii", "table-viii", "figure-9",
-                                           "least-squares-table-2", "lm-table-1"),
+                                           "least-squares-table-2", "lm-table-1", "nelder-mead-tables",
+                                           "review-polynomials"),
                          [](const auto& row) {
                            std::string name = row.param;
                            std::ranges::replace(name, '-', '_');
                            return name;
                          });
+
+// What `list tables` names is what is tested above.
+TEST(Tables, AreAllTested) { EXPECT_EQ(published_tables().size(), 9U); }
 
 // One current of the round trip without noise: the published parameters must come back.
 TEST(RoundTrip, BringsThePublishedParametersBack) {
@@ -53,9 +60,11 @@ TEST(RoundTrip, BringsThePublishedParametersBack) {
   study.data.front().made.resize(1);
   const Plan plan = make_plan(study, "test");
   Store store = Store::memory();
-  ASSERT_EQ(run_plan(plan, store, {}, {}, {}).done, 2U);
+  ASSERT_EQ(run_plan(plan, store, {}, {}, {}).done, 4U);
   const auto records = store.records();
-  const RunRecord* best = reproduce::best_run(plan, records, 0);
+  const std::size_t problem = reproduce::problem_index(plan, "stage 2 @ clean/0.00A");
+  ASSERT_LT(problem, plan.problems.size());
+  const RunRecord* best = reproduce::best_run(plan, records, problem);
   ASSERT_NE(best, nullptr);
   const auto p = nlohmann::json::parse(best->parameters);
   // Row of 0 A: alpha 15.71, A 3507.8, beta -1013.6, gamma 1235.8, n 1.01, c0 33.78, k0 75.04.
@@ -65,6 +74,94 @@ TEST(RoundTrip, BringsThePublishedParametersBack) {
   EXPECT_NEAR(p.at("x_y").get<double>() / (z / 3507.8), 1.0, 1e-3);
   EXPECT_NEAR(p.at("share").get<double>() / (1235.8 / sum), 1.0, 1e-3);
   EXPECT_NEAR(p.at("k0").get<double>() / 75.04, 1.0, 0.02);
+}
+
+// The published parameters of all 55 conditions lie inside the box that tables V to VIII search.
+TEST(Box, HoldsWhatThePaperFound) {
+  const Plan plan = make_plan(find_published_table("table-viii")->study({1, 12, {}}), "test");
+  ASSERT_EQ(plan.problems.size(), 55U);
+  std::size_t negative = 0;
+  for (const StudyProblem& problem : plan.problems) {
+    const double f = std::stod(problem.recordings.front().file);
+    const double i = problem.recordings.front().drive.front();
+    const double gamma = rd8040::gamma(i, f);
+    const double sum = rd8040::beta(i, f) + gamma;
+    const std::map<std::string, double> truth{{"alpha", 80.0 * rd8040::A(i, f) / sum},
+                                              {"x_y", 1.0 / sum},
+                                              {"share", gamma / sum},
+                                              {"k0", rd8040::k0(i, f)},
+                                              {"k1", rd8040::k1(i, f)},
+                                              {"c0", rd8040::c0(i, f)},
+                                              {"c1", rd8040::c1(i, f)},
+                                              {"offset-force.f0", rd8040::f0(i, f)}};
+    negative += rd8040::k0(i, f) < 0.0 ? 1 : 0;
+    const Layout& layout = problem.layout;
+    EXPECT_EQ(layout.dimension(), truth.size());
+    for (const Coordinate& at : layout.coordinates()) {
+      const std::string& name = layout.names()[at.parameter];
+      EXPECT_GT(truth.at(name), at.lower) << problem.label << " " << name;
+      EXPECT_LT(truth.at(name), at.upper) << problem.label << " " << name;
+    }
+  }
+  EXPECT_EQ(negative, 45U);
+}
+
+// The swarm "as published" is informed by all of its particles, and is not what the program ships.
+TEST(Swarm, AsPublishedIsTheWholeOne) {
+  const Study study = find_published_table("table-v")->study({1, 10000, {}});
+  ASSERT_EQ(study.solvers.size(), 3U);
+  EXPECT_EQ(study.solvers[0].settings.at("topology"), 0.0);
+  EXPECT_EQ(study.solvers[0].settings.at("population"), 100.0);
+  EXPECT_EQ(study.solvers[1].id, "ga");
+  EXPECT_TRUE(study.solvers[2].settings.empty());
+  EXPECT_TRUE(study.solvers[2].shipped);
+}
+
+// Two routes to one force: steps of voltage through the exact lag of the generator, and through the effect.
+TEST(VoltageTwin, IsBoucWenBehindALagOfTheDrive) {
+  const Campaign campaign = stepped_voltage_campaign(rd8040_1, 0.0, Stream(1));
+  ASSERT_EQ(campaign.recordings.size(), 4U);
+  EXPECT_EQ(campaign.roles.back(), Role::validate);
+  const CompositeModel model = make_model("bouc-wen", {"coil-lag"});
+  const auto names = model.parameter_names();
+  const auto index = [&](const char* name) {
+    return static_cast<std::size_t>(std::ranges::find(names, name) - names.begin());
+  };
+  const double sum = rd8040_1.beta + rd8040_1.gamma;
+  const double z = std::pow(rd8040_1.A / sum, 1.0 / rd8040_1.n);
+  const std::vector<Term> terms{{index("alpha"), 0, 0, rd8040_1.alpha_a * z},
+                                {index("alpha"), 1, 0, rd8040_1.alpha_b * z},
+                                {index("c0"), 0, 0, rd8040_1.c0a},
+                                {index("c0"), 1, 0, rd8040_1.c0b},
+                                {index("k0"), 0, 0, rd8040_1.k0},
+                                {index("f0"), 0, 0, -rd8040_1.k0 * rd8040_1.x0},
+                                {index("x_y"), 0, 0, z / rd8040_1.A},
+                                {index("share"), 0, 0, rd8040_1.gamma / sum},
+                                {index("n"), 0, 0, rd8040_1.n},
+                                {index("coil-lag.tau"), 0, 0, 1.0 / rd8040_1.eta},
+                                {index("coil-lag.r"), 0, 0, 1.0}};
+  ObjectiveOptions options;
+  options.tolerance = 1e-8;
+  for (const Recording& recording : campaign.recordings) {
+    const auto error = [&](double eta) {
+      std::vector<Term> own = terms;
+      own[9].value = 1.0 / eta;
+      const auto force = predict(model, std::vector<double>(names.size()), own, make_target(recording, options));
+      return score(force, recording, Normalisation::max_abs).nrmse;
+    };
+    EXPECT_LT(error(157.0), 1e-6) << recording.file;
+    // And the lag matters: one that is a third longer is far from the force.
+    EXPECT_GT(error(118.0), 1e-3) << recording.file;
+  }
+}
+
+// Models of a study may be for some of its data only.
+TEST(Plan, ModelsKeepToTheDataTheyAreFor) {
+  const Plan plan = make_plan(find_published_table("lm-table-1")->study({1, 12, {}}), "test");
+  EXPECT_EQ(plan.problems.size(), 8U);
+  for (const StudyProblem& problem : plan.problems) {
+    EXPECT_EQ(problem.model == "bouc-wen+coil-lag", problem.data.find("steps") != std::string::npos) << problem.label;
+  }
 }
 
 }  // namespace
