@@ -530,6 +530,61 @@ function buildPlots(r) {
   timePlot(detail.hosts[3], "Residual (measured − simulated) against time", "Residual [N]", 220, residualCurves(r));
 }
 
+// Inverse of the standard normal distribution: Acklam's rational approximations, relative error below 1.2e-9.
+function normalQuantile(p) {
+  const ratio = (top, bottom, t) => top.reduce((sum, c) => sum * t + c, 0) / bottom.reduce((sum, c) => sum * t + c, 0);
+  const tail = (q) => ratio([-7.784894002430293e-3, -0.3223964580411365, -2.400758277161838, -2.549732539343734, 4.374664141464968, 2.938163982698783],
+    [7.784695709041462e-3, 0.3224671290700398, 2.445134137142996, 3.754408661907416, 1], Math.sqrt(-2 * Math.log(q)));
+  if (p < 0.02425) return tail(p);
+  if (p > 0.97575) return -tail(1 - p);
+  const q = p - 0.5;
+  return q * ratio([-39.69683028665376, 220.9460984245205, -275.9285104469687, 138.3577518672690, -30.66479806614716, 2.506628277459239],
+    [-54.47609879822406, 161.5858368580409, -155.6989798598866, 66.80131188771972, -13.28068155288572, 1], q * q);
+}
+
+// How the residual of a recording is distributed, over its root mean square, beside a normal one. What it does not show
+// is order: a residual may look normal here and still follow the motion.
+function distributionCharts(r) {
+  const values = residual(r).filter(isNumber);
+  const rms = Math.sqrt(values.reduce((sum, v) => sum + v * v, 0) / values.length);
+  if (values.length < 20 || !(rms > 0)) return [];
+  const sorted = Float64Array.from(values, (v) => v / rms).sort();
+  const reach = 4;
+  const bins = Math.max(12, Math.min(40, Math.round(Math.sqrt(sorted.length))));
+  const width = (2 * reach) / bins;
+  const counts = new Array(bins).fill(0);
+  for (const v of sorted) {
+    const bin = Math.floor((v + reach) / width);
+    if (bin >= 0 && bin < bins) ++counts[bin];
+  }
+  const steps = { x: [-reach], y: [0] };
+  counts.forEach((n, k) => {
+    const density = n / sorted.length / width;
+    steps.x.push(-reach + k * width, -reach + (k + 1) * width);
+    steps.y.push(density, density);
+  });
+  steps.x.push(reach);
+  steps.y.push(0);
+  const grid = Array.from({ length: 81 }, (_, k) => -reach + (k * reach) / 40);
+  const bell = { x: grid, y: grid.map((v) => Math.exp(-0.5 * v * v) / Math.sqrt(2 * Math.PI)) };
+  const wanted = Math.min(sorted.length, 200);
+  const points = { x: [], y: [] };
+  for (let k = 0; k < wanted; ++k) {
+    // Evenly along the axis, so that the tails are drawn too.
+    const at = Math.round(((1 - Math.cos((Math.PI * k) / (wanted - 1))) / 2) * (sorted.length - 1));
+    points.x.push(normalQuantile((at + 0.5) / sorted.length));
+    points.y.push(sorted[at]);
+  }
+  const size = { width: 380, height: 250, margin: [6, 10, 36, 46] };
+  const range = padded(extent([points.x, points.y]));
+  return [
+    svgNode(chart({ ...size, title: `Histogram of the residual of ${nameOf(r)}; dashed: normal`, x: { label: "Residual / RMS", range: [-reach, reach] },
+      y: { label: "Density", range: [0, 1.1 * Math.max(0.42, ...steps.y)] }, series: [{ ...bell, cls: "measured", dash: "5 4" }, { ...steps, cls: "residual" }] })),
+    svgNode(chart({ ...size, title: `Normal quantile-quantile plot of the residual of ${nameOf(r)}; dashed: normal`, x: { label: "Normal quantile", range },
+      y: { label: "Residual / RMS", range }, series: [{ x: range, y: range, cls: "measured", dash: "5 4" }, { ...points, cls: "residual" }] })),
+  ].map((node) => el("figure", { class: "plot" }, node));
+}
+
 function detailView() {
   const chooser = el("select", { "aria-label": "Recording shown", onchange: (e) => select(Number(e.target.value)) },
     recordings.map((r, i) => el("option", { value: i }, `${nameOf(r)} (${roleOf(r)})`)));
@@ -541,10 +596,12 @@ function detailView() {
   const readout = el("p", { class: "readout" }, hint);
   const hosts = [0, 1, 2, 3].map((i) => el("figure", { class: i === 0 || i === 3 ? "plot wide" : "plot" }));
   const printed = el("div", { class: "print-only" });
-  detail = { chooser, previous, next, heading, readout, hosts, printed, hint };
+  const spread = el("div", { class: "plots" });
+  detail = { chooser, previous, next, heading, readout, hosts, spread, printed, hint };
   const node = el("div", {}, heading,
     el("div", { class: "controls" }, el("label", {}, "Recording", chooser), previous, next), legend(true), readout,
-    el("div", { class: "plots interactive" }, hosts), printed);
+    el("div", { class: "plots interactive" }, hosts), printed,
+    el("h4", {}, "Distribution of the residual: histogram and normal quantile-quantile plot; dashed: normal"), spread);
   return node;
 }
 
@@ -568,6 +625,7 @@ function select(index, scroll) {
   detail.readout.textContent = detail.hint;
   markSelected();
   buildPlots(r);
+  detail.spread.replaceChildren(...distributionCharts(r));
   if (scroll) detail.heading.scrollIntoView();
 }
 
