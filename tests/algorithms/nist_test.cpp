@@ -1,15 +1,20 @@
 // NIST StRD non-linear regression: certified parameters and residual sums of squares by lm and multistart-lm.
-// Data and certified values: National Institute of Standards and Technology, Statistical Reference Datasets, sets
-// Misra1a to Misra1d, Rat42, Rat43, DanWood, BoxBOD, MGH09, MGH10, MGH17 and Thurber. Magnitudes of parameters are
-// searched in a logarithmic box from a tenth of the smallest to ten times the largest of both official starts and the
-// certified value, as positive parameters of a damper are; signs are those of the certified values. Digits: -log10 of
-// the relative error, the least over the parameters, at most 11 (as many are certified).
+// Data, starts and certified values are the files of tests/algorithms/nist, the whole collection of 27 sets. A
+// parameter whose starts have the sign of its certified value is searched in a logarithmic box from a tenth of the
+// smallest to ten times the largest of starts and solution, as positive parameters of a damper are; one whose starts
+// change sign in a linear box of ten times the largest to both sides. Digits: -log10 of the relative error, the least
+// over the parameters, at most 11 (as many are certified).
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <functional>
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+#include <numeric>
+#include <set>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,131 +25,135 @@ namespace hysteron {
 namespace {
 
 using Vector = std::vector<double>;
+// Parameters and the predictors of an observation.
+using Law = double (*)(const Vector& b, const Vector& x);
 
-struct Regression {
+double polynomial_ratio(const Vector& b, double x, std::size_t above) {
+  double numerator = 0.0;
+  double denominator = 0.0;
+  for (std::size_t k = above; k-- > 0;) numerator = numerator * x + b[k];
+  for (std::size_t k = b.size(); k-- > above;) denominator = (denominator + b[k]) * x;
+  return numerator / (1.0 + denominator);
+}
+double bell(double x, double middle, double width) { return std::exp(-(x - middle) * (x - middle) / (width * width)); }
+double fading(const Vector& b, const Vector& x) { return std::exp(-b[0] * x[0]) / (b[1] + b[2] * x[0]); }
+double three_exponentials(const Vector& b, const Vector& x) {
+  return b[0] * std::exp(-b[1] * x[0]) + b[2] * std::exp(-b[3] * x[0]) + b[4] * std::exp(-b[5] * x[0]);
+}
+double two_bells(const Vector& b, const Vector& x) {
+  return b[0] * std::exp(-b[1] * x[0]) + b[2] * bell(x[0], b[3], b[4]) + b[5] * bell(x[0], b[6], b[7]);
+}
+double saturating(const Vector& b, const Vector& x) { return b[0] * (1.0 - std::exp(-b[1] * x[0])); }
+
+struct Named {
   const char* name;
-  Vector y, x;
-  Vector start1, start2, certified;
-  double squares;
-  double (*model)(const Vector& b, double x);
+  Law law;
+  // Groups of parameters that may change places: terms of one form.
+  std::vector<std::vector<std::size_t>> alike = {};
+};
+// In the collection's order of difficulty.
+const Named laws[] = {
+    {"Misra1a", saturating},
+    {"Chwirut2", fading},
+    {"Chwirut1", fading},
+    {"Lanczos3", three_exponentials, {{0, 1}, {2, 3}, {4, 5}}},
+    {"Gauss1", two_bells, {{2, 3, 4}, {5, 6, 7}}},
+    {"Gauss2", two_bells, {{2, 3, 4}, {5, 6, 7}}},
+    {"DanWood", [](const Vector& b, const Vector& x) { return b[0] * std::pow(x[0], b[1]); }},
+    {"Misra1b",
+     [](const Vector& b, const Vector& x) { return b[0] * (1.0 - std::pow(1.0 + 0.5 * b[1] * x[0], -2.0)); }},
+    {"Kirby2", [](const Vector& b, const Vector& x) { return polynomial_ratio(b, x[0], 3); }},
+    {"Hahn1", [](const Vector& b, const Vector& x) { return polynomial_ratio(b, x[0], 4); }},
+    {"Nelson", [](const Vector& b, const Vector& x) { return b[0] - b[1] * x[0] * std::exp(-b[2] * x[1]); }},
+    {"MGH17",
+     [](const Vector& b, const Vector& x) {
+       return b[0] + b[1] * std::exp(-x[0] * b[3]) + b[2] * std::exp(-x[0] * b[4]);
+     },
+     {{1, 3}, {2, 4}}},
+    {"Lanczos1", three_exponentials, {{0, 1}, {2, 3}, {4, 5}}},
+    {"Lanczos2", three_exponentials, {{0, 1}, {2, 3}, {4, 5}}},
+    {"Gauss3", two_bells, {{2, 3, 4}, {5, 6, 7}}},
+    {"Misra1c",
+     [](const Vector& b, const Vector& x) { return b[0] * (1.0 - std::pow(1.0 + 2.0 * b[1] * x[0], -0.5)); }},
+    {"Misra1d", [](const Vector& b, const Vector& x) { return b[0] * b[1] * x[0] / (1.0 + b[1] * x[0]); }},
+    {"Roszman1",
+     [](const Vector& b, const Vector& x) {
+       return b[0] - b[1] * x[0] - std::atan(b[2] / (x[0] - b[3])) / std::numbers::pi;
+     }},
+    {"ENSO",
+     [](const Vector& b, const Vector& x) {
+       const double turn = 2.0 * std::numbers::pi * x[0];
+       return b[0] + b[1] * std::cos(turn / 12.0) + b[2] * std::sin(turn / 12.0) + b[4] * std::cos(turn / b[3]) +
+              b[5] * std::sin(turn / b[3]) + b[7] * std::cos(turn / b[6]) + b[8] * std::sin(turn / b[6]);
+     },
+     {{3, 4, 5}, {6, 7, 8}}},
+    {"MGH09", [](const Vector& b,
+                 const Vector& x) { return b[0] * (x[0] * x[0] + x[0] * b[1]) / (x[0] * x[0] + x[0] * b[2] + b[3]); }},
+    {"Thurber", [](const Vector& b, const Vector& x) { return polynomial_ratio(b, x[0], 4); }},
+    {"BoxBOD", saturating},
+    {"Rat42", [](const Vector& b, const Vector& x) { return b[0] / (1.0 + std::exp(b[1] - b[2] * x[0])); }},
+    {"MGH10", [](const Vector& b, const Vector& x) { return b[0] * std::exp(b[1] / (x[0] + b[2])); }},
+    {"Eckerle4",
+     [](const Vector& b, const Vector& x) {
+       return b[0] / b[1] * std::exp(-0.5 * (x[0] - b[2]) * (x[0] - b[2]) / (b[1] * b[1]));
+     }},
+    {"Rat43",
+     [](const Vector& b, const Vector& x) { return b[0] / std::pow(1.0 + std::exp(b[1] - b[2] * x[0]), 1.0 / b[3]); }},
+    {"Bennett5", [](const Vector& b, const Vector& x) { return b[0] * std::pow(b[1] + x[0], -1.0 / b[2]); }},
 };
 
-const Vector misra_y{10.07, 14.73, 17.94, 23.93, 29.61, 35.18, 40.02, 44.82, 50.76, 55.05, 61.01, 66.40, 75.47, 81.78};
-const Vector misra_x{77.6, 114.9, 141.1, 190.8, 239.9, 289.0, 332.8, 378.4, 434.8, 477.3, 536.8, 593.1, 689.1, 760.0};
+struct Regression {
+  std::string name;
+  Vector y;
+  std::vector<Vector> x;
+  Vector start1, start2, certified;
+  double squares = 0.0;
+  Law model = nullptr;
+  std::vector<std::vector<std::size_t>> alike;
+};
 
-double rational(const Vector& b, double x) {
-  return (b[0] + x * (b[1] + x * (b[2] + x * b[3]))) / (1.0 + x * (b[4] + x * (b[5] + x * b[6])));
+Regression read(const Named& named) {
+  Regression result;
+  result.name = named.name;
+  result.model = named.law;
+  result.alike = named.alike;
+  std::ifstream file(std::filesystem::path(HYSTERON_SOURCE_DIR) / "tests/algorithms/nist" / (result.name + ".dat"));
+  bool data = false;
+  for (std::string line; std::getline(file, line);) {
+    std::istringstream words(line);
+    std::string first;
+    double value = 0.0;
+    if (data) {
+      Vector row;
+      while (words >> value) row.push_back(value);
+      if (row.size() < 2) continue;
+      // Nelson's response is the logarithm.
+      result.y.push_back(result.name == "Nelson" ? std::log(row[0]) : row[0]);
+      result.x.emplace_back(row.begin() + 1, row.end());
+    } else if (line.starts_with("Data:") && line.find("Response") == std::string::npos) {
+      data = true;
+    } else if (line.starts_with("Residual Sum of Squares:")) {
+      result.squares = std::stod(line.substr(line.find(':') + 1));
+    } else if (words >> first && first.size() >= 2 && first[0] == 'b' && std::isdigit(first[1]) != 0) {
+      std::string equals;
+      double one = 0.0;
+      double two = 0.0;
+      if (!(words >> equals >> one >> two >> value) || equals != "=") continue;
+      result.start1.push_back(one);
+      result.start2.push_back(two);
+      result.certified.push_back(value);
+    }
+  }
+  return result;
 }
 
-std::vector<Regression> regressions() {
-  return {
-      {"Misra1a",
-       misra_y,
-       misra_x,
-       {500, 1e-4},
-       {250, 5e-4},
-       {2.3894212918E+02, 5.5015643181E-04},
-       1.2455138894E-01,
-       [](const Vector& b, double x) { return b[0] * (1.0 - std::exp(-b[1] * x)); }},
-      {"Misra1b",
-       misra_y,
-       misra_x,
-       {500, 1e-4},
-       {300, 2e-4},
-       {3.3799746163E+02, 3.9039091287E-04},
-       7.5464681533E-02,
-       [](const Vector& b, double x) { return b[0] * (1.0 - std::pow(1.0 + 0.5 * b[1] * x, -2.0)); }},
-      {"Misra1c",
-       misra_y,
-       misra_x,
-       {500, 1e-4},
-       {600, 2e-4},
-       {6.3642725809E+02, 2.0813627256E-04},
-       4.0966836971E-02,
-       [](const Vector& b, double x) { return b[0] * (1.0 - std::pow(1.0 + 2.0 * b[1] * x, -0.5)); }},
-      {"Misra1d",
-       misra_y,
-       misra_x,
-       {500, 1e-4},
-       {450, 3e-4},
-       {4.3736970754E+02, 3.0227324449E-04},
-       5.6419295283E-02,
-       [](const Vector& b, double x) { return b[0] * b[1] * x / (1.0 + b[1] * x); }},
-      {"Rat42",
-       {8.93, 10.8, 18.59, 22.33, 39.35, 56.11, 61.73, 64.62, 67.08},
-       {9, 14, 21, 28, 42, 57, 63, 70, 79},
-       {100, 1, 0.1},
-       {75, 2.5, 0.07},
-       {7.2462237576E+01, 2.6180768402E+00, 6.7359200066E-02},
-       8.0565229338E+00,
-       [](const Vector& b, double x) { return b[0] / (1.0 + std::exp(b[1] - b[2] * x)); }},
-      {"MGH09",
-       {0.1957, 0.1947, 0.1735, 0.16, 0.0844, 0.0627, 0.0456, 0.0342, 0.0323, 0.0235, 0.0246},
-       {4.0, 2.0, 1.0, 0.5, 0.25, 0.167, 0.125, 0.1, 0.0833, 0.0714, 0.0625},
-       {25, 39, 41.5, 39},
-       {0.25, 0.39, 0.415, 0.39},
-       {1.9280693458E-01, 1.9128232873E-01, 1.2305650693E-01, 1.3606233068E-01},
-       3.0750560385E-04,
-       [](const Vector& b, double x) { return b[0] * (x * x + x * b[1]) / (x * x + x * b[2] + b[3]); }},
-      {"Thurber",
-       {80.574,   84.248,   87.264,   87.195,   89.076,   89.608,   89.868,   90.101,   92.405,   95.854,
-        100.696,  101.060,  401.672,  390.724,  567.534,  635.316,  733.054,  759.087,  894.206,  990.785,
-        1090.109, 1080.914, 1122.643, 1178.351, 1260.531, 1273.514, 1288.339, 1327.543, 1353.863, 1414.509,
-        1425.208, 1421.384, 1442.962, 1464.350, 1468.705, 1447.894, 1457.628},
-       {-3.067, -2.981, -2.921, -2.912, -2.840, -2.797, -2.702, -2.699, -2.633, -2.481, -2.363, -2.322, -1.501,
-        -1.460, -1.274, -1.212, -1.100, -1.046, -0.915, -0.714, -0.566, -0.545, -0.400, -0.309, -0.109, -0.103,
-        0.010,  0.119,  0.377,  0.790,  0.963,  1.006,  1.115,  1.572,  1.841,  2.047,  2.200},
-       {1000, 1000, 400, 40, 0.7, 0.3, 0.03},
-       {1300, 1500, 500, 75, 1, 0.4, 0.05},
-       {1.2881396800E+03, 1.4910792535E+03, 5.8323836877E+02, 7.5416644291E+01, 9.6629502864E-01, 3.9797285797E-01,
-        4.9727297349E-02},
-       5.6427082397E+03,
-       rational},
-      {"DanWood",
-       {2.138, 3.421, 3.597, 4.340, 4.882, 5.660},
-       {1.309, 1.471, 1.490, 1.565, 1.611, 1.680},
-       {1, 5},
-       {0.7, 4},
-       {7.6886226176E-01, 3.8604055871E+00},
-       4.3173084083E-03,
-       [](const Vector& b, double x) { return b[0] * std::pow(x, b[1]); }},
-      {"BoxBOD",
-       {109, 149, 149, 191, 213, 224},
-       {1, 2, 3, 5, 7, 10},
-       {1, 1},
-       {100, 0.75},
-       {2.1380940889E+02, 5.4723748542E-01},
-       1.1680088766E+03,
-       [](const Vector& b, double x) { return b[0] * (1.0 - std::exp(-b[1] * x)); }},
-      {"Rat43",
-       {16.08, 33.83, 65.80, 97.20, 191.55, 326.20, 386.87, 520.53, 590.03, 651.92, 724.93, 699.56, 689.96, 637.56,
-        717.41},
-       {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15},
-       {100, 10, 1, 1},
-       {700, 5, 0.75, 1.3},
-       {6.9964151270E+02, 5.2771253025E+00, 7.5962938329E-01, 1.2792483859E+00},
-       8.7864049080E+03,
-       [](const Vector& b, double x) { return b[0] / std::pow(1.0 + std::exp(b[1] - b[2] * x), 1.0 / b[3]); }},
-      {"MGH17",
-       {0.844, 0.908, 0.932, 0.936, 0.925, 0.908, 0.881, 0.850, 0.818, 0.784, 0.751,
-        0.718, 0.685, 0.658, 0.628, 0.603, 0.580, 0.558, 0.538, 0.522, 0.506, 0.490,
-        0.478, 0.467, 0.457, 0.448, 0.438, 0.431, 0.424, 0.420, 0.414, 0.411, 0.406},
-       {0,   10,  20,  30,  40,  50,  60,  70,  80,  90,  100, 110, 120, 130, 140, 150, 160,
-        170, 180, 190, 200, 210, 220, 230, 240, 250, 260, 270, 280, 290, 300, 310, 320},
-       {50, 150, -100, 1, 2},
-       {0.5, 1.5, -1, 0.01, 0.02},
-       {3.7541005211E-01, 1.9358469127E+00, -1.4646871366E+00, 1.2867534640E-02, 2.2122699662E-02},
-       5.4648946975E-05,
-       [](const Vector& b, double x) { return b[0] + b[1] * std::exp(-x * b[3]) + b[2] * std::exp(-x * b[4]); }},
-      {"MGH10",
-       {34780, 28610, 23650, 19630, 16370, 13720, 11540, 9744, 8261, 7030, 6005, 5147, 4427, 3820, 3307, 2872},
-       {50, 55, 60, 65, 70, 75, 80, 85, 90, 95, 100, 105, 110, 115, 120, 125},
-       {2, 400000, 25000},
-       {0.02, 4000, 250},
-       {5.6096364710E-03, 6.1813463463E+03, 3.4522363462E+02},
-       8.7945855171E+01,
-       [](const Vector& b, double x) { return b[0] * std::exp(b[1] / (x + b[2])); }},
-  };
+const std::vector<Regression>& regressions() {
+  static const std::vector<Regression> all = [] {
+    std::vector<Regression> result;
+    for (const Named& named : laws) result.push_back(read(named));
+    return result;
+  }();
+  return all;
 }
 
 // The regression on the unit box, derivatives by central differences of fifth order accuracy in the residual.
@@ -155,21 +164,26 @@ class Boxed {
       const double a = std::fabs(regression.start1[k]);
       const double b = std::fabs(regression.start2[k]);
       const double c = std::fabs(regression.certified[k]);
-      lower_.push_back(std::log(0.1 * std::min({a, b, c})));
-      upper_.push_back(std::log(10.0 * std::max({a, b, c})));
+      const bool one_sign = std::signbit(regression.start1[k]) == std::signbit(regression.certified[k]) &&
+                            std::signbit(regression.start2[k]) == std::signbit(regression.certified[k]);
+      logarithmic_.push_back(one_sign);
+      lower_.push_back(one_sign ? std::log(0.1 * std::min({a, b, c})) : -10.0 * std::max({a, b, c}));
+      upper_.push_back(one_sign ? std::log(10.0 * std::max({a, b, c})) : 10.0 * std::max({a, b, c}));
     }
   }
   [[nodiscard]] Vector physical(const Vector& u) const {
     Vector b;
     for (std::size_t k = 0; k < u.size(); ++k) {
-      b.push_back(std::copysign(std::exp(lower_[k] + u[k] * (upper_[k] - lower_[k])), regression_.certified[k]));
+      const double at = lower_[k] + u[k] * (upper_[k] - lower_[k]);
+      b.push_back(logarithmic_[k] ? std::copysign(std::exp(at), regression_.certified[k]) : at);
     }
     return b;
   }
   [[nodiscard]] Vector unit(const Vector& b) const {
     Vector u;
-    for (std::size_t k = 0; k < b.size(); ++k)
-      u.push_back((std::log(std::fabs(b[k])) - lower_[k]) / (upper_[k] - lower_[k]));
+    for (std::size_t k = 0; k < b.size(); ++k) {
+      u.push_back(((logarithmic_[k] ? std::log(std::fabs(b[k])) : b[k]) - lower_[k]) / (upper_[k] - lower_[k]));
+    }
     return u;
   }
   [[nodiscard]] Vector residuals(const Vector& u) const {
@@ -194,7 +208,7 @@ class Boxed {
       std::vector<Vector> columns;
       for (std::size_t k = 0; k < d; ++k) {
         Vector column(r.size(), 0.0);
-        const double h = 1e-3 / (upper_[k] - lower_[k]);
+        const double h = logarithmic_[k] ? 1e-3 / (upper_[k] - lower_[k]) : 1e-5;
         for (const auto& [steps, weight] : {std::pair{1.0, 45.0 / 60.0}, {2.0, -9.0 / 60.0}, {3.0, 1.0 / 60.0}}) {
           Vector above = u;
           Vector below = u;
@@ -221,12 +235,32 @@ class Boxed {
 
  private:
   Regression regression_;
+  std::vector<bool> logarithmic_;
   Vector lower_;
   Vector upper_;
 };
 
 double digits(double value, double certified) {
   return std::min(11.0, -std::log10(std::max(1e-300, std::fabs(value - certified) / std::fabs(certified))));
+}
+
+// Of the worst parameter, terms of one form in the order that fits best.
+double digits(const Regression& regression, const Vector& b) {
+  std::vector<std::size_t> order(regression.alike.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  double best = -1e300;
+  do {
+    Vector arranged = b;
+    for (std::size_t g = 0; g < order.size(); ++g) {
+      for (std::size_t k = 0; k < regression.alike[g].size(); ++k) {
+        arranged[regression.alike[g][k]] = b[regression.alike[order[g]][k]];
+      }
+    }
+    double worst = 11.0;
+    for (std::size_t k = 0; k < b.size(); ++k) worst = std::min(worst, digits(arranged[k], regression.certified[k]));
+    best = std::max(best, worst);
+  } while (std::ranges::next_permutation(order).found);
+  return best;
 }
 
 struct Found {
@@ -250,52 +284,65 @@ Found solve(const Regression& regression, const char* solver, const Vector& star
   const RunResult run =
       run_solver(*find_solver(solver), problem, [&](const Request& request) { return boxed.evaluate(request); });
   const Vector b = boxed.physical(run.best);
-  Found found{11.0, digits(run.cost * run.cost, regression.squares), run.evaluations};
-  for (std::size_t k = 0; k < b.size(); ++k) {
-    found.parameters = std::min(found.parameters, digits(b[k], regression.certified[k]));
-  }
-  return found;
+  return {digits(regression, boxed.physical(run.best)), digits(run.cost * run.cost, regression.squares),
+          run.evaluations};
 }
 
 // The table is results/nist-strd.md.
 constexpr double least_digits = 6.0;
 constexpr double mean_digits = 9.0;
+constexpr std::size_t budget = 20000;
+
+// Where a descent ends elsewhere: set and column (0, 1: the official starts, 2: random starts).
+const std::set<std::pair<std::string, int>> elsewhere = {{"MGH17", 0}, {"Gauss3", 2}, {"ENSO", 2}};
 
 // The certified solution itself has the certified sum of squares: data and equations are those of the collection.
 TEST(NistStrd, CertifiedSolutionsAreReproduced) {
+  std::set<std::string> names;
   for (const Regression& regression : regressions()) {
+    EXPECT_TRUE(names.insert(regression.name).second);
+    ASSERT_FALSE(regression.y.empty() || regression.certified.empty()) << regression.name;
     double squares = 0.0;
     for (std::size_t n = 0; n < regression.x.size(); ++n) {
       const double r = regression.model(regression.certified, regression.x[n]) - regression.y[n];
       squares += r * r;
     }
-    EXPECT_GT(digits(squares, regression.squares), 7.0) << regression.name;
+    // Lanczos1 is exact to the digits of its data: its sum of squares is their rounding.
+    if (regression.name == "Lanczos1") {
+      EXPECT_LT(squares, 1e-20);
+    } else {
+      EXPECT_GT(digits(squares, regression.squares), 7.0) << regression.name;
+    }
   }
+  EXPECT_EQ(names.size(), 27U);
 }
 
 TEST(NistStrd, LevenbergMarquardtFromBothStartsAndFromRandomOnes) {
   std::printf("| set | d | lm, start 1 | lm, start 2 | multistart-lm |\n|---|---|---|---|---|\n");
   double sum = 0.0;
+  double count = 0.0;
   for (const Regression& regression : regressions()) {
-    const Found first = solve(regression, "lm", regression.start1, 20000);
-    const Found second = solve(regression, "lm", regression.start2, 20000);
-    const Found many = solve(regression, "multistart-lm", {}, 20000);
-    std::printf("| %s | %zu | %.1f (%zu) | %.1f (%zu) | %.1f (%zu) |\n", regression.name, regression.certified.size(),
-                first.parameters, first.evaluations, second.parameters, second.evaluations, many.parameters,
-                many.evaluations);
-    // The first start of MGH17 lies in the valley of another optimum: one descent ends there.
-    const bool elsewhere = std::string_view(regression.name) == "MGH17";
-    if (!elsewhere) {
-      EXPECT_GT(first.parameters, least_digits) << regression.name;
-      EXPECT_GT(first.squares, 7.0) << regression.name;
+    const Found found[] = {solve(regression, "lm", regression.start1, budget),
+                           solve(regression, "lm", regression.start2, budget),
+                           solve(regression, "multistart-lm", {}, budget)};
+    std::printf("| %s | %zu |", regression.name.c_str(), regression.certified.size());
+    for (const Found& one : found) std::printf(" %.1f (%zu) |", one.parameters, one.evaluations);
+    std::printf("\n");
+    for (int k = 0; k < 3; ++k) {
+      if (elsewhere.contains({regression.name, k})) {
+        // So that a descent that begins to arrive is noticed too.
+        EXPECT_LT(found[k].parameters, least_digits) << regression.name << ", column " << k;
+        continue;
+      }
+      EXPECT_GT(found[k].parameters, least_digits) << regression.name << ", column " << k;
+      if (regression.name != "Lanczos1") {
+        EXPECT_GT(found[k].squares, 7.0) << regression.name << ", column " << k;
+      }
+      sum += found[k].parameters;
+      count += 1.0;
     }
-    EXPECT_GT(second.parameters, least_digits) << regression.name;
-    EXPECT_GT(many.parameters, least_digits) << regression.name;
-    EXPECT_GT(second.squares, 7.0) << regression.name;
-    EXPECT_GT(many.squares, 7.0) << regression.name;
-    sum += (elsewhere ? second.parameters : first.parameters) + second.parameters + many.parameters;
   }
-  EXPECT_GT(sum / (3.0 * static_cast<double>(regressions().size())), mean_digits);
+  EXPECT_GT(sum / count, mean_digits);
 }
 
 }  // namespace
