@@ -253,10 +253,8 @@ Study review_polynomials(const ReproduceOptions& options) {
     study.data.push_back(std::move(all));
     ModelSpec one = model_on(std::string(step_one) + " " + set.id, set.model, {each_label(set)});
     ModelSpec two = model_on(std::string(step_two) + " " + set.id, set.model, {all_label(set)});
-    // Of modified-bouc-wen the card, scaled to the largest force, ends above the smallest c1 printed.
-    if (find_model(set.model) == find_model("modified-bouc-wen")) {
-      for (ModelSpec* spec : {&one, &two}) spec->layout.bounds["c1"] = {500.0, 1e6};
-    }
+    // The card, scaled to the largest force of all levels, ends above the smallest c1 printed.
+    if (two.model == "modified-bouc-wen") two.layout.bounds["c1"] = {500.0, 1e6};
     for (const Law& law : set.laws)
       two.layout.by_current[law.parameter] = static_cast<int>(law.coefficients.size()) - 1;
     study.models.push_back(one);
