@@ -575,7 +575,7 @@ function distributionCharts(r) {
     points.x.push(normalQuantile((at + 0.5) / sorted.length));
     points.y.push(sorted[at]);
   }
-  const size = { width: 380, height: 250, margin: [6, 10, 36, 46] };
+  const size = { width: root.clientWidth > 900 ? 560 : Math.max(320, root.clientWidth - 60), height: 280, margin: [6, 10, 36, 46] };
   const range = padded(extent([points.x, points.y]));
   return [
     svgNode(chart({ ...size, title: `Histogram of the residual of ${nameOf(r)}; dashed: normal`, x: { label: "Residual / RMS", range: [-reach, reach] },
