@@ -7,9 +7,11 @@ Fails on a script error, a request for anything but the page itself, an empty pl
 the data that became markup, or a control that does not work. Screenshots go into the folder given.
 Exit status 0: all pages good, 1: findings, 2: wrong call, 77: no Chromium.
 """
+import json
 import math
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -32,6 +34,19 @@ dataset = "rd8040-twin"
 label = "twin"
 only = ["2.0Hz_1.0A"]
 """
+
+# What a diagnosis says of the first campaigns of a challenge, whose page is looked at, not its figures.
+SAID = [
+    {"schema": "hysteron.diagnosis/2", "verdict": verdict, "effects": effects, "suggestions": [], "locations": [],
+     "baseline": {"model": "bouc-wen", "nrmse_fit": 0.03, "nrmse_heldout": 0.034, "noise_floor_nrmse": 0.01},
+     "augmented": {"nrmse_fit": 0.01, "nrmse_heldout": 0.011, "remaining_structure": False}}
+    for verdict, effects in (
+        ("complete", []), ("unattributed", []),
+        ("missing-physics", [{"id": "clearance", "grade": "established", "confidence": 0.97, "indistinguishable_from": [],
+                              "parameters": []}]),
+        ("ambiguous", [{"id": "series-dashpot", "grade": "supported", "confidence": 0.86, "parameters": [],
+                        "indistinguishable_from": ["compliance", "pre-yield-hysteresis"]}]))
+]
 
 # Names of the plots in which nothing but axes is drawn, and of drawings without a line.
 EMPTY_PLOTS = """(() => {
@@ -147,10 +162,25 @@ def make_reports(program, folder):
     run("fit", "many", "--model", "viscous", "--budget", "60", "--out", "fit-many")
     run("diagnose", "few", "--model", "bingham", "--by-current", "fc:1,c0:1", "--out", "diagnose")
     (folder / "study.toml").write_text(STUDY, encoding="utf-8")
+    run("fit", "few", "--model", "bingham", "--by-current", "fc:1,c0:1", "--budget", "200", "--out", "fit-bingham")
+    run("compare", "fit/model.json", "fit-bingham/model.json", "few", "--out", "compare")
+    run("challenge", "--out", "challenge", "--campaigns", "4", "--seed", "5", "--generate-only")
+    for k, said in enumerate(SAID):
+        answer = folder / "challenge" / "diagnoses" / f"campaign-{k + 1:04}"
+        answer.mkdir(parents=True)
+        (answer / "diagnosis.json").write_text(json.dumps(said), encoding="utf-8")
+    run("challenge", "--out", "challenge", "--score-only")
+    # As of a fit that was interrupted before it knew its standard errors.
+    page = (folder / "fit" / "report.html").read_text(encoding="utf-8")
+    (folder / "fit-open").mkdir()
+    page = page.replace('"identifiable":false', '"identifiable":true')
+    page = re.sub(r'"std_error":[-+.e0-9]+', '"std_error":null', page)
+    (folder / "fit-open" / "report.html").write_text(re.sub(r'"at_bound":"[a-z]+"', '"at_bound":null', page), encoding="utf-8")
     run("bench", "study.toml", "--out", "study")
     run("report", "study")
     return {name: (folder / path / "report.html", canvases)
-            for name, path, canvases in (("fit", "fit", 4), ("fit-marked", "fit-marked", 4), ("fit-many", "fit-many", 4), ("diagnose", "diagnose", 4), ("study", "study", 5))}
+            for name, path, canvases in (("fit", "fit", 4), ("fit-marked", "fit-marked", 4), ("fit-many", "fit-many", 4), ("diagnose", "diagnose", 4), ("study", "study", 5),
+                                         ("fit-open", "fit-open", 4), ("compare", "compare", 0), ("challenge", "challenge", 0))}
 
 
 def troubles(events, page):
@@ -175,13 +205,18 @@ def check(browser, page, canvases, picture):
     for kind, width, height, dark in (("wide", 1280, 900, False), ("dark", 1280, 900, True), ("phone", PHONE, 844, False)):
         browser.open(page, width, height, dark=dark, scale=2 if kind == "phone" else 1, mobile=kind == "phone")
         said = []
-        if browser.run("document.documentElement.dataset.ready") != "true":
+        if browser.run("document.scripts.length > 0 && document.documentElement.dataset.ready !== 'true'"):
             said.append("its script did not finish")
         found = browser.run("document.querySelectorAll('.u-wrap canvas').length")
         if found < canvases:
             said.append(f"{found} plots, expected {canvases}")
         if browser.run("document.querySelectorAll('body img, body iframe, body object').length"):
             said.append("text of the data became markup")
+        if page.parent.name == "fit-open" and "standard errors were not worked out" not in browser.run("document.querySelector('header').innerText"):
+            said.append("it claims to know what was not worked out")
+        if "held-out" in browser.run("document.querySelector('.tiles')?.innerText || ''") and \
+                "no recording was held out" in browser.run("document.querySelector('header').innerText"):
+            said.append("it denies the held-out recordings whose error it shows")
         said += [f"empty plot: {name}" for name in browser.run(EMPTY_PLOTS)]
         said += [f"too wide: {what}" for what in browser.run(f"{TOO_WIDE}({width})")]
         if kind == "phone":

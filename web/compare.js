@@ -14,15 +14,17 @@ const dash = (k) => dashes[Math.floor(k / 7) % dashes.length];
 
 function table(caption, columns, rows) {
   return el("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": caption },
-    el("table", {}, el("caption", {}, el("span", {}, caption)),
+    el("table", { class: columns.length > 3 ? "stack" : null }, el("caption", {}, el("span", {}, caption)),
       el("thead", {}, el("tr", {}, columns.map((c) => el("th", { scope: "col", class: c.num ? "num" : null }, c.title)))),
       el("tbody", {}, rows.map((cells) => el("tr", {}, cells.map((cell, i) =>
-        el(i === 0 ? "th" : "td", { scope: i === 0 ? "row" : null, class: columns[i].num ? "num" : null }, cell)))))));
+        el(i === 0 ? "th" : "td", { scope: i === 0 ? "row" : null, class: columns[i].num ? "num" : null, "data-title": columns[i].title }, cell)))))));
 }
 
 // series: [{x, y, stroke, dash, bars}]
 function chart(title, xlabel, ylabel, series, yrange) {
-  const [width, height, left, right, top, bottom] = [560, 340, 66, 12, 10, 40];
+  // On a phone as wide as the screen, so that the writing keeps its size.
+  const width = Math.max(300, Math.min(560, document.documentElement.clientWidth - 40));
+  const [height, left, right, top, bottom] = [340, 66, 12, 10, 40];
   const finite = (key) => series.flatMap((s) => s[key]).filter(isNumber);
   const range = (values) => {
     const lo = values.reduce((a, b) => Math.min(a, b), Infinity);
@@ -116,5 +118,6 @@ function draw() {
 }
 
 draw();
+document.documentElement.dataset.ready = "true";
 window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", draw);
 })();

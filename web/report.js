@@ -744,11 +744,11 @@ function trackFigures(s) {
     const y = padded(extent([p.mean.slice(settled), p.lower.slice(settled), p.upper.slice(settled)]), 0.25);
     const inside = p.mean.map((v) => Math.min(Math.max(v, y[0]), y[1]));
     return el("div", { class: "track" }, el("b", {}, p.name), el("span", { class: "sub" },
-      el("span", {}, p.unit), el("strong", {}, `${fmt(p.mean[p.mean.length - 1], 4)} (${fmt(p.lower[p.lower.length - 1], 3)} … ${fmt(p.upper[p.upper.length - 1], 3)})`)),
+      el("span", {}, unitText(p.unit)), el("strong", {}, `${fmt(p.mean[p.mean.length - 1], 4)} (${fmt(p.lower[p.lower.length - 1], 3)} … ${fmt(p.upper[p.upper.length - 1], 3)})`)),
     svgNode(chart({
       width: 240, height: 150, small: true, margin: [4, 4, 16, 46],
-      title: `${p.name} [${p.unit}] against time, with a band of two standard deviations`,
-      x: { label: "t [s]", range: extent([time]) }, y: { label: p.unit, range: y },
+      title: `${p.name} [${unitText(p.unit)}] against time, with a band of two standard deviations`,
+      x: { label: "t [s]", range: extent([time]) }, y: { label: unitText(p.unit), range: y },
       band: { x: time, lower: p.lower, upper: p.upper },
       series: [{ x: time, y: inside, cls: "simulated" }],
     })));
@@ -803,11 +803,11 @@ function lawFigure(p) {
   }
   const y = padded(extent([dots, p.curve.two_stages, p.curve.joint]), 0.15);
   bars.y = bars.y.map((v) => (v === null ? null : Math.min(Math.max(v, y[0]), y[1])));
-  return el("div", { class: "track" }, el("b", {}, `${p.name} [${p.unit}]`),
+  return el("div", { class: "track" }, el("b", {}, `${p.name} [${unitText(p.unit)}]`),
     svgNode(chart({
       width: 240, height: 168, small: true, margin: [4, 4, 16, 46],
-      title: `${p.name} [${p.unit}] against ${p.against}: free values, law in two stages, law of the joint fit`,
-      x: { label: p.against === "drive" ? "drive" : "f [Hz]", range: xr }, y: { label: p.unit, range: y },
+      title: `${p.name} [${unitText(p.unit)}] against ${p.against}: free values, law in two stages, law of the joint fit`,
+      x: { label: p.against === "drive" ? "drive" : "f [Hz]", range: xr }, y: { label: unitText(p.unit), range: y },
       series: [{ ...bars, cls: "residual" }, { ...dashes, cls: "measured" },
         { x: p.curve.at, y: p.curve.two_stages, cls: "simulated" }, { x: p.curve.at, y: p.curve.joint, cls: "baseline" }],
     })));
@@ -1231,10 +1231,12 @@ function verdictLine() {
   const check = held ? ` and checked on ${held} held out`
     : checked ? `; the held-out error is that of a fit without ${checked} of them` : "; no recording was held out";
   const flagged = parameters.filter((p) => p.at_bound || p.identifiable === false).length;
+  // Of a fit that was interrupted nobody knows.
+  const open = parameters.some((p) => !isNumber(p.std_error) && !p.at_bound && p.identifiable !== false);
   const model = report.model ? report.model.title || report.model.id : "Model";
   return `${model}: ${plural(parameters.length, "parameter")} fitted to ${plural(fitted, "recording")}` +
     `${check}; ` +
-    `${flagged ? `${plural(flagged, "parameter")} to be taken with caution` : "no parameter is at a bound or unidentifiable"}.`;
+    `${flagged ? `${plural(flagged, "parameter")} to be taken with caution` : open ? "standard errors were not worked out" : "no parameter is at a bound or unidentifiable"}.`;
 }
 
 function page() {

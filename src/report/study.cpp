@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "core/unit_text.hpp"
 #include "report/html.hpp"
 #include "report/latex.hpp"
 #include "report/markdown.hpp"
@@ -245,9 +246,10 @@ StudyTable identifiability_table(const json& analysis, const Names& names) {
                                 one.at("parameters").at(free.at(j).get<std::size_t>()).at("name").get<std::string>());
         }
       }
-      table.rows.push_back(
-          {names.problem(p), row.at("name"), shown(row.at("value")), row.at("unit"), profile_interval(row), partner,
-           row.at("at_bound").is_null() ? std::string("-") : row.at("at_bound").get<std::string>(), decades});
+      table.rows.push_back({names.problem(p), row.at("name"), shown(row.at("value")),
+                            unit_text(row.at("unit").get<std::string>()), profile_interval(row), partner,
+                            row.at("at_bound").is_null() ? std::string("-") : row.at("at_bound").get<std::string>(),
+                            decades});
     }
   }
   return table;

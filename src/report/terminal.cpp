@@ -172,6 +172,61 @@ std::vector<bool> numeric_columns(const std::vector<std::string>& header,
   return numeric;
 }
 
+namespace {
+
+// Words of a text in lines of at most `width` columns.
+std::vector<std::string> lines_of(std::string_view text, std::size_t width) {
+  std::vector<std::string> lines{""};
+  std::size_t column = 0;
+  for (std::size_t from = 0; from <= text.size();) {
+    const std::size_t space = std::min(text.find(' ', from), text.size());
+    const std::string_view word = text.substr(from, space - from);
+    const std::size_t needed = display_width(word);
+    if (column > 0 && column + 1 + needed > width) {
+      lines.emplace_back();
+      column = 0;
+    } else if (from > 0) {
+      lines.back() += ' ';
+      ++column;
+    }
+    lines.back() += word;
+    column += needed;
+    from = space + 1;
+  }
+  return lines;
+}
+
+}  // namespace
+
+std::string wrapped(std::string_view text, std::size_t indent) {
+  std::string result;
+  for (const std::string& line : lines_of(text, usual_width - indent)) {
+    result += (result.empty() ? "" : "\n" + std::string(indent, ' ')) + line;
+  }
+  return result + "\n";
+}
+
+std::string narrow_table(const std::vector<std::string>& header, const std::vector<std::vector<std::string>>& rows) {
+  constexpr std::size_t least = 20;  // of the last column
+  const std::size_t last = header.size() - 1;
+  std::size_t before = 0;
+  for (std::size_t c = 0; c < last; ++c) {
+    std::size_t width = display_width(printable(header[c]));
+    for (const auto& row : rows) width = std::max(width, display_width(printable(row[c])));
+    before += width + 2;
+  }
+  const std::size_t left = before + least > usual_width ? least : usual_width - before;
+  std::vector<std::vector<std::string>> parted;
+  for (const auto& row : rows) {
+    const std::vector<std::string> lines = lines_of(row[last], left);
+    for (std::size_t k = 0; k < lines.size(); ++k) {
+      parted.push_back(k == 0 ? row : std::vector<std::string>(header.size()));
+      parted.back()[last] = lines[k];
+    }
+  }
+  return table(header, parted);
+}
+
 std::string table(const std::vector<std::string>& header, const std::vector<std::vector<std::string>>& rows) {
   const std::vector<bool> numeric = numeric_columns(header, rows);
   const std::size_t columns = numeric.size();

@@ -27,4 +27,14 @@ std::vector<bool> numeric_columns(const std::vector<std::string>& header,
 // Line breaks inside a cell become spaces.
 std::string table(const std::vector<std::string>& header, const std::vector<std::vector<std::string>>& rows);
 
+// Columns of a terminal as it opens.
+inline constexpr std::size_t usual_width = 80;
+
+// Text in lines of at most `usual_width` columns, parted at spaces; the second and later ones begin with `indent`
+// spaces. A word that is longer has a line of its own. Ends with a newline.
+std::string wrapped(std::string_view text, std::size_t indent = 0);
+
+// As table(), with the words of the last column in several lines where a line would be wider than `usual_width`.
+std::string narrow_table(const std::vector<std::string>& header, const std::vector<std::vector<std::string>>& rows);
+
 }  // namespace hysteron

@@ -4,6 +4,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <regex>
+#include <sstream>
 #include <string>
 
 #include "report/html.hpp"
@@ -153,6 +154,33 @@ TEST(Terminal, Table) {
   EXPECT_EQ(table({}, {}), "");
   EXPECT_EQ(table({"a"}, {}), "a\n-\n");
   EXPECT_EQ(table({"a"}, {{"x\ny"}}), "a\n---\nx y\n");
+}
+
+TEST(Terminal, TextIsPartedAtSpaces) {
+  std::string text;
+  for (int k = 0; k < 40; ++k) text += (k > 0 ? " w" : "w") + std::to_string(k);
+  const std::string lines = wrapped(text, 2);
+  std::istringstream rows(lines);
+  std::string words;
+  for (std::string row; std::getline(rows, row);) {
+    EXPECT_LE(row.size(), usual_width);
+    EXPECT_EQ(words.empty(), !row.starts_with("  w")) << row;
+    words += (words.empty() ? "" : " ") + row.substr(words.empty() ? 0 : 2);
+  }
+  EXPECT_EQ(words, text);
+  EXPECT_EQ(wrapped(""), "\n");
+  EXPECT_EQ(wrapped(std::string(100, 'x')), std::string(100, 'x') + "\n");
+}
+
+TEST(Terminal, ANarrowTablePartsItsLastColumn) {
+  const std::string words = "a meaning of many words that goes on and on, and does not end before eighty columns do";
+  const std::string lines = narrow_table({"name", "value", "meaning"}, {{"first", "1.5", words}, {"second", "2", "-"}});
+  EXPECT_EQ(lines,
+            "name    value  meaning\n"
+            "------  -----  -------------------------------------------------------------\n"
+            "first     1.5  a meaning of many words that goes on and on, and does not end\n"
+            "               before eighty columns do\n"
+            "second      2  -\n");
 }
 
 TEST(Markdown, Table) {
