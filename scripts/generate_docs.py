@@ -60,11 +60,16 @@ def with_links(reference):
     return re.sub(r"(doi )(10\.[^\s;,]*[^\s;,.:])", r"\1[\2](<https://doi.org/\2>)", reference)
 
 
+def unit_text(unit):
+    """Newtons per ampere are not "N/A"."""
+    return re.sub(r"/(A|V)$", r" \1^-1", unit)
+
+
 def part_page(entry):
     text = f"# {entry['title']}\n\n`{entry['id']}` ({entry['kind']})\n\n"
     text += "```\n" + "\n".join(entry["equations"]) + "\n```\n\n"
     text += f"State variables: {entry['states']}.\n\n" if entry["states"] else "No state variables of its own.\n\n"
-    rows = [(f"`{p['name']}`", f"`{p['symbol']}`", p["unit"], p["lower"], p["upper"], p["default"],
+    rows = [(f"`{p['name']}`", f"`{p['symbol']}`", unit_text(p["unit"]), p["lower"], p["upper"], p["default"],
              "held" if p["fixed"] else p["scale"], p["meaning"]) for p in entry["parameters"]]
     if rows:
         text += "## Parameters\n\n"

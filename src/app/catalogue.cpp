@@ -1,6 +1,7 @@
 // hysteron list and describe: the catalogue.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 
 #include "app/command.hpp"
@@ -8,6 +9,7 @@
 #include "app/figure.hpp"
 #include "core/error.hpp"
 #include "core/suggest.hpp"
+#include "core/unit_text.hpp"
 #include "datasets/dataset.hpp"
 #include "io/output.hpp"
 #include "presets/preset.hpp"
@@ -97,19 +99,35 @@ std::vector<const Preset*> presets_of(std::string_view model) {
   return result;
 }
 
+// Paragraphs, whose lines stand as the source's.
+std::string flowing(std::string_view text) {
+  std::string result;
+  for (std::size_t from = 0; from <= text.size();) {
+    const std::size_t end = std::min(text.find("\n\n", from), text.size());
+    std::string paragraph(text.substr(from, end - from));
+    std::ranges::replace(paragraph, '\n', ' ');
+    result += (result.empty() ? "" : "\n") + wrapped(paragraph);
+    from = end + 2;
+  }
+  return result;
+}
+
+std::string source_text(std::string_view reference) { return wrapped("Source: " + std::string(reference), 2); }
+
 void describe_preset(const Preset& preset, bool as_json) {
   if (as_json) {
     fmt::print("{}", json_text(preset_json(preset)));
     return;
   }
-  fmt::print("{} (parameter set of {}): {}\n\nSource: {}\n", preset.id, preset.model, preset.title, preset.reference);
+  fmt::print("{}\n{}", wrapped(fmt::format("{} (parameter set of {}): {}", preset.id, preset.model, preset.title), 2),
+             source_text(preset.reference));
   if (preset.drive != PresetDrive::none) {
     fmt::print("Drive: {}, {:g} to {:g}\n", word_of(preset.drive), preset.drive_low, preset.drive_high);
   }
-  fmt::print("Note: {}\n\n", preset.note);
+  fmt::print("{}\n", wrapped("Note: " + std::string(preset.note)));
   std::vector<std::vector<std::string>> rows;
   for (const PresetQuantity& quantity : preset.quantities) {
-    rows.push_back({std::string(quantity.name), std::string(quantity.unit),
+    rows.push_back({std::string(quantity.name), unit_text(std::string(quantity.unit)),
                     quantity.at != nullptr ? std::string(quantity.printed)
                                            : "not printed: --set " + std::string(quantity.name) + "=..."});
   }
@@ -144,22 +162,21 @@ void describe_part(const Part& part, const std::string& kind, bool as_json) {
     fmt::print("{}", json_text(entry));
     return;
   }
-  fmt::print("{} ({}): {}\n\n", part.id, kind, part.title);
+  fmt::print("{}\n", wrapped(fmt::format("{} ({}): {}", part.id, kind, part.title), 2));
   for (const std::string_view equation : part.equations) {
     fmt::print("  {}\n", equation);
   }
-  fmt::print("\nSource: {}\n\n", part.reference);
+  fmt::print("\n{}\n", source_text(part.reference));
   std::vector<std::vector<std::string>> rows;
   for (const Parameter& card : part.parameters) {
-    rows.push_back({std::string(card.name), std::string(card.unit), fmt::format("{:g}", card.box.lower),
+    rows.push_back({std::string(card.name), unit_text(std::string(card.unit)), fmt::format("{:g}", card.box.lower),
                     fmt::format("{:g}", card.box.upper),
                     card.fixed ? fmt::format("fixed at {:g}", card.initial) : fmt::format("{:g}", card.initial),
                     std::string(card.meaning)});
   }
-  fmt::print("{}", table({"parameter", "unit", "lower", "upper", "default", "meaning"}, rows));
-  fmt::print(
-      "\nBounds are for a device of 1 kN, 25 mm half stroke and 0.3 m/s; an identification scales them to the "
-      "recordings.\n");
+  fmt::print("{}", narrow_table({"parameter", "unit", "lower", "upper", "default", "meaning"}, rows));
+  fmt::print("\n{}", wrapped("Bounds are for a device of 1 kN, 25 mm half stroke and 0.3 m/s; an identification scales "
+                             "them to the recordings."));
   if (part.alternative) {
     fmt::print("\n`diagnose` tries it in place of another damper law.\n");
   }
@@ -171,7 +188,7 @@ void describe_part(const Part& part, const std::string& kind, bool as_json) {
     rows.push_back({std::string(preset->id), std::string(preset->title)});
   }
   if (!rows.empty()) {
-    fmt::print("\n{}\nWhat they hold: hysteron describe PRESET\n", table({"published set", "what it is"}, rows));
+    fmt::print("\n{}\nWhat they hold: hysteron describe PRESET\n", narrow_table({"published set", "what it is"}, rows));
   }
 }
 
@@ -202,15 +219,16 @@ void describe_solver(const SolverEntry& entry, bool as_json) {
                                 {"settings", settings}}));
     return;
   }
-  fmt::print("{} ({}): {}\n\n{}\n\nSource: {}\n\n", entry.id, entry.members != nullptr ? "family of solvers" : "solver",
-             entry.title, entry.description, entry.reference);
+  const char* const kind = entry.members != nullptr ? "family of solvers" : "solver";
+  fmt::print("{}\n{}\n{}\n", wrapped(fmt::format("{} ({}): {}", entry.id, kind, entry.title), 2),
+             flowing(entry.description), source_text(entry.reference));
   std::vector<std::vector<std::string>> rows;
   for (const Setting& row : entry.settings) {
     rows.push_back({std::string(row.name), fmt::format("{:g}", row.value), fmt::format("{:g}", row.lower),
                     fmt::format("{:g}", row.upper), std::string(row.meaning)});
   }
   if (!rows.empty()) {
-    fmt::print("{}", table({"setting", "default", "lower", "upper", "meaning"}, rows));
+    fmt::print("{}", narrow_table({"setting", "default", "lower", "upper", "meaning"}, rows));
   }
 }
 
@@ -235,11 +253,13 @@ void add_catalogue(CLI::App& program) {
   auto list_options = std::make_shared<Options>();
   CLI::App* list = program.add_subcommand("list", "models, solvers, effects, datasets or tables there are");
   list->add_option("KIND", list_options->word, "models, solvers, effects, datasets or tables")
-      ->required()
       ->check(CLI::IsMember({"models", "solvers", "effects", "datasets", "tables"}));
   list->add_flag("--json", list_options->json, "JSON on standard output");
   list->footer("Example:\n  hysteron list models");
   list->callback([list_options] {
+    if (list_options->word.empty()) {
+      throw InputError("list: of what, expected models, solvers, effects, datasets or tables");
+    }
     const std::vector<Row> rows = rows_of(list_options->word);
     if (list_options->json) {
       json result = json::array();
@@ -262,7 +282,7 @@ void add_catalogue(CLI::App& program) {
     for (const Row& row : rows) {
       cells.push_back({row.id, row.title});
     }
-    fmt::print("{}", table({"id", "what it is"}, cells));
+    fmt::print("{}", narrow_table({"id", "what it is"}, cells));
   });
 
   auto describe_options = std::make_shared<Options>();
@@ -298,12 +318,15 @@ void add_catalogue(CLI::App& program) {
                                     {"description", dataset->description},
                                     {"licence", dataset->licence.empty() ? json(nullptr) : json(dataset->licence)}}));
       } else {
-        fmt::print("{} (dataset): {}\n\n{}\n\nSource: {}\n", dataset->id, dataset->title, dataset->description,
-                   dataset->reference);
+        fmt::print("{}\n{}\n{}", wrapped(fmt::format("{} (dataset): {}", dataset->id, dataset->title), 2),
+                   flowing(dataset->description), source_text(dataset->reference));
         if (!dataset->licence.empty()) fmt::print("Licence: {}\n", dataset->licence);
         fmt::print("As a folder: hysteron generate {} --out DIR\n", dataset->id);
       }
     } else {
+      if (find_published_table(id) != nullptr) {
+        throw InputError("'" + id + "' is a published table, which `hysteron reproduce " + id + "` makes again");
+      }
       std::vector<std::string> known;
       for (const char* kind : {"models", "effects", "solvers", "datasets"}) {
         for (const Row& row : rows_of(kind)) {

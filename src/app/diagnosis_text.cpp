@@ -19,7 +19,6 @@ namespace {
 using nlohmann::json;
 
 constexpr std::size_t most_pairs_printed = 8;
-constexpr std::size_t paragraph_width = 100;
 
 struct Incomplete {};  // a table of the record lacks entries
 
@@ -31,26 +30,8 @@ const json& list_of(const json& record, const char* name) {
 
 std::string text_of(const json& record, const char* name) { return printable(record.value(name, std::string{})); }
 
-std::string wrapped(const std::string& text) {
-  std::string result;
-  std::size_t column = 0;
-  for (std::size_t from = 0; from < text.size();) {
-    const std::size_t space = std::min(text.find(' ', from), text.size());
-    const std::string word = text.substr(from, space - from);
-    const std::size_t width = display_width(word);
-    if (column > 0 && column + 1 + width > paragraph_width) {
-      result += '\n';
-      column = 0;
-    } else if (column > 0) {
-      result += ' ';
-      ++column;
-    }
-    result += word;
-    column += width;
-    from = space + 1;
-  }
-  return result + "\n";
-}
+// An entry of a list.
+std::string item(const std::string& text) { return wrapped("- " + text, 2); }
 
 // Of a record without a summary of its own.
 std::string names_of(const json& record) {
@@ -93,11 +74,12 @@ std::string names_text(const json& record) {
   for (const char* list : {"effects", "suggestions"}) {
     for (const json& effect : list_of(record, list)) {
       const bool of_set = !list_of(effect, "indistinguishable_from").empty();
-      text += fmt::format("\n- {} ({:.0f} %{}): {}\n", effect.contains("grade") ? text_of(effect, "grade") : "named",
-                          100.0 * effect.value("confidence", 0.0), of_set ? " that it is one of these" : "",
-                          text_of(effect, "sentence"));
+      text +=
+          "\n" + item(fmt::format("{} ({:.0f} %{}): {}", effect.contains("grade") ? text_of(effect, "grade") : "named",
+                                  100.0 * effect.value("confidence", 0.0), of_set ? " that it is one of these" : "",
+                                  text_of(effect, "sentence")));
       if (!text_of(effect, "experiment").empty()) {
-        text += "  decided by: " + text_of(effect, "experiment") + "\n";
+        text += "  " + wrapped("decided by: " + text_of(effect, "experiment"), 2);
       }
     }
   }
@@ -107,8 +89,9 @@ std::string names_text(const json& record) {
 std::string places_text(const std::string& title, const json& places) {
   std::string text = places.empty() ? "" : "\n" + title + "\n";
   for (const json& place : places) {
-    text += fmt::format("- {}: {:.0f} % of the misfit in {:.0f} % of the samples\n", text_of(place, "where"),
-                        100.0 * place.value("share_of_misfit", 0.0), 100.0 * place.value("share_of_samples", 0.0));
+    text +=
+        item(fmt::format("{}: {:.0f} % of the misfit in {:.0f} % of the samples", text_of(place, "where"),
+                         100.0 * place.value("share_of_misfit", 0.0), 100.0 * place.value("share_of_samples", 0.0)));
   }
   return text;
 }
@@ -117,7 +100,7 @@ std::string hidden_text(const json& record) {
   std::string text;
   for (const json& row : list_of(record, "not_observable")) {
     if (row.contains("reason")) {
-      text += fmt::format("- {}: {}\n", text_of(row, "id"), text_of(row, "reason"));
+      text += item(text_of(row, "id") + ": " + text_of(row, "reason"));
     }
   }
   return text.empty() ? text : "\nnot observable in these recordings:\n" + text;
@@ -135,10 +118,10 @@ std::string alike_text(const json& record) {
   if (pairs.empty()) {
     return {};
   }
-  std::string text = fmt::format(
-      "\nlook alike in these recordings, beside what {} imitates (cosine; all in the "
-      "report):\n",
-      text_of(record.at("baseline"), "model"));
+  std::string text =
+      "\n" + wrapped(fmt::format("look alike in these recordings, beside what {} imitates (cosine; all in "
+                                 "the report):",
+                                 text_of(record.at("baseline"), "model")));
   for (std::size_t k = 0; k < std::min(pairs.size(), most_pairs_printed); ++k) {
     text +=
         fmt::format("- {} and {}: {:.3f}\n", printable(pairs[k].effect), printable(pairs[k].other), pairs[k].cosine);
@@ -157,9 +140,12 @@ std::string diagnosis_text(const json& record) {
   text += places_text("where the augmented model's misfit sits:", list_of(record.at("augmented"), "locations"));
   text += hidden_text(record);
   text += alike_text(record);
-  text += fmt::format("\nnext experiment: {}\n", text_of(record, "next_experiment"));
+  text += "\n" + wrapped("next experiment: " + text_of(record, "next_experiment"));
   for (const json& note : list_of(record, "notes")) {
-    text += fmt::format("note: {}\n", printable(note.get<std::string>()));
+    text += wrapped("note: " + printable(note.get<std::string>()), 2);
+  }
+  for (const json& warning : list_of(record, "warnings")) {
+    text += wrapped("warning: " + printable(warning.get<std::string>()), 2);
   }
   return text;
 }

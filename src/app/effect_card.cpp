@@ -6,6 +6,7 @@
 
 #include "diagnose/search/relatives.hpp"
 #include "diagnose/search/wording.hpp"
+#include "report/terminal.hpp"
 
 namespace hysteron::app {
 namespace {
@@ -71,26 +72,26 @@ std::string effect_card_text(const std::string& effect) {
   const Knowledge& known = knowledge_of(effect);
   std::string text;
   if (!known.family.id.empty()) {
-    text += fmt::format("Family: {}, {}\n", known.family.id, known.family.title);
+    text += wrapped(fmt::format("Family: {}, {}", known.family.id, known.family.title), 2);
   }
   if (!known.shows.empty()) {
-    text += fmt::format("It shows: {}\n", worded(known.shows, DriveKind::current));
+    text += wrapped("It shows: " + worded(known.shows, DriveKind::current), 2);
   }
   std::vector<std::string> related;
   for (const Relation& row : relations_of(effect)) {
     related.push_back(row.id + (row.how.empty() ? "" : " (" + row.how + ")"));
   }
   if (!related.empty()) {
-    text += fmt::format("Related effects: {}\n", fmt::join(related, ", "));
+    text += wrapped(fmt::format("Related effects: {}", fmt::join(related, ", ")), 2);
   }
   if (text.empty()) {
     return text;
   }
   text += fmt::format("Acts: {}\n", words_of(known.acts));
-  text += fmt::format("Inputs needed: motion and force{}\n",
-                      known.needs.empty() ? "" : ", " + joined(needs_of(known), " and "));
+  text += wrapped(
+      "Inputs needed: motion and force" + (known.needs.empty() ? "" : ", " + joined(needs_of(known), " and ")), 2);
   if (!known.experiment.empty()) {
-    text += fmt::format("Told apart by: {}\n", worded(known.experiment, DriveKind::current));
+    text += wrapped("Told apart by: " + worded(known.experiment, DriveKind::current), 2);
   }
   return text;
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 
 #include "app/program_fixture.hpp"
@@ -52,6 +53,27 @@ TEST_F(DiagnosisReport, OfSchema1) {
   }
   EXPECT_EQ(outcome.out.find('\x1b'), std::string::npos) << "a record commands the terminal";
   EXPECT_NE(read(folder_ / "old/report.html").find("Consistent with clearance."), std::string::npos);
+}
+
+TEST_F(DiagnosisReport, KeepsToTheWidthOfATerminal) {
+  json record = of_schema_1();
+  std::string words;
+  for (int k = 0; k < 60; ++k) words += "word" + std::to_string(k) + " ";
+  record["summary"] = {words, words};
+  record["effects"][0]["sentence"] = words;
+  record["effects"][0]["experiment"] = words;
+  record["locations"] = {{{"where", words}, {"share_of_misfit", 0.5}, {"share_of_samples", 0.1}}};
+  record["not_observable"][0]["reason"] = words;
+  record["next_experiment"] = words;
+  record["notes"] = {words};
+  record["warnings"] = {words};
+  write(folder_ / "wide/diagnosis.json", record.dump());
+  const Outcome outcome = run({"report", "wide"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  std::istringstream lines(outcome.out);
+  std::size_t count = 0;
+  for (std::string line; std::getline(lines, line); ++count) EXPECT_LE(line.size(), 80U) << line;
+  EXPECT_GT(count, 40U);
 }
 
 TEST_F(DiagnosisReport, IsWhatDiagnosePrintedAndKeepsThePlots) {

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <sstream>
+#include <regex>
 #include <string>
 #include <vector>
 
@@ -137,7 +138,8 @@ TEST_F(Extensions, CardsOfEffectsAreDescribedAndListed) {
     for (const auto& [key, value] : row.items()) EXPECT_EQ(described[key], value) << row["id"] << " " << key;
     EXPECT_TRUE(row["family"].is_object() && row["experiment"].is_string()) << row["id"];
   }
-  const std::string text = run("describe coil-lag").out;
+  // Lines end where a terminal does.
+  const std::string text = std::regex_replace(run("describe coil-lag").out, std::regex("\n  "), " ");
   EXPECT_NE(text.find("Family: drive-path, "), std::string::npos) << text;
   EXPECT_NE(text.find("Related effects: magnetic-remanence, magnetic-saturation\n"), std::string::npos) << text;
   EXPECT_NE(text.find("a current or voltage that changes within a recording"), std::string::npos) << text;
