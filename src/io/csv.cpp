@@ -254,8 +254,10 @@ class CsvReader {
       const auto at = line_;
       std::vector<std::string_view> below = next_cells(delimiter);
       // A row of units below the names, or words where numbers are expected, which is said then: no title above a
-      // header.
-      if (below.size() == names.size() && !mostly_numbers(below) && names_a_channel(names)) {
+      // header. Names of another language are names too where units stand below.
+      const bool units = std::ranges::all_of(
+          below, [](std::string_view cell) { return is_any_unit(without_brackets(unquoted(cell))); });
+      if (below.size() == names.size() && !mostly_numbers(below) && (names_a_channel(names) || units)) {
         below = next_cells(delimiter);
       }
       if (names.size() > 1 && below.size() == names.size() && mostly_numbers(below)) {

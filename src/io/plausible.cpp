@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <vector>
 
 #include "io/text.hpp"
 
@@ -46,7 +48,9 @@ class Remarks {
       : sources_(sources), columns_(columns), options_(options), file_(file) {}
 
   // `what` is such as "a stroke of 20 m".
-  void judge(Quantity quantity, const Believed& believed, double value, const std::string& what) {
+  // `also` is what is to be checked beside the unit of the column.
+  void judge(Quantity quantity, const Believed& believed, double value, const std::string& what,
+             const std::string& also = {}) {
     const Source& source = sources_[static_cast<std::size_t>(quantity)];
     if (source.column < 0) return;
     const Range range = source.assumed ? believed.assumed : believed.stated;
@@ -59,7 +63,8 @@ class Remarks {
                              "--column {}=\"{} [UNIT]\"",
                              name, units.substr(0, units.find(',')), what, name, column(source)));
     } else {
-      tell(name, fmt::format("{} is not of a damper's size: check the unit of column '{}'", what, column(source)));
+      tell(name, fmt::format("{} is not of a damper's size: check the unit of column '{}'{}", what, column(source),
+                             also.empty() ? "" : " " + also));
     }
   }
 
@@ -95,14 +100,72 @@ double velocity_over_slope(const Recording& r) {
   return product == 0.0 ? 1.0 : square / product;
 }
 
+// The longest time between two samples where it is far longer than the others.
+struct Gap {
+  double at = 0.0;
+  double length = 0.0;
+  double usual = 0.0;
+};
+std::optional<Gap> gap_in(const std::vector<double>& time) {
+  constexpr double far_longer = 20.0;
+  constexpr std::size_t most_steps = 65536;  // that tell what is usual
+  const std::size_t stride = time.size() / most_steps + 1;
+  std::vector<double> steps;
+  Gap gap;
+  for (std::size_t n = 0; n + 1 < time.size(); ++n) {
+    const double step = time[n + 1] - time[n];
+    if (n % stride == 0) steps.push_back(step);
+    if (step > gap.length) gap = {time[n], step, 0.0};
+  }
+  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+  std::ranges::nth_element(steps, middle);
+  gap.usual = *middle;
+  return gap.length > far_longer * gap.usual ? std::optional(gap) : std::nullopt;
+}
+
+// Whether the force falls as the velocity grows, what follows the displacement aside: the damping c of the least
+// squares F = c v + k x + f0 is negative and tells more than a quarter of what k and f0 leave.
+bool drives_its_rig(const Recording& r) {
+  const auto count = static_cast<double>(r.size());
+  const auto mean = [&](const std::vector<double>& values) {
+    double sum = 0.0;
+    for (const double value : values) sum += value;
+    return sum / count;
+  };
+  const double x0 = mean(r.displacement);
+  const double v0 = mean(r.velocity);
+  const double f0 = mean(r.force);
+  double xx = 0.0, xv = 0.0, vv = 0.0, xf = 0.0, vf = 0.0, ff = 0.0;
+  for (std::size_t n = 0; n < r.size(); ++n) {
+    const double x = r.displacement[n] - x0;
+    const double v = r.velocity[n] - v0;
+    const double f = r.force[n] - f0;
+    xx += x * x;
+    xv += x * v;
+    vv += v * v;
+    xf += x * f;
+    vf += v * f;
+    ff += f * f;
+  }
+  if (!(xx > 0.0)) return false;
+  // Without what follows the displacement.
+  const double v_left = vv - xv * xv / xx;
+  const double f_left = ff - xf * xf / xx;
+  const double both = vf - xv * xf / xx;
+  constexpr double share = 0.25;
+  constexpr double rounding = 1e-4;
+  return both < 0.0 && v_left > rounding * vv && f_left > rounding * ff && both * both > share * v_left * f_left;
+}
+
 }  // namespace
 
 void remark_on_sizes(const Recording& recording, const Sources& sources, const std::vector<Column>& columns,
                      const ReadOptions& options, const std::string& file) {
   if (!options.remark) return;
   Remarks remarks(sources, columns, options, file);
-  const auto [low, high] = std::ranges::minmax(recording.displacement);
-  const double stroke = high - low;
+  const bool moves = !recording.displacement.empty();  // an excitation may be a force alone
+  const double stroke =
+      moves ? std::ranges::max(recording.displacement) - std::ranges::min(recording.displacement) : 0.0;
   const double speed = largest(recording.velocity);
   const double force = largest(recording.force);
   remarks.judge(Quantity::displacement, stroke_m, stroke, fmt::format("a stroke of {:.3g} m", stroke));
@@ -122,7 +185,8 @@ void remark_on_sizes(const Recording& recording, const Sources& sources, const s
     remarks.judge(Quantity::velocity, speed_m_s, speed, fmt::format("a speed of {:.3g} m/s", speed));
   } else if (!remarks.told()) {
     remarks.judge(Quantity::time, speed_m_s, speed,
-                  fmt::format("a speed of {:.3g} m/s, from displacement and time,", speed));
+                  fmt::format("a speed of {:.3g} m/s, from displacement and time,", speed),
+                  "and that of the displacement, and that columns are not exchanged");
   }
   if (!remarks.told() && remarks.assumed(Quantity::time) && stroke > far_m && speed < slow_m_s) {
     remarks.tell("time",
@@ -130,6 +194,7 @@ void remark_on_sizes(const Recording& recording, const Sources& sources, const s
                              "{:.3g} m; give the unit, as in time [ms]",
                              speed, stroke));
   }
+  if (!moves) return;
   double power = 0.0;
   for (std::size_t n = 0; n < recording.force.size(); ++n) {
     power = std::max(power, std::fabs(recording.force[n] * recording.velocity[n]));
@@ -137,8 +202,21 @@ void remark_on_sizes(const Recording& recording, const Sources& sources, const s
   if (!remarks.told() && !recording.force.empty()) {
     remarks.judge(Quantity::force, power_w, power, fmt::format("a power of {:.3g} W, force times velocity,", power));
   }
+  if (const auto gap = gap_in(recording.time)) {
+    remarks.tell("gap", fmt::format("no samples for {:.3g} s from {:.4g} s on, {:.0f} times the usual spacing: the "
+                                    "motion in between is taken to be smooth",
+                                    gap->length, gap->at, gap->length / gap->usual));
+  }
+  const double ratio = recording.velocity_measured ? velocity_over_slope(recording) : 1.0;
+  // Where the velocity has the wrong sign the force may well follow the displacement.
+  if (ratio > 0.0 && options.force_required && !recording.force.empty() && drives_its_rig(recording)) {
+    remarks.tell(
+        "sign",
+        "the force falls as the velocity grows, as if the damper drove the rig: force or displacement has the "
+        "other sign than the models, whose force resists a positive velocity with a positive value, or the two "
+        "are exchanged");
+  }
   if (recording.velocity_measured) {
-    const double ratio = velocity_over_slope(recording);
     if (ratio < 0.0) {
       remarks.tell("slope", "the velocity runs against the displacement: check their signs");
     } else if (ratio < slope.low || ratio > slope.high) {

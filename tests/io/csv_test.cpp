@@ -66,6 +66,19 @@ TEST(Csv, LinesBeforeTheHeaderAreNotRead) {
   EXPECT_EQ(remarks_of("Station: 3\nOperator: Jane\n3/2/2024, 12:40, wet\n\n" + header + ten), said);
 }
 
+// Names of another language are told by the row of units below them, and mapped by their names.
+TEST(Csv, NamesNobodyKnowsStandAboveTheirUnits) {
+  const std::string text = "Zeit,Weg,Kraft\ns,mm,kN\n" + ten_rows();
+  EXPECT_EQ(
+      message_of<InputError>([&] { (void)parse_csv(text, "a.csv"); }),
+      "a.csv:2: no time column, expected one named time, t, or --column time=NAME; the columns are 'Zeit', 'Weg', "
+      "'Kraft'");
+  ReadOptions options;
+  options.columns = {{"time", "Zeit"}, {"displacement", "Weg"}, {"force", "Kraft"}};
+  EXPECT_EQ(remarks_of(text, options), "");
+  EXPECT_EQ(parse_csv(text, "a.csv", options).force[2], 20e3);
+}
+
 TEST(Csv, LinesAreSkippedWhereThatIsAsked) {
   ReadOptions options;
   options.skip = 2;

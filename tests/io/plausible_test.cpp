@@ -56,6 +56,47 @@ TEST(Plausible, MillisecondsWithoutAUnit) {
   expect_one(remarks("time,displacement [mm],force [N]", 1e-3, 1.0, 0.0, 1e-3), "time has no unit and was taken in s");
 }
 
+TEST(Plausible, AForceOfTheOtherSign) {
+  expect_one(remarks("time [s],displacement [mm],force [N]", 1e-3, -1.0),
+             "the force falls as the velocity grows, as if the damper drove the rig");
+  EXPECT_TRUE(remarks("time [s],displacement [mm],force [N]", -1e-3, -1.0).empty()) << "both reversed are one damper";
+}
+
+// A preload or a spring is no damper that drives its rig, also where the motion does not come back.
+TEST(Plausible, ASpringHasNoWrongSign) {
+  for (const double stiffness : {-4e4, 4e4}) {
+    std::string text = "time [s],displacement [mm],force [N]\n";
+    for (int n = 0; n < 200; ++n) {
+      const double x = 20.0 * std::sin(0.005 * n);
+      text += std::to_string(0.005 * n) + "," + std::to_string(x) + "," + std::to_string(1e-3 * stiffness * x) + "\n";
+    }
+    std::vector<std::string> said;
+    ReadOptions options;
+    options.remark = [&](const Remark& remark) { said.push_back(remark.text); };
+    (void)parse_csv(text, "a.csv", options);
+    EXPECT_TRUE(said.empty()) << said[0];
+  }
+}
+
+TEST(Plausible, AGapInTime) {
+  std::vector<std::string> said;
+  ReadOptions options;
+  options.remark = [&](const Remark& remark) { said.push_back(remark.text); };
+  const auto read = [&](double gap) {
+    std::string text = "time [s],displacement [mm],force [N]\n";
+    for (int n = 0; n < 400; ++n) {
+      const double t = 0.005 * n + (n < 260 ? 0.0 : gap);
+      text += std::to_string(t) + "," + std::to_string(10.0 * std::sin(12.0 * t)) + "," +
+              std::to_string(800.0 * std::cos(12.0 * t)) + "\n";
+    }
+    (void)parse_csv(text, "a.csv", options);
+  };
+  read(0.045);
+  EXPECT_TRUE(said.empty()) << said[0];
+  read(0.75);
+  expect_one(said, "no samples for 0.755 s from 1.295 s on, 151 times the usual spacing: the motion in between is taken");
+}
+
 TEST(Plausible, AWrongUnit) {
   expect_one(remarks("time [s],displacement [m],force [N]", 1e-3, 1.0),
              "a stroke of 20 m is not of a damper's size: check the unit of column 'displacement [m]'");
