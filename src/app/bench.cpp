@@ -68,6 +68,7 @@ void run_together(const std::string& study, const std::string& out, RunOptions o
     first = peers->rank() == 0;
     PlanOrFailure own = try_plan([&] { return make_plan(read_study_file(study), HYSTERON_VERSION); });
     std::optional<StudyProgress> line;
+    if (first && own.plan) tell(own.plan->remarks);
     if (first && own.plan) line.emplace(*own.plan, quiet);
     outcome = run_ranks(own, out, options, *peers, interrupted, [&](const RunProgress& now) { line->show(now); });
     if (line) line->finish();
@@ -135,6 +136,7 @@ void add_bench(CLI::App& program) {
       return;
     }
     const Plan plan = make_plan(read_study_file(options->study), HYSTERON_VERSION);
+    if (!started || started->rank == 0) tell(plan.remarks);
     if (options->dry) {
       if (started && started->rank > 0) return;
       std::size_t own = 0;

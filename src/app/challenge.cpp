@@ -129,7 +129,9 @@ struct Hidden {
 Hidden hidden_of(const Options& options) {
   Hidden result;
   Campaign& campaign = result.campaign;
-  campaign = load_campaign(options.data);
+  DataOptions data;
+  data.data = options.data;
+  campaign = load(data);
   if (!options.model.empty()) campaign.model = options.model;
   if (campaign.model.empty()) campaign.model = "bouc-wen";
   if (!options.by_current.empty()) campaign.by_current = parse_orders("--by-current", options.by_current);
@@ -242,7 +244,7 @@ void add_challenge(CLI::App& program) {
           "with --in: RMS of the hidden change of force over what the fitted base law leaves; 0: 0.1 to 0.3 of "
           "the force, drawn")
       ->delimiter(',')
-      ->check(CLI::Range(0.0, 100.0))
+      ->check(real_number(0.0, 100.0))
       ->capture_default_str()
       ->needs(data);
   command->add_option("--placebos", options->placebos, "with --in: number of placebos; default 60, none with --effect")

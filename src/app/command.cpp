@@ -32,18 +32,18 @@ void add_data_options(CLI::App& command, DataOptions& options) {
       .add_option("DATA", options.data,
                   "CSV, MAT, TDMS, MDF 4, RPC III or xlsx files, or folders of them with an optional campaign.toml")
       ->required();
-  add_column_options(command, options);
-  command
-      .add_option("--skip", options.skip, "lines at the head of every CSV file, or rows of a sheet, that are not read")
-      ->transform(whole_number(0, 100000));
+  add_reading_options(command, options);
 }
 
-void add_column_options(CLI::App& command, DataOptions& options) {
+void add_reading_options(CLI::App& command, DataOptions& options) {
   command
       .add_option("--column", options.columns, "channel=NAME [UNIT] of a column, e.g. force=\"CH1 [kgf]\"; repeatable")
       ->allow_extra_args(false);
   command.add_option("--group", options.group,
                      "group of TDMS and MDF files, or sheet of workbooks, that is read alone");
+  command
+      .add_option("--skip", options.skip, "lines at the head of every CSV file, or rows of a sheet, that are not read")
+      ->transform(whole_number(0, 100000));
 }
 
 void add_keep_option(CLI::App& command, DataOptions& options) {
@@ -54,6 +54,8 @@ void add_keep_option(CLI::App& command, DataOptions& options) {
       ->transform(whole_number(2000, 1000000000))
       ->capture_default_str();
 }
+
+namespace {
 
 ReadOptions read_options(const DataOptions& options) {
   ReadOptions read;
@@ -72,36 +74,48 @@ ReadOptions read_options(const DataOptions& options) {
   return read;
 }
 
-Campaign load(const DataOptions& options, bool force_required, std::vector<std::string>* warnings) {
-  ReadOptions read = read_options(options);
-  read.force_required = force_required;
-  std::vector<Remark> remarks;
-  read.remark = [&](const Remark& remark) { remarks.push_back(remark); };
-  Campaign campaign = load_campaign(options.data, read);
+// Recordings whose file is that of an earlier one, by name.
+std::vector<std::pair<std::string, std::string>> copies_in(const Campaign& campaign) {
+  std::map<std::string, std::string> first;
+  std::vector<std::pair<std::string, std::string>> copies;
+  for (const Recording& recording : campaign.recordings) {
+    const auto [known, fresh] = first.emplace(recording.sha256, recording.file);
+    if (!fresh && !recording.sha256.empty()) copies.emplace_back(recording.file, known->second);
+  }
+  return copies;
+}
+
+}  // namespace
+
+void tell(const std::vector<Remark>& remarks, std::vector<std::string>* warnings) {
   std::vector<std::string> said;
   for (const Remark& remark : remarks) {
     if (std::ranges::find(said, remark.key) != said.end()) continue;
     said.push_back(remark.key);
     const auto alike = std::ranges::count(remarks, remark.key, &Remark::key) - 1;
-    const std::string text = remark.text + (alike > 0 ? fmt::format(" ({} more recordings alike)", alike) : "");
+    const std::string more = alike > 0 ? fmt::format(" ({} more recording{} alike)", alike, alike > 1 ? "s" : "") : "";
+    const std::string text = remark.text + more;
     fmt::print(stderr, "warning: {}: {}\n", printable(remark.file), printable(text));
     // Result files hold no paths.
     if (warnings != nullptr) {
       warnings->push_back(valid_utf8(std::filesystem::path(remark.file).filename().string()) + ": " + text);
     }
   }
-  return campaign;
 }
 
-void refuse_short(const Campaign& campaign) {
-  constexpr std::size_t fewest = 16;
-  for (const Recording& recording : campaign.recordings) {
-    if (recording.size() < fewest) {
-      throw InputError(
-          recording.file, 0,
-          fmt::format("{} samples, expected at least {} to identify a model from", recording.size(), fewest));
-    }
+Campaign load(const DataOptions& options, Required required, std::vector<std::string>* warnings) {
+  ReadOptions read = read_options(options);
+  read.force_required = required == Required::motion_and_force;
+  read.displacement_required = required != Required::nothing;
+  std::vector<Remark> remarks;
+  read.remark = [&](const Remark& remark) { remarks.push_back(remark); };
+  Campaign campaign = load_campaign(options.data, read);
+  for (const auto& [copy, original] : copies_in(campaign)) {
+    remarks.push_back({copy, Remark::Kind::implausible, "copy",
+                       "holds the same bytes as " + original + ", so that neither is held out from the other"});
   }
+  tell(remarks, warnings);
+  return campaign;
 }
 
 void add_common_options(CLI::App& command, CommonOptions& options) {

@@ -24,16 +24,17 @@ struct DataOptions {
   std::size_t keep_samples = 0;      // of all recordings together, 0 for all
 };
 void add_data_options(CLI::App& command, DataOptions& options);
-// --column and --group alone, for commands whose recordings are not all that they take.
-void add_column_options(CLI::App& command, DataOptions& options);
+// --column, --group and --skip, for commands that name their recordings in another way.
+void add_reading_options(CLI::App& command, DataOptions& options);
 // For commands that identify; the others take every sample.
 void add_keep_option(CLI::App& command, DataOptions& options);
-ReadOptions read_options(const DataOptions& options);
+// Channels a command does not do without, beside the time.
+enum class Required { motion_and_force, motion, nothing };
+// Says on standard error what readers remark, once for all recordings alike, and puts it into `warnings`.
+void tell(const std::vector<Remark>& remarks, std::vector<std::string>* warnings = nullptr);
 // What the readers remark is said on standard error, once for all recordings alike, and put into `warnings`.
-Campaign load(const DataOptions& options, bool force_required = true, std::vector<std::string>* warnings = nullptr);
-
-// Recordings that are too short to identify anything from are an InputError.
-void refuse_short(const Campaign& campaign);
+Campaign load(const DataOptions& options, Required required = Required::motion_and_force,
+              std::vector<std::string>* warnings = nullptr);
 
 struct CommonOptions {
   std::uint64_t seed = 1;

@@ -6,10 +6,13 @@
 #include <memory>
 
 #include "app/command.hpp"
+#include "app/finite.hpp"
+#include "app/guesses.hpp"
 #include "app/model_file.hpp"
 #include "app/result.hpp"
 #include "compare/criteria.hpp"
 #include "core/error.hpp"
+#include "core/printable.hpp"
 #include "io/mat5_writer.hpp"
 #include "io/output.hpp"
 #include "report/csv.hpp"
@@ -184,6 +187,7 @@ void run(const Options& options) {
     }
   }
   for (Compared& model : models) {
+    warn_of_guesses(model.stored, model.label, campaign.recordings);
     std::vector<std::size_t> seen;
     std::vector<std::size_t> unseen;
     for (const std::size_t r : all) {
@@ -191,8 +195,9 @@ void run(const Options& options) {
       check_drive(model.stored, model.label, recording);
       model.force.push_back(
           predict(model.stored.model, model.stored.held, model.stored.terms, make_target(recording, objective)));
-      if (!std::ranges::all_of(model.force.back(), [](double f) { return std::isfinite(f); })) {
-        throw WorkError(model.label + " has no finite force on " + recording.file);
+      if (const auto time = diverges_at(model.force.back(), recording)) {
+        throw WorkError(fmt::format("{}: the simulation of {} does not stay finite from {:g} s on", recording.file,
+                                    model.label, *time));
       }
       model.scores.push_back(score(model.force.back(), recording, objective.normalisation));
       (model.stored.fitted_on.contains(recording.sha256) ? seen : unseen).push_back(r);
@@ -302,31 +307,36 @@ void run(const Options& options) {
     return value ? format_number(*value, 4) : std::string("-");
   };
   std::vector<std::vector<std::string>> rows;
-  for (const Compared& model : models) {
-    rows.push_back({model.label, std::to_string(model.stored.searched), cell(model.fitted), cell(model.unseen),
-                    model.criteria ? fmt::format("{:.1f}", model.criteria->aic - best_aic) : "-",
+  std::string names;
+  for (std::size_t k = 0; k < models.size(); ++k) {
+    const Compared& model = models[k];
+    names += fmt::format("{}  {}\n", k + 1, printable(model.label));
+    rows.push_back({std::to_string(k + 1), std::to_string(model.stored.searched), cell(model.fitted),
+                    cell(model.unseen), model.criteria ? fmt::format("{:.1f}", model.criteria->aic - best_aic) : "-",
                     model.criteria ? fmt::format("{:.1f}", model.criteria->bic - best_bic) : "-",
                     fmt::format("{:.3f}", model.facts.autocorrelation.front()),
                     fmt::format("{:.0f}", 100.0 * model.facts.outside)});
   }
-  say_beside(options.out, fmt::format("{}\n", table({"model", "parameters", "NRMSE fitted", "NRMSE unseen", "dAIC",
-                                                     "dBIC", "lag-1 correlation", "lags not white [%]"},
-                                                    rows)));
+  say_beside(options.out,
+             names + "\n" +
+                 table({"model", "free", "fitted", "unseen", "dAIC", "dBIC", "lag 1", "not white [%]"}, rows) +
+                 wrapped("free: parameters; fitted, unseen: NRMSE on recordings it was fitted on and on others, "
+                         "normalised by " +
+                         normalisation +
+                         "; lag 1: correlation of neighbouring residuals; not white: lags outside the band of noise") +
+                 "\n");
   rows.clear();
   for (const std::size_t r : all) {
     std::vector<std::string> row = {campaign.recordings[r].file};
     for (const Compared& model : models) {
       row.push_back(format_number(model.scores[r].nrmse, 4) +
-                    (model.stored.fitted_on.contains(campaign.recordings[r].sha256) ? "" : " *"));
+                    (model.stored.fitted_on.contains(campaign.recordings[r].sha256) ? "" : "*"));
     }
     rows.push_back(std::move(row));
   }
   std::vector<std::string> head = {"recording"};
-  for (const Compared& model : models) {
-    head.push_back("NRMSE " + model.label);
-  }
-  say_beside(options.out, fmt::format("{}* not fitted on by that model; NRMSE normalised by {}\n{}\n",
-                                      table(head, rows), normalisation, criteria_note));
+  for (std::size_t k = 0; k < models.size(); ++k) head.push_back(fmt::format("NRMSE {}", k + 1));
+  say_beside(options.out, table(head, rows) + "* not fitted on by that model\n" + wrapped(criteria_note));
   if (!is_standard_output(options.out)) {
     fmt::print("report: {}\n", (out / "report.html").string());
   }
@@ -344,7 +354,7 @@ void add_compare(CLI::App& program) {
       ->required()
       ->expected(2, 10000);
   add_keep_option(*command, options->data);
-  add_column_options(*command, options->data);
+  add_reading_options(*command, options->data);
   command
       ->add_option(
           "--out", options->out,

@@ -15,6 +15,7 @@
 #include "app/values.hpp"
 #include "core/error.hpp"
 #include "diagnose/record.hpp"
+#include "fit/usable.hpp"
 #include "io/checkpoint.hpp"
 #include "io/output.hpp"
 #include "report/html.hpp"
@@ -177,8 +178,9 @@ std::unique_ptr<Diagnosis> diagnosed(const Campaign& campaign, DiagnoseOptions o
 
 void run(const Options& options) {
   const auto begun = std::chrono::steady_clock::now();
-  const Campaign campaign = load(options.data);
-  refuse_short(campaign);
+  std::vector<std::string> remarks;
+  const Campaign campaign = load(options.data, Required::motion_and_force, &remarks);
+  require_usable(campaign.recordings);
   DiagnoseOptions diagnose_with;
   diagnose_with.model = !options.model.empty() ? options.model : (campaign.model.empty() ? "bouc-wen" : campaign.model);
   diagnose_with.layout.by_current =
@@ -236,7 +238,8 @@ void run(const Options& options) {
     }
   }
   const json model_file = model_json(result, campaign, stored);
-  const json diagnosis_file = diagnosis_json(*diagnosis);
+  json diagnosis_file = diagnosis_json(*diagnosis);
+  diagnosis_file["warnings"] = remarks;
 
   json rows = json::array();
   json page_recordings = json::array();
@@ -267,7 +270,7 @@ void run(const Options& options) {
                {"diagnosis", diagnosis_file},
                {"curves", curves_json(*diagnosis, campaign, diagnose_with.objective)},
                {"notes", diagnosis->notes},
-               {"warnings", json::array()},
+               {"warnings", remarks},
                {"solvers", json::array()},
                {"provenance", model_file["provenance"]}};
   std::vector<std::string> equations(result.layout.model().law->equations.begin(),

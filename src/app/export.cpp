@@ -7,6 +7,7 @@
 #include "app/command.hpp"
 #include "app/model_file.hpp"
 #include "app/result.hpp"
+#include "app/values.hpp"
 #include "core/error.hpp"
 #include "export/targets.hpp"
 #include "io/output.hpp"
@@ -32,7 +33,7 @@ Recording motion_of(const Options& options) {
   }
   DataOptions data = options.data;
   data.data = {options.motion};
-  const Campaign campaign = load(data, false);
+  const Campaign campaign = load(data, Required::motion);
   if (campaign.recordings.size() != 1) {
     throw InputError(options.motion + ": holds " + std::to_string(campaign.recordings.size()) +
                      " recordings, expected one");
@@ -98,9 +99,9 @@ void add_export(CLI::App& program) {
   command->add_option(
       "--motion", options->motion,
       "recording whose motion the test vector replays; default a motion of 10 mm and a drive about 0.5");
-  add_column_options(*command, options->data);
+  add_reading_options(*command, options->data);
   command->add_option("--tolerance", options->tolerance, "relative force error allowed to the integration")
-      ->check(CLI::Range(1e-10, 1e-2))
+      ->check(real_number(1e-10, 1e-2))
       ->capture_default_str();
   command->add_option("--most-substeps", options->most_substeps, "steps of the integration between two samples at most")
       ->check(CLI::Range(1, 65536))

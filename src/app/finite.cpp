@@ -21,6 +21,8 @@ std::optional<double> diverges_at(const std::vector<double>& force, const Record
   return std::nullopt;
 }
 
+std::string percent_text(double percent) { return std::isfinite(percent) ? fmt::format("{:.1f}", percent) : "-"; }
+
 void require_finite(const std::vector<double>& force, const Recording& recording) {
   if (const auto time = diverges_at(force, recording)) {
     throw WorkError(fmt::format(

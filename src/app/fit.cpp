@@ -16,6 +16,7 @@
 #include "core/error.hpp"
 #include "core/printable.hpp"
 #include "core/unit_text.hpp"
+#include "fit/usable.hpp"
 #include "io/output.hpp"
 #include "report/html.hpp"
 #include "report/terminal.hpp"
@@ -138,8 +139,8 @@ json response_json(const ResponseFit& fit, const Rig& rig, const std::string& in
 void run(const FitOptions& options) {
   const auto begun = std::chrono::steady_clock::now();
   std::vector<std::string> remarks;
-  Campaign campaign = load(options.data, !options.response, &remarks);
-  refuse_short(campaign);
+  Campaign campaign = load(options.data, options.response ? Required::motion : Required::motion_and_force, &remarks);
+  require_usable(campaign.recordings, options.response ? ForceOf::excitation : ForceOf::damper);
   Rig rig = options.rig;
   rig.interpolation = interpolation_of(options.interpolation);
   std::vector<Recording> responses;  // the motion under the force on the mass; `campaign` is the damper's own then
@@ -370,7 +371,7 @@ void run(const FitOptions& options) {
                           outcome.run.stopped});
   }
   say(fmt::format("{}\n",
-                  table({"solver", "NRMSE fit", "NRMSE held out", "evaluations", "diverged", "stopped"}, table_rows)));
+                  narrow_table({"solver", "NRMSE fit", "held out", "evaluations", "diverged", "stopped"}, table_rows)));
   table_rows.clear();
   for (const Estimate& estimate : result.estimates) {
     std::string remark = estimate.at_bound ? "at " + *estimate.at_bound + " bound" : "";
@@ -385,7 +386,7 @@ void run(const FitOptions& options) {
   table_rows.clear();
   for (std::size_t k = 0; k < scores.size(); ++k) {
     table_rows.push_back({campaign.recordings[k].file, format_number(scores[k].nrmse, 4),
-                          format_number(scores[k].rmse, 4), fmt::format("{:.1f}", scores[k].fit_percent),
+                          format_number(scores[k].rmse, 4), percent_text(scores[k].fit_percent),
                           held_out[k] ? (result.roles_given ? "validate" : "held out in the check") : ""});
   }
   say(fmt::format("{}\n", table({response ? "force of the equation of motion" : "recording", "NRMSE", "RMSE [N]",
@@ -406,8 +407,9 @@ void run(const FitOptions& options) {
                     campaign.recordings.size() - result.heldout.size(), campaign.recordings.size()));
   }
   if (result.final_run) {
-    say(fmt::format("{} by {}: {} further evaluations, {}\n", result.final_stage, result.final_run->solver,
-                    result.final_run->evaluations, result.final_run->stopped));
+    say(wrapped(fmt::format("{} by {}: {} further evaluations, {}", result.final_stage, result.final_run->solver,
+                            result.final_run->evaluations, result.final_run->stopped),
+                2));
   }
   if (response) {
     say(
@@ -419,7 +421,7 @@ void run(const FitOptions& options) {
   say(fmt::format("overall NRMSE {} ({} weighting, normalised by {})", format_number(result.cost, 4),
                   options.common.weighting, normalisation));
   if (result.nrmse_heldout) {
-    say(fmt::format(", {} on held-out recordings", format_number(*result.nrmse_heldout, 4)));
+    say(fmt::format(",\n  {} on held-out recordings", format_number(*result.nrmse_heldout, 4)));
   }
   say(to_files ? fmt::format("\nreport: {}\n", (out / "report.html").string()) : std::string("\n"));
   // The remarks have been made when the recordings were read.

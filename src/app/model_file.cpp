@@ -55,11 +55,19 @@ json model_json(const Identification& result, const Campaign& campaign, const Id
   for (const Part* effect : result.layout.model().effects) {
     effects.push_back(effect->id);
   }
+  json range = json::object();
+  for (const ParameterLaw& law : result.layout.laws()) {
+    if (law.drive_nodes.size() > 1) range["drive"] = {law.drive_nodes.front(), law.drive_nodes.back()};
+    if (law.frequency_nodes.size() > 1) {
+      range["frequency_hz"] = {law.frequency_nodes.front(), law.frequency_nodes.back()};
+    }
+  }
   return {{"schema", "hysteron.model/1"},
           {"model", result.layout.model().law->id},
           {"effects", effects},
           {"by_current", options.layout.by_current},
           {"by_frequency", options.layout.by_frequency},
+          {"laws_fitted_over", range},
           {"parameters", parameters},
           {"fitted_on", fitted},
           {"nrmse",
@@ -84,6 +92,17 @@ int power_of(const json& entry, const char* key, const std::string& name) {
                      ", expected a whole number from 0 to 9");
   }
   return power.get<int>();
+}
+
+// [lowest, highest] of what laws were fitted over, if the file states it.
+std::optional<std::pair<double, double>> stated_range(const json& root, const char* key) {
+  if (!root.contains("laws_fitted_over") || !root.at("laws_fitted_over").contains(key)) return std::nullopt;
+  const json& ends = root.at("laws_fitted_over").at(key);
+  if (!ends.is_array() || ends.size() != 2 || !ends[0].is_number() || !ends[1].is_number() || !(ends[0] < ends[1])) {
+    throw InputError(std::string("laws_fitted_over, ") + key + ", is " + ends.dump() +
+                     ", expected the lowest and the highest value");
+  }
+  return std::pair(ends[0].get<double>(), ends[1].get<double>());
 }
 
 // Order of a parameter's law in by_current or by_frequency, if the file states one.
@@ -188,6 +207,8 @@ StoredModel parse_model(std::string_view text, const std::string& path) {
         result.fitted_on.insert(entry.at("sha256").get<std::string>());
       }
     }
+    result.drive_range = stated_range(root, "drive");
+    result.frequency_range = stated_range(root, "frequency_hz");
     check_terms(root, result);
   } catch (const json::exception&) {
     throw wrong("not a complete model, expected the members model and parameters of hysteron.model/1");
@@ -199,12 +220,8 @@ StoredModel parse_model(std::string_view text, const std::string& path) {
 
 void check_drive(const StoredModel& stored, const std::string& path, const Recording& recording) {
   if (stored.drive == DriveKind::none || stored.drive == recording.drive_kind) return;
+  if (recording.drive_kind == DriveKind::none) return;
   const auto word = [](DriveKind kind) { return std::string(kind == DriveKind::voltage ? "voltage" : "current"); };
-  if (recording.drive_kind == DriveKind::none) {
-    fmt::print(stderr, "warning: {}: no {} column, and parameters of {} follow the {}: taken as zero\n",
-               printable(recording.file), word(stored.drive), printable(path), word(stored.drive));
-    return;
-  }
   throw InputError(recording.file, 0,
                    "records a " + word(recording.drive_kind) + ", expected a " + word(stored.drive) +
                        ": parameters of " + path + " follow the " + word(stored.drive));

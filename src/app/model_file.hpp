@@ -2,9 +2,11 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "fit/identify.hpp"
@@ -18,6 +20,9 @@ struct StoredModel {
   DriveKind drive = DriveKind::none;  // what the laws follow, by their units; none without laws in the drive
   std::size_t searched = 0;           // terms that were fitted, not held
   std::set<std::string> fitted_on;    // sha256 of the recordings
+  // Where the laws were fitted, lowest and highest; none of files without laws and of those that do not say it.
+  std::optional<std::pair<double, double>> drive_range;      // A or V
+  std::optional<std::pair<double, double>> frequency_range;  // Hz
 };
 
 nlohmann::json model_json(const Identification& result, const Campaign& campaign, const IdentifyOptions& options);
@@ -28,8 +33,7 @@ StoredModel read_model(const std::string& path);
 // The same of the text of a file; `path` opens the messages.
 StoredModel parse_model(std::string_view text, const std::string& path);
 
-// Throws InputError where laws in a current would be given a voltage or the other way round; says on standard error
-// where a recording has neither and counts as zero drive. `path` is the model's.
+// Throws InputError where laws in a current would be given a voltage or the other way round. `path` is the model's.
 void check_drive(const StoredModel& stored, const std::string& path, const Recording& recording);
 
 }  // namespace hysteron::app

@@ -83,7 +83,7 @@ void run(const Options& options) {
   LayoutOptions layout_with;
   layout_with.by_current = parse_orders("--by-current", options.by_current);
   json rows = json::array();
-  std::vector<std::vector<std::string>> table_rows;
+  std::string text;
   for (const std::string& id : options.solvers) {
     if (find_solver(id) == nullptr) {
       std::vector<std::string> known;
@@ -108,11 +108,16 @@ void run(const Options& options) {
       const double offered = static_cast<double>(threads) * together.wall;
       const double idle = std::max(0.0, 1.0 - (alone.evaluating() + together.solver()) / offered);
       const auto share = [&](double part) { return fmt::format("{:.1f}", 100.0 * part / alone.wall); };
-      table_rows.push_back({name, id, std::to_string(alone.evaluations), format_number(alone.wall, 3),
-                            share(alone.solver()), share(alone.simulation), share(alone.derivatives),
-                            share(alone.screening), format_number(together.wall, 3),
-                            fmt::format("{:.1f}", 100.0 * idle),
-                            format_number(1e6 * alone.evaluating() / static_cast<double>(alone.evaluations), 3)});
+      text += fmt::format("{}, {}: {} evaluations, {} us each\n", name, id, alone.evaluations,
+                          format_number(1e6 * alone.evaluating() / static_cast<double>(alone.evaluations), 3));
+      text += fmt::format(
+          "  1 thread: {} s, of which solver {} %, simulation {} %,\n    derivatives {} %, screening {} %\n",
+          format_number(alone.wall, 3), share(alone.solver()), share(alone.simulation), share(alone.derivatives),
+          share(alone.screening));
+      if (threads > 1) {
+        text +=
+            fmt::format("  {} threads: {} s, idle {:.1f} %\n", threads, format_number(together.wall, 3), 100.0 * idle);
+      }
       rows.push_back({{"model", name},
                       {"solver", id},
                       {"evaluations", alone.evaluations},
@@ -129,13 +134,9 @@ void run(const Options& options) {
     fmt::print("{}", json_text({{"schema", "hysteron.profile/1"}, {"budget", options.budget}, {"rows", rows}}));
     return;
   }
-  fmt::print(
-      "{}\nShares are of the wall time on one thread; idle is what {} threads offered and did not use; an evaluation "
-      "with derivatives counts as 1 + number of parameters.\n",
-      table({"model", "solver", "evaluations", "1 thread [s]", "solver [%]", "simulation [%]", "derivatives [%]",
-             "screening [%]", fmt::format("{} threads [s]", threads), "idle [%]", "per evaluation [us]"},
-            table_rows),
-      threads);
+  fmt::print("{}\n{}", text,
+             wrapped("Idle is what the threads offered and did not use; an evaluation with derivatives counts as 1 + "
+                     "number of parameters."));
 }
 
 }  // namespace
@@ -145,7 +146,7 @@ void add_profile(CLI::App& program) {
   CLI::App* command =
       program.add_subcommand("profile", "where the time of a fit goes: solver, simulation, idle threads");
   command->add_option("DATA", options->data.data, "recordings, or folders of them; default the dataset rd8040-twin");
-  add_column_options(*command, options->data);
+  add_reading_options(*command, options->data);
   command->add_option("--model", options->models, "damper laws, one after the other; default that of the data")
       ->delimiter(',')
       ->allow_extra_args(false);

@@ -8,12 +8,12 @@
 #include <memory>
 
 #include "app/command.hpp"
+#include "app/guesses.hpp"
 #include "app/model_file.hpp"
 #include "app/result.hpp"
 #include "app/values.hpp"
 #include "core/drive.hpp"
 #include "core/error.hpp"
-#include "io/campaign.hpp"
 
 namespace hysteron::app {
 namespace {
@@ -32,10 +32,7 @@ struct Options {
 };
 
 Recording read_excitation(const Options& options) {
-  ReadOptions read = read_options(options.data);
-  read.displacement_required = false;
-  read.force_required = false;
-  const Campaign campaign = load_campaign(options.data.data, read);
+  const Campaign campaign = load(options.data, Required::nothing);
   if (campaign.recordings.size() != 1) {
     throw InputError(options.data.data[0] + ": holds " + std::to_string(campaign.recordings.size()) +
                      " recordings, expected one");
@@ -57,7 +54,7 @@ std::vector<double> repeated_times(const std::vector<double>& time, int count) {
 }
 
 void run(Options& options) {
-  const StoredModel stored = read_model(options.model);
+  StoredModel stored = read_model(options.model);
   const Recording recording = read_excitation(options);
   if (std::isnan(options.drive)) {
     check_drive(stored, options.model, recording);
@@ -81,11 +78,18 @@ void run(Options& options) {
   }
   const bool periodic = options.periods > 0;
   double frequency = options.frequency;
-  if (std::isnan(frequency)) {
-    Recording as_motion = recording;
-    as_motion.displacement = base ? recording.displacement : recording.force;
-    frequency = dominant_frequency(as_motion);
+  Recording as_motion = recording;
+  as_motion.displacement = base ? recording.displacement : recording.force;
+  if (!std::isnan(options.drive)) {
+    as_motion.drive.assign(recording.size(), options.drive);
+    as_motion.drive_kind = stored.drive;
   }
+  if (std::isnan(frequency)) {
+    frequency = dominant_frequency(as_motion);
+  } else {
+    stored.frequency_range.reset();  // the user's own choice
+  }
+  warn_of_guesses(stored, options.model, {as_motion});
   Oscillator& oscillator = options.oscillator;
   oscillator.model = stored.model;
   oscillator.parameters = [&](double drive) { return parameters_at(stored.held, stored.terms, drive, frequency); };
@@ -149,7 +153,7 @@ void add_respond(CLI::App& program) {
                    "file with time and a force on the mass, or a displacement of the base")
       ->required()
       ->expected(1);
-  add_column_options(*command, options->data);
+  add_reading_options(*command, options->data);
   command->add_option("--mass", options->oscillator.mass, "kg")->required()->check(real_number(1e-9, 1e12));
   command->add_option("--stiffness", options->oscillator.stiffness, "N/m, of a spring beside the model")
       ->check(real_number(-1e15, 1e15));
@@ -169,13 +173,18 @@ void add_respond(CLI::App& program) {
       ->add_option("--periods", options->periods,
                    "the excitation is one period: it is repeated so many times and the last response is written")
       ->check(CLI::Range(0, 10000));
-  command->add_option("--x0", options->respond.displacement, "displacement at the start, m, relative to the base");
-  command->add_option("--v0", options->respond.velocity, "velocity at the start, m/s, relative to the base");
-  command->add_option("--drive", options->drive, "constant current or voltage, instead of the file's");
-  command->add_option("--frequency", options->frequency,
-                      "Hz, for parameters that follow it; default the excitation's dominant one");
+  command->add_option("--x0", options->respond.displacement, "displacement at the start, m, relative to the base")
+      ->check(real_number(-1e9, 1e9));
+  command->add_option("--v0", options->respond.velocity, "velocity at the start, m/s, relative to the base")
+      ->check(real_number(-1e9, 1e9));
+  command->add_option("--drive", options->drive, "constant current or voltage, instead of the file's")
+      ->check(real_number(-1e9, 1e9));
+  command
+      ->add_option("--frequency", options->frequency,
+                   "Hz, for parameters that follow it; default the excitation's dominant one")
+      ->check(real_number(0.0, 1e9));
   command->add_option("--tolerance", options->respond.tolerance, "relative error of a step")
-      ->check(CLI::Range(1e-13, 1e-2))
+      ->check(real_number(1e-13, 1e-2))
       ->capture_default_str();
   command
       ->add_option(

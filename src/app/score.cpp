@@ -5,6 +5,7 @@
 
 #include "app/command.hpp"
 #include "app/finite.hpp"
+#include "app/guesses.hpp"
 #include "app/model_file.hpp"
 #include "app/result.hpp"
 #include "core/error.hpp"
@@ -37,6 +38,7 @@ void add_score(CLI::App& program) {
     const ObjectiveOptions objective = objective_options(options->common);
     const StoredModel stored = read_model(options->model);
     const Campaign campaign = load(options->data);
+    warn_of_guesses(stored, options->model, campaign.recordings);
     std::vector<Score> scores;
     for (const Recording& recording : campaign.recordings) {
       check_drive(stored, options->model, recording);
@@ -70,7 +72,7 @@ void add_score(CLI::App& program) {
     std::vector<std::vector<std::string>> rows;
     for (std::size_t k = 0; k < scores.size(); ++k) {
       rows.push_back({campaign.recordings[k].file, format_number(scores[k].nrmse, 4), format_number(scores[k].rmse, 4),
-                      fmt::format("{:.1f}", scores[k].fit_percent)});
+                      percent_text(scores[k].fit_percent)});
     }
     fmt::print("{}\noverall NRMSE {} ({} weighting, normalised by {})\n",
                table({"recording", "NRMSE", "RMSE [N]", "fit [%]"}, rows), format_number(total, 4),

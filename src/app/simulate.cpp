@@ -7,6 +7,7 @@
 
 #include "app/command.hpp"
 #include "app/finite.hpp"
+#include "app/guesses.hpp"
 #include "app/model_file.hpp"
 #include "app/result.hpp"
 #include "app/values.hpp"
@@ -146,7 +147,7 @@ void add_simulate(CLI::App& program) {
   command
       ->add_option("--drive", options->drive, "constant current or voltage for the preset, instead of the recording's")
       ->check(real_number(-1e9, 1e9));
-  add_column_options(*command, options->data);
+  add_reading_options(*command, options->data);
   command
       ->add_option("--out", options->out,
                    "file to write, CSV, or MAT by its ending .mat: time [s],force [N]; -: standard output")
@@ -173,7 +174,7 @@ void add_simulate(CLI::App& program) {
       stored = read_model(options->words[0]);
     }
     options->data.data = {options->words.back()};
-    const Campaign campaign = load(options->data, false);
+    const Campaign campaign = load(options->data, Required::motion);
     if (campaign.recordings.size() != 1) {
       throw InputError(options->data.data[0] + ": holds " + std::to_string(campaign.recordings.size()) +
                        " recordings, expected one");
@@ -189,6 +190,7 @@ void add_simulate(CLI::App& program) {
       ObjectiveOptions objective;
       objective.tolerance = options->tolerance;
       check_drive(stored, options->words[0], recording);
+      warn_of_guesses(stored, options->words[0], {recording});
       force = predict(stored.model, stored.held, stored.terms, make_target(recording, objective));
     }
     require_finite(force, recording);

@@ -8,6 +8,7 @@
 #include "core/error.hpp"
 #include "datasets/dataset.hpp"
 #include "external/external_solver.hpp"
+#include "fit/usable.hpp"
 #include "io/campaign.hpp"
 #include "io/sha256.hpp"
 
@@ -33,7 +34,7 @@ std::string hash_of(const Recording& recording) {
   return sha256_hex(bytes);
 }
 
-Campaign load(const DataSpec& spec) {
+Campaign load(const DataSpec& spec, std::vector<Remark>& remarks) {
   if (!spec.made.empty()) {
     Campaign campaign;
     campaign.recordings = spec.made;
@@ -41,7 +42,11 @@ Campaign load(const DataSpec& spec) {
     for (Recording& recording : campaign.recordings) recording.sha256 = hash_of(recording);
     return campaign;
   }
-  if (spec.dataset.empty()) return load_campaign(spec.paths);
+  if (spec.dataset.empty()) {
+    ReadOptions read;
+    read.remark = [&](const Remark& remark) { remarks.push_back(remark); };
+    return load_campaign(spec.paths, read);
+  }
   const DatasetEntry* entry = find_dataset(spec.dataset);
   if (entry == nullptr) throw InputError("unknown dataset '" + spec.dataset + "', see `hysteron list datasets`");
   Campaign campaign = entry->generate(Stream(spec.seed).child(entry->id));
@@ -63,8 +68,8 @@ struct DataGroup {
   std::vector<Recording> heldout;
 };
 
-std::vector<DataGroup> groups_of(const DataSpec& spec, const std::string& file) {
-  const Campaign campaign = load(spec);
+std::vector<DataGroup> groups_of(const DataSpec& spec, const std::string& file, std::vector<Remark>& remarks) {
+  const Campaign campaign = load(spec, remarks);
   DataGroup all{spec.label, {}, {}};
   std::vector<DataGroup> each;
   for (std::size_t k = 0; k < campaign.recordings.size(); ++k) {
@@ -135,7 +140,7 @@ Plan make_plan(const Study& study, const std::string& version) {
   std::set<std::string> labels;
   for (const DataSpec& data : study.data) {
     // A wrong recording is named with its own file and line.
-    const std::vector<DataGroup> groups = groups_of(data, study.file);
+    const std::vector<DataGroup> groups = groups_of(data, study.file, plan.remarks);
     for (const DataGroup& group : groups) {
       for (const ModelSpec& model : study.models) {
         if (!model.on.empty() && std::ranges::find(model.on, data.label) == model.on.end()) continue;
@@ -143,6 +148,7 @@ Plan make_plan(const Study& study, const std::string& version) {
           const DataScale scale = scale_of(group.fitted);
           Layout layout(make_model(model.model, model.effects), scale, model.layout);
           if (layout.dimension() == 0) throw InputError("every parameter is fixed, expected at least one to identify");
+          require_usable(group.fitted);
           for (const Recording& recording : group.fitted) normaliser(recording, study.objective.normalisation);
           StudyProblem problem{model.label + " @ " + group.label,
                                model.label,

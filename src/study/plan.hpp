@@ -8,6 +8,7 @@
 
 #include "fit/objective.hpp"
 #include "fit/solver.hpp"
+#include "io/channels.hpp"
 #include "study/study.hpp"
 
 namespace hysteron {
@@ -36,7 +37,8 @@ struct PlannedRun {
 struct Plan {
   Study study;
   std::vector<StudyProblem> problems;
-  std::vector<PlannedRun> runs;  // problems, then budgets, then seeds, then solvers
+  std::vector<PlannedRun> runs;      // problems, then budgets, then seeds, then solvers
+  std::vector<Remark> remarks = {};  // of the readers of the recordings
 };
 
 // Reads the recordings and names every run. Throws InputError, at the study's line where it can, for data and models

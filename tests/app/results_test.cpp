@@ -125,7 +125,7 @@ TEST_F(Results, MillimetresReadAsMetresAreRemarked) {
   EXPECT_TRUE(
       outcome.err.starts_with("warning: data/r1.csv: displacement has no unit and was taken in m: a stroke of 40 m"))
       << outcome.err;
-  EXPECT_NE(outcome.err.find("(1 more recordings alike)"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("(1 more recording alike)"), std::string::npos) << outcome.err;
   EXPECT_TRUE(json::parse(read(folder_ / "out/fit.json")).at("warnings")[0].get<std::string>().starts_with("r1.csv: "));
 }
 

@@ -66,7 +66,44 @@ TEST_F(Use, FewSamplesIdentifyNothing) {
   const Outcome outcome = run({"fit", "few.csv", "--model", "viscous", "--out", "out"});
   EXPECT_EQ(outcome.status, 2);
   EXPECT_EQ(outcome.err, "error: few.csv: 15 samples, expected at least 16 to identify a model from\n");
-  EXPECT_FALSE(fs::exists(folder_ / "out"));
+  // Of 18 a diagnosis fits a part, in which no noise can be told: nothing is called complete.
+  write(folder_ / "more.csv", testing::csv(1.0, 0.2, 18));
+  const Outcome diagnosed =
+      run({"diagnose", "more.csv", "--model", "viscous", "--effects", "inertia", "--laws", "none", "--out", "out"});
+  EXPECT_EQ(diagnosed.status, 2);
+  EXPECT_NE(diagnosed.err.find("fewer do not tell the noise of the force"), std::string::npos) << diagnosed.err;
+  EXPECT_FALSE(fs::exists(folder_ / "out/diagnosis.json"));
+}
+
+TEST_F(Use, ADeadChannelIdentifiesNothing) {
+  const auto text = [](const auto& displacement, const auto& force) {
+    std::string rows = "time [s],displacement [mm],force [N]\n";
+    for (int n = 0; n < 80; ++n) rows += fmt::format("{},{},{}\n", 0.01 * n, displacement(n), force(n));
+    return rows;
+  };
+  const auto moves = [](int n) { return std::sin(0.1 * n); };
+  const auto rests = [](int) { return 3.0; };
+  write(folder_ / "dead.csv", text(moves, rests));
+  write(folder_ / "still.csv", text(rests, moves));
+  write(folder_ / "study.toml",
+        "schema = \"hysteron.study/1\"\nmodels = [\"viscous\"]\nsolvers = [\"pso\"]\nbudgets = 20\nseeds = 1\n"
+        "[[data]]\nrecordings = \"dead.csv\"\n");
+  const std::string force = "dead.csv: the force is the same throughout, expected one that changes with the motion\n";
+  const std::string motion = "still.csv: the displacement is the same throughout, expected a motion\n";
+  for (const char* command : {"fit", "diagnose"}) {
+    for (const auto& [file, says] : {std::pair("dead.csv", force), std::pair("still.csv", motion)}) {
+      const Outcome outcome = run({command, file, "--model", "viscous", "--out", "out"});
+      EXPECT_EQ(outcome.status, 2);
+      EXPECT_EQ(outcome.err, "error: " + says);
+      EXPECT_FALSE(fs::exists(folder_ / "out"));
+    }
+  }
+  EXPECT_EQ(run({"bench", "study.toml", "--quiet", "--out", "out"}).status, 2);
+  // A model is scored on it all the same, and what is no number is not written as one.
+  fit();
+  const Outcome scored = run({"score", "fitted/model.json", "dead.csv"});
+  EXPECT_EQ(scored.status, 0) << scored.err;
+  EXPECT_EQ(scored.out.find("nan"), std::string::npos) << scored.out;
 }
 
 TEST_F(Use, LongRecordingsAreAveragedWithAWordAboutIt) {

@@ -1,0 +1,139 @@
+// What a reader assumed, and what a model does not know, is said by every command that uses it. Every test runs
+// HYSTERON_PROGRAM in a temporary folder of its own.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "app/program_fixture.hpp"
+
+namespace hysteron {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using testing::csv;
+using testing::Outcome;
+using testing::Program;
+using testing::read;
+using testing::write;
+
+using Words = std::vector<std::string>;
+
+class Remarks : public Program {
+ protected:
+  static constexpr const char* assumed = "displacement has no unit and was taken in m: a stroke of 40 m";
+
+  // Sines of 20 mm without a unit, and of a force where that is asked.
+  static std::string millimetres(bool force) {
+    std::string text = force ? "time,displacement,force\n" : "time,displacement\n";
+    for (int n = 0; n < 80; ++n) {
+      const double t = 0.025 * n;
+      const double phase = 2.0 * std::numbers::pi * t;
+      text += std::to_string(t) + "," + std::to_string(20.0 * std::sin(phase));
+      text += force ? "," + std::to_string(100.0 * std::cos(phase)) + "\n" : "\n";
+    }
+    return text;
+  }
+};
+
+TEST_F(Remarks, EveryCommandSaysWhatItAssumed) {
+  fit();
+  write(folder_ / "mm.csv", millimetres(true));
+  write(folder_ / "base.csv", millimetres(false));
+  write(folder_ / "study.toml",
+        "schema = \"hysteron.study/1\"\nmodels = [\"viscous\"]\nsolvers = [\"pso\"]\nbudgets = 20\nseeds = 1\n"
+        "[[data]]\nrecordings = \"mm.csv\"\n");
+  for (const Words& words :
+       {Words{"fit", "mm.csv", "--model", "viscous", "--budget", "50", "--quiet", "--out", "f"},
+        {"score", "fitted/model.json", "mm.csv"},
+        {"simulate", "fitted/model.json", "mm.csv", "--out", "s.csv"},
+        {"compare", "fitted/model.json", "mm.csv", "--out", "c"},
+        {"respond", "fitted/model.json", "base.csv", "--mass", "20", "--stiffness", "1e4", "--out", "r.csv"},
+        {"profile", "mm.csv", "--model", "viscous", "--budget", "20"},
+        {"diagnose", "mm.csv", "--model", "viscous", "--effects", "offset-force", "--laws", "none", "--quiet", "--out",
+         "d"},
+        {"bench", "study.toml", "--quiet", "--out", "b"}}) {
+    const Outcome outcome = run(words);
+    EXPECT_EQ(outcome.status, 0) << words[0] << outcome.err;
+    EXPECT_NE(outcome.err.find(assumed), std::string::npos) << words[0] << ": " << outcome.err;
+  }
+  // Results that stay say it too.
+  for (const char* file : {"f/fit.json", "d/diagnosis.json"}) {
+    const json said = json::parse(read(folder_ / file)).at("warnings");
+    ASSERT_FALSE(said.empty()) << file;
+    EXPECT_TRUE(said[0].get<std::string>().starts_with(std::string("mm.csv: ") + assumed)) << said[0];
+  }
+  EXPECT_NE(read(folder_ / "d/report.html").find(assumed), std::string::npos);
+  EXPECT_NE(run({"report", "d"}).out.find("warning: mm.csv: displacement has no unit"), std::string::npos);
+}
+
+// A held-out error on a copy of what was fitted would be none.
+TEST_F(Remarks, CopiesOfARecordingAreTold) {
+  write(folder_ / "data/r1 (copy).csv", csv(1.0, 0.2));
+  const Outcome outcome = run({"fit", "data", "--model", "viscous", "--budget", "50", "--quiet", "--out", "out"});
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_NE(outcome.err.find("warning: r1.csv: holds the same bytes as r1 (copy).csv"), std::string::npos)
+      << outcome.err;
+}
+
+TEST_F(Remarks, EveryCommandSkipsLinesWhereThatIsAsked) {
+  fit();
+  // Two rows that look like a header of numbers.
+  write(folder_ / "late.csv", "load,12,1,1,1\n7,12,1,1,1\n" + csv(1.0, 0.2));
+  std::string base = "time [s],displacement [mm],current [A]\n";
+  for (int n = 0; n < 40; ++n) base += std::to_string(0.01 * n) + "," + std::to_string(std::sin(0.3 * n)) + ",0.5\n";
+  write(folder_ / "base.csv", "7,8,9\n" + base);
+  for (const Words& words :
+       {Words{"simulate", "fitted/model.json", "late.csv", "--skip", "2", "--out", "s.csv"},
+        {"compare", "fitted/model.json", "late.csv", "--skip", "2", "--out", "c"},
+        {"export", "fitted/model.json", "--to", "python", "--motion", "late.csv", "--skip", "2", "--out", "damper.py"},
+        {"respond", "fitted/model.json", "base.csv", "--skip", "1", "--mass", "20", "--out", "r.csv"}}) {
+    const Outcome outcome = run(words);
+    EXPECT_EQ(outcome.status, 0) << words[0] << outcome.err;
+  }
+}
+
+TEST_F(Remarks, LawsAreNotExtrapolatedWithoutAWord) {
+  fit();  // at 0.2 and 0.8 A
+  const json range = json::parse(read(folder_ / "fitted/model.json")).at("laws_fitted_over");
+  ASSERT_EQ(range.size(), 1U);
+  EXPECT_NEAR(range.at("drive").at(0), 0.2, 1e-9);
+  EXPECT_NEAR(range.at("drive").at(1), 0.8, 1e-9);
+  write(folder_ / "far/a.csv", csv(1.0, 1.0));
+  write(folder_ / "far/b.csv", csv(1.0, 2.0));
+  write(folder_ / "near.csv", csv(1.0, 0.84));
+  const std::string said =
+      "a current of 2 A, and the laws of fitted/model.json were fitted from 0.2 to 0.8 A: what they say beyond is a "
+      "guess";
+  const Outcome scored = run({"score", "fitted/model.json", "far"});
+  EXPECT_EQ(scored.status, 0);
+  EXPECT_EQ(scored.err, "warning: b.csv: " + said + " (1 more recording alike)\n");
+  EXPECT_EQ(run({"simulate", "fitted/model.json", "far/b.csv", "--out", "s.csv"}).err,
+            "warning: b.csv: " + said + "\n");
+  const Outcome pushed = run({"respond", "fitted/model.json", "far/b.csv", "--excitation", "base", "--drive", "2",
+                              "--mass", "20", "--stiffness", "1e4", "--out", "r.csv"});
+  EXPECT_EQ(pushed.err, "warning: b.csv: " + said + "\n");
+  for (const char* data : {"data", "near.csv"}) EXPECT_EQ(run({"score", "fitted/model.json", data}).err, "") << data;
+}
+
+TEST_F(Remarks, NumbersThatAreNoneAreRefused) {
+  fit();
+  for (const char* option : {"--x0", "--v0", "--drive", "--frequency", "--tolerance"}) {
+    const Outcome outcome = run({"respond", "fitted/model.json", "data/r1.csv", "--excitation", "base", "--mass", "20",
+                                 option, "nan", "--out", "r.csv"});
+    EXPECT_EQ(outcome.status, 2) << option;
+    EXPECT_EQ(std::ranges::count(outcome.err, '\n'), 1) << outcome.err;
+    EXPECT_FALSE(fs::exists(folder_ / "r.csv")) << option;
+  }
+  EXPECT_EQ(run({"export", "fitted/model.json", "--to", "c", "--tolerance", "nan", "--out", "e"}).status, 2);
+  EXPECT_EQ(run({"challenge", "--in", "data", "--sizes", "nan", "--out", "h"}).status, 2);
+}
+
+}  // namespace
+}  // namespace hysteron
