@@ -72,7 +72,8 @@ const std::map<std::string, Names> yield_forces = {{"algebraic-hysteresis", {"al
                                                    {"polynomial-hysteresis", {}},
                                                    {"preisach", {"f_y"}},
                                                    {"quasi-static-flow", {}},
-                                                   {"viscous", {}}};
+                                                   {"viscous", {}},
+                                                   {"wang-sigmoid", {}}};  // has the drive in its equations
 
 const std::map<std::string, Names> dampings = {{"algebraic-hysteresis", {"c0"}},
                                                {"asymmetric-sigmoid", {"c_c", "c_e"}},
@@ -90,7 +91,8 @@ const std::map<std::string, Names> dampings = {{"algebraic-hysteresis", {"c0"}},
                                                {"polynomial-hysteresis", {}},
                                                {"preisach", {"c0"}},
                                                {"quasi-static-flow", {}},
-                                               {"viscous", {"c0"}}};
+                                               {"viscous", {"c0"}},
+                                               {"wang-sigmoid", {}}};
 
 TEST(Cards, YieldForceAndDampingsOfEveryLawFollowADriveThatVaries) {
   Recording low;
