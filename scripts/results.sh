@@ -1,6 +1,6 @@
 #!/bin/sh
 # Makes results/NAME.md again from bench/studies/NAME.toml; rerun the command to resume.
-#   scripts/results.sh NAME [BINARY]      NAME: reference, solvers or models-real
+#   scripts/results.sh NAME [BINARY]      NAME: models-real
 # The records stay in build/results/NAME.
 set -eu
 name=$1
