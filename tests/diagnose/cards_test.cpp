@@ -144,11 +144,12 @@ TEST(Cards, ADampingOfAnEffectFollowsTheDriveAsTheLawsOwn) {
 
 TEST(Cards, WhatALawHasOfItsOwn) {
   const std::map<std::string, NameSet> laws_without = {
-      {"offset-force", {"modified-bouc-wen", "polynomial-hysteresis"}},
+      {"offset-force", {"modified-bouc-wen", "polynomial-hysteresis", "wang-sigmoid"}},
       {"linear-stiffness",
        {"asymmetric-sigmoid", "bingham", "bingham-maxwell", "extended-bingham", "guo-hu", "nonlinear-biviscous",
-        "polynomial-hysteresis", "preisach", "quasi-static-flow"}},
-      {"viscous-damping", {"extended-bingham", "modified-bouc-wen", "polynomial-hysteresis", "quasi-static-flow"}}};
+        "polynomial-hysteresis", "preisach", "quasi-static-flow", "wang-sigmoid"}},
+      {"viscous-damping",
+       {"extended-bingham", "modified-bouc-wen", "polynomial-hysteresis", "quasi-static-flow", "wang-sigmoid"}}};
   const std::set<std::pair<std::string, std::string>> said_on_the_card = {{"degradation", "baber-noori"},
                                                                           {"magnetic-remanence", "preisach"},
                                                                           {"pinching", "baber-noori"},
