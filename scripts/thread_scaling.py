@@ -4,8 +4,8 @@
   scripts/thread_scaling.py [BINARY] [--repeats N] [--anyway]
 
 One fit each of modified-bouc-wen to a simulated recording and to twenty measured ones, the numbers of threads in turn, so
-that what else the machine does meets both. Refuses a machine that is not quiet (load average above 0.5), unless told
---anyway, which the page then says. The results of both must be the same bytes.
+that what else the machine does meets both. Refuses a machine that is not quiet (load average above 0.5 before or 2.5 at the
+end), unless told --anyway, which the page then says. The results of both must be the same bytes.
 """
 import argparse
 import filecmp
@@ -68,6 +68,9 @@ with tempfile.TemporaryDirectory() as place:
             rows.append(f"| {title} | {solver} | {budgets[motion]} | {one:.2f} | {two:.2f} | {one / two:.2f} | {extra:.2f} |")
 
 after = os.getloadavg()[0]
+# Two threads of this measurement are a load of two.
+if after > 2.5 and not options.anyway:
+    sys.exit(f"error: the load average is {after:.1f} at the end, expected at most 2.5: another program came in between, no page written")
 lines = ["# One thread and two", "",
          f"Made by `scripts/thread_scaling.py --repeats {options.repeats}{' --anyway' if options.anyway else ''}`: whole `hysteron fit` "
          f"commands, reading, standard errors and report included, medians of {options.repeats} in turn. Load average {load:.1f} before, "
