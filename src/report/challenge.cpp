@@ -280,8 +280,8 @@ std::string html_of(const Table& table) {
       if (k > 0) {
         html += "<td data-title=\"" + html_escape(table.header[k]) + "\">" + cell + "</td>";
       } else {
-        html += "<th scope=\"row\">" + (table.linked ? "<a href=\"" + report_of(cell) + "\">" + cell + "</a>" : cell) +
-                "</th>";
+        html += std::string("<th scope=\"row\"") + (table.linked ? " class=\"nowrap\">" : ">") +
+                (table.linked ? "<a href=\"" + report_of(cell) + "\">" + cell + "</a>" : cell) + "</th>";
       }
     }
     html += "</tr>\n";
