@@ -62,7 +62,7 @@ def with_links(reference):
 
 def unit_text(unit):
     """Newtons per ampere are not "N/A"."""
-    return re.sub(r"/(A|V)$", r" \1^-1", unit)
+    return re.sub(r"^1 ", "", re.sub(r"/(A|V)$", r" \1^-1", unit))
 
 
 def part_page(entry):
