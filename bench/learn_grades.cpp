@@ -117,15 +117,21 @@ void read(const std::filesystem::path& folder, Rows& rows) {
       ++rows.told;
       rows.told_rightly += truth.contains(channel_effect) ? 1 : 0;
     }
-    for (const hysteron::Candidate& candidate : evidence.candidates) {
+    const auto add = [&](const hysteron::Candidate& candidate, const hysteron::Evidence& of) {
       row.id = candidate.id;
-      row.features = listed(hysteron::features_of(candidate, evidence));
+      row.features = listed(hysteron::features_of(candidate, of));
       row.right = truth.contains(candidate.id);
       rows.names.push_back(row);
-      for (const hysteron::Contender* other : hysteron::as_good(candidate)) {
+      for (const hysteron::Contender* other : hysteron::as_good(candidate, of)) {
         row.right = row.right || truth.contains(other->id);
       }
       rows.sets.push_back(row);
+    };
+    for (const hysteron::Candidate& candidate : evidence.candidates) {
+      add(candidate, evidence);
+    }
+    for (const std::size_t k : hysteron::parts_of_the_law(evidence)) {
+      add(evidence.behind_asked.front().candidates[k], evidence.behind_asked.front());
     }
     if (row.level != "wrong-base" && row.level != "beside") {
       row.id = "missing";

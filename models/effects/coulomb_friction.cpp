@@ -22,8 +22,10 @@ struct CoulombFriction {
       film_speed,
   };
   static constexpr std::string_view kin[] = {"seal-friction", "pre-yield-hysteresis", "shear-thinning"};
-  // A friction that turns over as slowly as it can is a damping that thins out.
-  static constexpr BoxLimit ends_as[] = {{"shear-thinning", "v_t", BoxEnd::upper}};
+  // A friction that turns over as slowly as it can is a damping that thins out; one that turns at once is Coulomb's law.
+  static constexpr BoxLimit ends_as[] = {{"shear-thinning", "v_t", BoxEnd::upper},
+                                         {id, "v_t", BoxEnd::lower},
+                                         {id, "x_b", BoxEnd::lower}};
   static constexpr Knowledge knowledge = {
       .family = families::friction,
       .in_words = "Coulomb friction",

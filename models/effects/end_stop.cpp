@@ -23,6 +23,8 @@ struct EndStop {
   };
   static constexpr std::string_view kin[] = {"linear-stiffness", "gas-spring", "cubic-stiffness"};
   static constexpr Limit holds[] = {{"cubic-stiffness", "x_up"}};
+  // A stop of constant stiffness.
+  static constexpr BoxLimit ends_as[] = {{id, "p", BoxEnd::lower}};
   static constexpr Knowledge knowledge = {
       .family = families::place,
       .in_words = "an end stop",
@@ -31,6 +33,7 @@ struct EndStop {
       .acts = Acts::at_ends,
       .kin = kin,
       .holds = holds,
+      .ends_as = ends_as,
   };
 
   template <class T>

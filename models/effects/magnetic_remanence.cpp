@@ -26,6 +26,8 @@ struct MagneticRemanence {
   static constexpr Need needs[] = {Need::drive, Need::changing_drive};
   static constexpr std::string_view kin[] = {"coil-lag", "magnetic-saturation"};
   static constexpr std::string_view part_of[] = {"preisach"};
+  // The current was the same long before, or switched on from a circuit without field.
+  static constexpr BoxLimit ends_as[] = {{id, "s", BoxEnd::upper}, {id, "s", BoxEnd::lower}};
   static constexpr Knowledge knowledge = {
       .family = families::drive_path,
       .in_words = "magnetic remanence",
@@ -34,6 +36,7 @@ struct MagneticRemanence {
       .experiment = "a current staircase up and down at constant velocity",
       .needs = needs,
       .kin = kin,
+      .ends_as = ends_as,
       .part_of = part_of,
   };
 

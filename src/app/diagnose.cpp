@@ -80,7 +80,7 @@ json curves_json(const Diagnosis& diagnosis, const Campaign& campaign, const Obj
     const Target target = make_target(recording, objective);
     const std::vector<double> base = predicted(diagnosis.search.base, target);
     const std::vector<double> augmented =
-        predicted(names[k].in_place_of ? fit_of(diagnosis.search, names[k]) : diagnosis.final, target);
+        predicted(names[k].in_place_of ? fit_of(diagnosis, names[k]) : diagnosis.final, target);
     const auto first = std::ranges::lower_bound(recording.time, view.from) - recording.time.begin();
     const auto end = std::ranges::upper_bound(recording.time, view.to) - recording.time.begin();
     const std::ptrdiff_t stride = (end - first) / static_cast<std::ptrdiff_t>(most_points) + 1;

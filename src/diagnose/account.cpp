@@ -51,19 +51,20 @@ std::string interval_text(const ParameterInterval& p) {
 
 }  // namespace
 
-const Contrast* contrast_of(const Diagnosis& diagnosis, const std::string& effect) {
-  const std::optional<Speaking> speaking = speaking_for(effect, diagnosis.evidence);
+const Contrast* contrast_of(const Diagnosis& diagnosis, const Named& named) {
+  const std::optional<Speaking> speaking = speaking_for(named.id, evidence_for(named, diagnosis.evidence));
   if (!speaking) {
     return nullptr;
   }
-  const auto at = std::ranges::find_if(
-      diagnosis.contrasts, [&](const Contrast& one) { return card_of(one.kind).id == speaking->signature->id; });
-  return at == diagnosis.contrasts.end() ? nullptr : &*at;
+  const std::vector<Contrast>& all = contrasts_of(diagnosis, named);
+  const auto at =
+      std::ranges::find_if(all, [&](const Contrast& one) { return card_of(one.kind).id == speaking->signature->id; });
+  return at == all.end() ? nullptr : &*at;
 }
 
 const Contender* nearest_rival(const Named& named, const Evidence& evidence) {
   const Contender* best = nullptr;
-  for (const Contender& row : evidence.candidates[named.candidate].contenders) {
+  for (const Contender& row : candidate_of(named, evidence).contenders) {
     // What holds the candidate as its limit and is not told from it there is the candidate.
     const bool same = row.law || row.id == named.id || (row.holds_the_candidate && !row.apart);
     const bool in_set = std::ranges::find(named.indistinguishable_from, row.id) != named.indistinguishable_from.end();
@@ -101,7 +102,7 @@ std::string sentence_of(const Diagnosis& diagnosis, const Named& named,
     values.push_back(fmt::format("{} = {}", p.name, interval_text(p)));
   }
   std::string text = "Consistent with " + title_of(named.id);
-  for (const Found& found : diagnosis.search.found) {
+  for (const Found& found : search_of(diagnosis, named).found) {
     if (found.part.effect == named.id && found.by_law) {
       text += ": " + *found.by_law + " rises ever less with the drive";
     }
@@ -109,8 +110,8 @@ std::string sentence_of(const Diagnosis& diagnosis, const Named& named,
   if (!values.empty()) {
     text += ", " + joined(values, " and ");
   }
-  const Fit& with = fit_of(diagnosis.search, named);
-  const Fit& without = without_of(diagnosis.search, named);
+  const Fit& with = fit_of(diagnosis, named);
+  const Fit& without = without_of(diagnosis, named);
   if (with.heldout < shown_by_judges * without.heldout) {
     text += fmt::format(", which takes the held-out NRMSE from {:.3g} to {:.3g} (noise floor {:.2g})", without.heldout,
                         with.heldout, diagnosis.noise_floor_heldout);
@@ -250,10 +251,11 @@ void note_verdict(Diagnosis& diagnosis) {
                                              : ", in the augmented model still"));
   }
   for (const Named& named : verdict.effects) {
-    const Candidate& candidate = diagnosis.evidence.candidates[named.candidate];
+    const Candidate& candidate = candidate_of(named, diagnosis.evidence);
     for (std::size_t k = 0; k < candidate.kept.size() && !named.in_place_of; ++k) {
-      diagnosis.notes.push_back(fmt::format("behind {} {} keeps {:.0f} % of its gain", diagnosis.search.swaps[k].model,
-                                            named.id, 100.0 * std::clamp(candidate.kept[k], 0.0, 1.0)));
+      diagnosis.notes.push_back(fmt::format("behind {} {} keeps {:.0f} % of its gain",
+                                            search_of(diagnosis, named).swaps[k].model, named.id,
+                                            100.0 * std::clamp(candidate.kept[k], 0.0, 1.0)));
     }
   }
   const std::set<std::string> richer(diagnosis.search.richer.begin(), diagnosis.search.richer.end());

@@ -9,7 +9,7 @@
 namespace hysteron {
 
 // The signature contrast that speaks for an effect most, with its values recording by recording; null where none does.
-const Contrast* contrast_of(const Diagnosis& diagnosis, const std::string& effect);
+const Contrast* contrast_of(const Diagnosis& diagnosis, const Named& named);
 
 // What explains most in the place of a named effect of the effects that the recordings tell from it; null where nothing
 // was tried there.

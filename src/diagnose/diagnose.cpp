@@ -127,7 +127,16 @@ std::vector<Named> listed(const Verdict& verdict) {
   return result;
 }
 
-const Fit& fit_of(const Search& search, const Named& named) {
+const Search& search_of(const Diagnosis& diagnosis, const Named& named) {
+  return named.of_law && diagnosis.asked ? diagnosis.asked->search : diagnosis.search;
+}
+
+const std::vector<Contrast>& contrasts_of(const Diagnosis& diagnosis, const Named& named) {
+  return named.of_law && diagnosis.asked ? diagnosis.asked->contrasts : diagnosis.contrasts;
+}
+
+const Fit& fit_of(const Diagnosis& diagnosis, const Named& named) {
+  const Search& search = search_of(diagnosis, named);
   if (!named.in_place_of) {
     return search.augmented;
   }
@@ -145,7 +154,8 @@ std::string law_instead(const Search& search) {
 // The effect of the augmented model in whose place a name stands: mostly itself.
 std::string place_of(const Named& named) { return named.in_place_of.value_or(named.id); }
 
-const Fit& without_of(const Search& search, const Named& named) {
+const Fit& without_of(const Diagnosis& diagnosis, const Named& named) {
+  const Search& search = search_of(diagnosis, named);
   const auto found = std::ranges::find(search.found, place_of(named), [](const Found& one) { return one.part.effect; });
   return found->without;
 }
@@ -227,14 +237,14 @@ std::string doubt_of_completeness(const Search& search, const Workbench& fine,
     return {};
   }
   if (left.squares > above_floor * left.floor && uneven(left.evenness)) {
-    return "the size of what is left follows the motion, as that of noise does not; no known effect describes it";
+    return "the size of what is left follows the motion, as that of noise does not";
   }
   const Wandering wander = wandering(leftovers_of(fine.split().fit, fine.residuals(search.augmented)));
   if (!wanders(wander)) {
     return {};
   }
   return fmt::format(
-      "{:.0f} % of what is left is a factor of the force that {}; no known effect describes it", 100.0 * wander.share,
+      "{:.0f} % of what is left is a factor of the force that {}", 100.0 * wander.share,
       wander.period > 0.0
           ? fmt::format("swings with a period of {:.2g} s whatever the motion, as of a supply that cycles",
                         wander.period)
@@ -278,6 +288,7 @@ struct Judgement {
   Evidence evidence;
   Verdict verdict;
   std::optional<Estimates> estimates;
+  std::optional<BehindLaw> asked;  // of the law whose place this one takes
 };
 
 Judgement judged(Search found, const Workbench& bench, const Workbench& fine, const std::string& doubt_of_data) {
@@ -288,7 +299,8 @@ Judgement judged(Search found, const Workbench& bench, const Workbench& fine, co
   result.contrasts = contrasts(bench.split().fit, bench.residuals(result.search.base).of);
   const Circumstances known = {
       [&](const Fit& fit, const std::string& effect) { return intervals_of(result.estimates->of(fit), effect); },
-      velocity_channel_lag(bench.split().fit), result.contrasts};
+      velocity_channel_lag(bench.split().fit), result.contrasts,
+      [&](const Fit& fit) { return contrasts(bench.split().fit, bench.plain_residuals(fit), Placebos::none); }};
   result.surprising = surprises(bench, result.search.augmented);
   result.evidence = evidence_of(result.search, fine, known);
   result.evidence.doubt_of_completeness = doubt_of_completeness(result.search, fine, result.surprising);
@@ -352,6 +364,7 @@ Judgement behind_asked_or_better(Searching searching, const std::string& asked, 
     return searching.whole(std::move(first));
   }
   other->evidence.asked_for = asked;
+  other->evidence.behind_asked = {first.evidence};
   Judgement second = searching.whole(std::move(*other));
   // Of the misfit of the law asked for, part of which the other law takes.
   const Left before = first.evidence.base;
@@ -359,16 +372,23 @@ Judgement behind_asked_or_better(Searching searching, const std::string& asked, 
   second.verdict.unknown_share *= left;
   for (std::vector<Named>* list : {&second.verdict.effects, &second.verdict.suggestions, &second.verdict.doubtful}) {
     for (Named& named : *list) {
-      named.share_of_misfit *= left;
+      named.share_of_misfit *= named.of_law ? 1.0 : left;
     }
   }
   second.search.base = first.search.base;
   second.search.base_misfit = first.search.base_misfit;
+  second.asked = BehindLaw{std::move(first.search), std::move(first.contrasts)};
   notes.push_back(
       fmt::format("{} takes the place of {}, with which recordings left out are predicted worse: what is "
                   "named is missing behind {}",
                   law, asked, law));
   return second;
+}
+
+// The names that come from the search behind the law asked for, or the others.
+std::vector<Named> named_of(std::vector<Named> names, bool of_law) {
+  std::erase_if(names, [&](const Named& named) { return named.of_law.has_value() != of_law; });
+  return names;
 }
 
 // What is reported is of every sample at the tolerance asked for, and of the judging recordings, which nothing before
@@ -491,6 +511,7 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const Split& split
   Judgement judgement = behind_asked_or_better({diagnosis.bench, quick, fine, benches.every, searching, doubt},
                                                options.model, progress, diagnosis.notes);
   diagnosis.search = std::move(judgement.search);
+  diagnosis.asked = std::move(judgement.asked);
   diagnosis.surprises = std::move(judgement.surprising);
   diagnosis.belonging = std::move(judgement.belonging);
   diagnosis.column = std::move(judgement.column);
@@ -500,7 +521,10 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const Split& split
   diagnosis.drive = drive_kind_of(campaign.recordings);
   const std::string instead = law_instead(diagnosis.search);
   const std::vector<Named> names = listed(diagnosis.verdict);
-  score_on_all(diagnosis.search, names, diagnosis.bench);
+  score_on_all(diagnosis.search, named_of(names, false), diagnosis.bench);
+  if (diagnosis.asked) {
+    score_on_all(diagnosis.asked->search, named_of(names, true), diagnosis.bench);
+  }
   estimate_noise_floor(diagnosis, options.objective.normalisation);
 
   progress(0.95, "locating the misfit");
@@ -516,14 +540,17 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const Split& split
   diagnosis.drift_of_base = drift_of(fine, diagnosis.search.base);
   diagnosis.drift_of_augmented = drift_of(fine, diagnosis.search.augmented);
   for (const Named& named : names) {
-    diagnosis.parameters.push_back(intervals_of(judgement.estimates->of(fit_of(diagnosis.search, named)), named.id));
+    diagnosis.parameters.push_back(intervals_of(judgement.estimates->of(fit_of(diagnosis, named)), named.id));
     diagnosis.sentences.push_back(
         sentence_of(diagnosis, named, diagnosis.parameters.back()) +
-        (instead.empty() ? "" : " All this behind " + instead + ", which takes the place of " + options.model + "."));
+        (instead.empty() ? ""
+         : named.of_law
+             ? " " + instead + ", which takes the place of " + options.model + ", has it as a part of its own."
+             : " All this behind " + instead + ", which takes the place of " + options.model + "."));
   }
-  const Residuals of_base = fine.residuals(diagnosis.search.base);
+  const std::vector<Residual> of_base = fine.plain_residuals(diagnosis.search.base);
   for (const Named& named : names) {
-    diagnosis.views.push_back(view_of(contrast_of(diagnosis, named.id), fine.split().fit, of_base.of));
+    diagnosis.views.push_back(view_of(contrast_of(diagnosis, named), fine.split().fit, of_base));
   }
   for (const Named& shape : diagnosis.verdict.doubtful) {
     diagnosis.shapes.push_back(intervals_of(judgement.estimates->of(diagnosis.search.augmented), shape.id));

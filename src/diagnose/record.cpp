@@ -56,8 +56,8 @@ json family_json(const std::string& effect) {
 }
 
 // Null where none can be taken from these recordings.
-json contrast_json(const Diagnosis& diagnosis, const std::string& effect) {
-  const std::optional<Speaking> speaking = speaking_for(effect, diagnosis.evidence);
+json contrast_json(const Diagnosis& diagnosis, const Named& named) {
+  const std::optional<Speaking> speaking = speaking_for(named.id, evidence_for(named, diagnosis.evidence));
   if (!speaking) {
     return nullptr;
   }
@@ -74,7 +74,7 @@ json contrast_json(const Diagnosis& diagnosis, const std::string& effect) {
                  {"consistency", row.consistency},
                  {"recordings", row.recordings},
                  {"of_recordings", json::array()}};
-  if (const Contrast* contrast = contrast_of(diagnosis, effect)) {
+  if (const Contrast* contrast = contrast_of(diagnosis, named)) {
     for (const ContrastOfRecording& one : contrast->of_recordings) {
       result["of_recordings"].push_back(
           {{"file", diagnosis.bench.split().fit[one.recording].file}, {"value", one.value}});
@@ -93,9 +93,10 @@ json rival_json(const Diagnosis& diagnosis, const Named& named) {
 
 json laws_json(const Diagnosis& diagnosis, const Named& named) {
   json rows = json::array();
-  const std::vector<double>& kept = diagnosis.evidence.candidates[named.candidate].kept;
+  const std::vector<double>& kept = candidate_of(named, diagnosis.evidence).kept;
   for (std::size_t k = 0; k < kept.size() && !named.in_place_of; ++k) {
-    rows.push_back({{"model", diagnosis.search.swaps[k].model}, {"share_of_gain", std::clamp(kept[k], 0.0, 1.0)}});
+    rows.push_back(
+        {{"model", search_of(diagnosis, named).swaps[k].model}, {"share_of_gain", std::clamp(kept[k], 0.0, 1.0)}});
   }
   return rows;
 }
@@ -117,16 +118,17 @@ json named_json(const Diagnosis& diagnosis, const Named& named, std::size_t inde
           {"confidence_alone", named.alone},
           {"indistinguishable_from", named.indistinguishable_from},
           {"in_place_of", named.in_place_of ? json(*named.in_place_of) : json(nullptr)},
+          {"of_law", named.of_law ? json(*named.of_law) : json(nullptr)},
           {"sentence", diagnosis.sentences[index]},
-          {"contrast", contrast_json(diagnosis, named.id)},
+          {"contrast", contrast_json(diagnosis, named)},
           {"view", view_json(diagnosis, diagnosis.views[index])},
           {"robustness_value", named.robustness},
           {"nearest_rival", rival_json(diagnosis, named)},
           {"experiment", experiment_for(diagnosis, named)},
           {"behind_other_laws", laws_json(diagnosis, named)},
           {"parameters", parameters_json(diagnosis.parameters[index])},
-          {"nrmse_heldout_before", without_of(diagnosis.search, named).heldout},
-          {"nrmse_heldout_after", fit_of(diagnosis.search, named).heldout},
+          {"nrmse_heldout_before", without_of(diagnosis, named).heldout},
+          {"nrmse_heldout_after", fit_of(diagnosis, named).heldout},
           {"share_of_misfit", named.share_of_misfit}};
 }
 
@@ -154,7 +156,7 @@ json shapes_json(const Diagnosis& diagnosis) {
                     {"title", title_of(shape.id)},
                     {"family", family_json(shape.id)},
                     {"confidence", shape.confidence},
-                    {"contrast", contrast_json(diagnosis, shape.id)},
+                    {"contrast", contrast_json(diagnosis, shape)},
                     {"parameters", parameters_json(diagnosis.shapes[k])}});
   }
   return rows;

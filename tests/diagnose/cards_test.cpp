@@ -6,6 +6,7 @@
 #include <set>
 #include <span>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -231,6 +232,23 @@ TEST(Cards, Limits) {
       if (limit != nullptr) {
         EXPECT_EQ(limit->parameter, end->second.first) << effect << " " << other;
         EXPECT_EQ(limit->end, end->second.second) << effect << " " << other;
+      }
+    }
+  }
+}
+
+TEST(Cards, PlainEnds) {
+  const std::set<std::tuple<std::string, std::string, BoxEnd>> meant = {
+      {"coulomb-friction", "x_b", BoxEnd::lower}, {"coulomb-friction", "v_t", BoxEnd::lower},
+      {"seal-friction", "x_b", BoxEnd::lower},    {"seal-friction", "v_t", BoxEnd::lower},
+      {"end-stop", "p", BoxEnd::lower},           {"magnetic-remanence", "s", BoxEnd::lower},
+      {"magnetic-remanence", "s", BoxEnd::upper}};
+  for (const Part* effect : effect_catalogue()) {
+    for (const Parameter& parameter : effect->parameters) {
+      for (const BoxEnd end : {BoxEnd::lower, BoxEnd::upper}) {
+        const std::string id(effect->id);
+        const std::string name(parameter.name);
+        EXPECT_EQ(is_plain_end(id, name, end), meant.contains({id, name, end})) << id << " " << name;
       }
     }
   }

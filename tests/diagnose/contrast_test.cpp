@@ -512,6 +512,18 @@ TEST(Contrast, IsTheSameEachTime) {
   }
 }
 
+TEST(Contrast, IsTheSameWithoutPlacebos) {
+  const Scene scene = scene_of([](const Recording& r, const auto&, std::size_t n) { return 50.0 * r.velocity[n]; });
+  const std::vector<Contrast> all = scene.found();
+  const std::vector<Contrast> none = contrasts(scene.recordings, scene.residuals, Placebos::none);
+  ASSERT_EQ(all.size(), none.size());
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    EXPECT_EQ(all[k].kind, none[k].kind);
+    EXPECT_EQ(all[k].z, none[k].z);
+    EXPECT_EQ(none[k].placebos, 0U);
+  }
+}
+
 TEST(Contrast, EveryEffectOfTheCatalogueHasAContrastThatSpeaksForIt) {
   std::set<std::string_view> spoken_for;
   std::set<std::string_view> known;

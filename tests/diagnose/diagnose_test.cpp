@@ -65,11 +65,11 @@ TEST(Diagnosis, NamesWhatIsMissingBehindALawThatTakesThePlaceOfTheOneAskedFor) {
   options.seed = seed;
   options.candidates = few;
   const auto diagnosis =
-      diagnose(campaign_with({"inertia"}, {{"inertia.m", 2.0}}, 0.01), options, [](double, const std::string&) {});
+      diagnose(campaign_with({"inertia"}, {{"inertia.m", 4.0}}, 0.01), options, [](double, const std::string&) {});
   ASSERT_EQ(diagnosis->verdict.answer, Answer::missing_physics) << diagnosis->verdict.reason;
   ASSERT_EQ(diagnosis->verdict.effects.size(), 1U);
   EXPECT_EQ(diagnosis->verdict.effects[0].id, "inertia");
-  EXPECT_NEAR(diagnosis->parameters[0][0].value, 2.0, 0.6);
+  EXPECT_NEAR(diagnosis->parameters[0][0].value, 4.0, 0.6);
   EXPECT_EQ(diagnosis->search.base.what.model, "bingham");
   EXPECT_LT(diagnosis->verdict.effects[0].share_of_misfit, 0.5) << "the law takes most of it";
   EXPECT_NE(diagnosis->sentences[0].find("takes the place of bingham"), std::string::npos);

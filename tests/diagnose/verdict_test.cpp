@@ -203,13 +203,58 @@ TEST(AsGood, WhatIsNotSurelyWorse) {
   Candidate& candidate = evidence.candidates[0];
   candidate.contenders = {contender("sensor-delay", 0.95, 1.9, true), contender("compliance", 0.9, 2.7),
                           contender("velocity-lag", 0.4, 0.5)};
-  const std::vector<const Contender*> others = as_good(candidate);
+  const std::vector<const Contender*> others = as_good(candidate, evidence);
   ASSERT_EQ(others.size(), 1U) << "told by the data, and never near";
   EXPECT_EQ(others[0]->id, "sensor-delay");
   // A wider form that is not surely away from its limit is the candidate itself.
   candidate.contenders[0].holds_the_candidate = true;
   candidate.contenders[0].apart = false;
-  EXPECT_TRUE(as_good(candidate).empty());
+  EXPECT_TRUE(as_good(candidate, evidence).empty());
+}
+
+TEST(AsGood, NotWhatLeavesTheContrastOfTheCandidate) {
+  Evidence evidence = plain();
+  Candidate& candidate = evidence.candidates[0];
+  candidate.contenders = {contender("quadratic-damping", 0.9, 1.0)};
+  ASSERT_EQ(as_good(candidate, evidence).size(), 1U) << "recordings left out do not tell the two apart";
+  evidence.contrasts_left = {{"inertia", "", false, 0.5}, {"inertia", "quadratic-damping", false, 4.0}};
+  EXPECT_TRUE(as_good(candidate, evidence).empty()) << "force with acceleration stays where it takes the place";
+  evidence.contrasts_left[1].z = 2.5;
+  EXPECT_EQ(as_good(candidate, evidence).size(), 1U) << "less than three standard errors of it stay";
+  evidence.contrasts_left[1].z = 4.0;
+  evidence.contrasts_left[0].z = 2.5;
+  EXPECT_EQ(as_good(candidate, evidence).size(), 1U) << "the candidate does not explain it either";
+  evidence.contrasts_left = {{"inertia", "quadratic-damping", true, 4.0}, {"inertia", "", false, 0.5}};
+  EXPECT_EQ(as_good(candidate, evidence).size(), 1U) << "that is of a law of this name";
+}
+
+TEST(Features, ALawThatLeavesTheContrastIsNoExplanation) {
+  Evidence evidence = plain();
+  evidence.other_laws = {{"lugre", 2.0 * floor_squares, false, {}}};
+  const auto at = std::ranges::find(name_features, "no_other_law", &Feature::name) - name_features.begin();
+  EXPECT_LT(features_of(evidence.candidates[0], evidence)[at], 0.1);
+  evidence.contrasts_left = {{"inertia", "", false, 0.5}, {"inertia", "lugre", true, 4.0}};
+  EXPECT_EQ(features_of(evidence.candidates[0], evidence)[at], 1.0);
+}
+
+TEST(Verdict, NamesThePartThatTheBetterLawHasOfItsOwn) {
+  Evidence before = plain();
+  before.other_laws = {{"modified-bouc-wen", 1.1 * floor_squares, true, {"inertia"}}};
+  Evidence evidence = nothing();
+  evidence.model = "modified-bouc-wen";
+  evidence.asked_for = "bouc-wen";
+  EXPECT_EQ(verdict_of(evidence).answer, Answer::unattributed);
+  evidence.behind_asked = {before};
+  const Verdict verdict = verdict_of(evidence);
+  EXPECT_EQ(verdict.answer, Answer::missing_physics);
+  ASSERT_EQ(verdict.effects.size(), 1U);
+  EXPECT_EQ(verdict.effects[0].id, "inertia");
+  EXPECT_EQ(verdict.effects[0].of_law, "modified-bouc-wen");
+  EXPECT_EQ(verdict.effects[0].confidence, verdict_of(before).effects.at(0).confidence);
+  EXPECT_EQ(candidate_of(verdict.effects[0], evidence).gain, before.candidates[0].gain);
+  // Found behind the law asked for, and no part of the one that took its place: that explains it otherwise.
+  evidence.behind_asked[0].other_laws[0].has.clear();
+  EXPECT_TRUE(verdict_of(evidence).effects.empty());
 }
 
 TEST(Verdict, NamesWhatIsPlainAndNothingWhereNothingIsLeft) {
@@ -311,7 +356,7 @@ TEST(Verdict, WhatIsNotNoiseIsNotComplete) {
   Evidence evidence = nothing();
   evidence.doubt_of_completeness = "what is left is a factor of the force that swings";
   EXPECT_EQ(verdict_of(evidence).answer, Answer::unattributed);
-  EXPECT_EQ(verdict_of(evidence).reason, evidence.doubt_of_completeness);
+  EXPECT_EQ(verdict_of(evidence).reason, evidence.doubt_of_completeness + "; no known effect describes it");
 }
 
 TEST(Verdict, EveryCandidateIsNamedSuggestedOrDoubted) {
@@ -339,6 +384,15 @@ TEST(Evidence, AVerdictFollowsFromTheRecordedNumbers) {
   const Evidence again = evidence_from(recorded);
   EXPECT_EQ(evidence_json(again), recorded);
   EXPECT_EQ(verdict_of(again).effects.at(0).confidence, verdict_of(evidence).effects.at(0).confidence);
+  nlohmann::json earlier = recorded;
+  earlier.erase("contrasts_left");
+  earlier.erase("behind_asked");
+  earlier.erase("signatures_left");
+  EXPECT_EQ(evidence_json(evidence_from(earlier)), recorded) << "records of earlier programs hold none of these";
+  Evidence nested = evidence;
+  nested.behind_asked = {evidence};
+  nested.contrasts_left = {{"inertia", "lugre", true, 4.0}};
+  EXPECT_EQ(evidence_json(evidence_from(evidence_json(nested))), evidence_json(nested));
   nlohmann::json broken = recorded;
   broken.erase("candidates");
   EXPECT_THROW(evidence_from(broken), nlohmann::json::exception);

@@ -13,10 +13,11 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Candidate, id, gain, score, gain_alone, gain_
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Signature, id, what, unit, value, std_error, z, consistency, placebo_quantile,
                                    recordings, speaks_for, sign)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(OtherLaw, model, squares, has_what_was_found, has)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ContrastLeft, effect, instead, law, z)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FirstLook, id, gain, refitted)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Evidence, model, asked_for, recordings, base, augmented, first_stage, candidates,
                                    base_compared, augmented_compared, augmented_over_base, other_laws, signatures,
-                                   doubt_of_completeness, doubt_of_data)
+                                   signatures_left, contrasts_left, behind_asked, doubt_of_completeness, doubt_of_data)
 
 bool Comparison::surely_better() const {
   // Quantile of Student's distribution for that of the normal at two, in powers of one over the degrees of freedom
@@ -27,6 +28,13 @@ bool Comparison::surely_better() const {
 
 nlohmann::json evidence_json(const Evidence& evidence) { return evidence; }
 
-Evidence evidence_from(const nlohmann::json& json) { return json.get<Evidence>(); }
+Evidence evidence_from(const nlohmann::json& json) {
+  // Records of earlier programs hold none of these.
+  nlohmann::json whole = json;
+  whole.emplace("signatures_left", nlohmann::json::array());
+  whole.emplace("contrasts_left", nlohmann::json::array());
+  whole.emplace("behind_asked", nlohmann::json::array());
+  return whole.get<Evidence>();
+}
 
 }  // namespace hysteron

@@ -100,6 +100,15 @@ struct FirstLook {
   bool refitted = false;  // one of those that came near the best to first order
 };
 
+// What is left of the contrast that speaks for a candidate where another part, or another law alone, explains the force
+// in its place: a contender that leaves it does not do what the candidate does.
+struct ContrastLeft {
+  std::string effect;   // the candidate
+  std::string instead;  // a contender or a law; empty: the augmented model as it is
+  bool law = false;
+  double z = 0.0;  // of the contrast, in the sense that the candidate has
+};
+
 struct Evidence {
   std::string model;
   std::string asked_for;  // the law whose place `model` took, empty where it took none
@@ -113,6 +122,10 @@ struct Evidence {
   Comparison augmented_over_base;
   std::vector<OtherLaw> other_laws;
   std::vector<Signature> signatures;
+  std::vector<double> signatures_left;       // z of each of them in what the augmented model leaves
+  std::vector<ContrastLeft> contrasts_left;  // of candidates for which a contrast speaks
+  // Where `model` took the place of `asked_for`: what was found behind that one. At most one.
+  std::vector<Evidence> behind_asked = {};
   std::string doubt_of_completeness;  // why more than noise is left where no effect helps; empty when nothing shows it
   std::string doubt_of_data;          // why no name can be given on these recordings; empty when there is no reason
 };

@@ -31,16 +31,31 @@ double best_share(const Candidate& candidate, const Which& which) {
   return best;
 }
 
-// The largest |z| of the contrasts that speak for nothing in the augmented model.
+// The largest |z| of the contrasts that speak for nothing in the augmented model, in what that leaves: what goes with
+// an effect of the model was its doing.
 double contrast_elsewhere(const Evidence& evidence) {
+  const bool left = evidence.signatures_left.size() == evidence.signatures.size();
   double largest = 0.0;
-  for (const Signature& row : evidence.signatures) {
+  for (std::size_t k = 0; k < evidence.signatures.size(); ++k) {
+    const Signature& row = evidence.signatures[k];
     const bool explained = std::ranges::any_of(evidence.candidates, [&](const Candidate& candidate) {
       return std::ranges::find(row.speaks_for, candidate.id) != row.speaks_for.end();
     });
-    largest = std::max(largest, explained ? 0.0 : std::fabs(row.z));
+    largest = std::max(largest, explained ? 0.0 : std::fabs(left ? evidence.signatures_left[k] : row.z));
   }
   return largest;
+}
+
+// What it takes off alone behind the base model. An effect that a richer law in the drive shows has no parameters of
+// its own: it is what such a law takes off.
+double gain_alone(const Candidate& candidate, const Evidence& evidence) {
+  double result = candidate.gain_alone;
+  for (const FirstLook& row : evidence.first_stage) {
+    if (candidate.parameters == 0 && row.id.starts_with("law:")) {
+      result = std::max(result, row.gain);
+    }
+  }
+  return result;
 }
 
 double chance(double value, double by_chance) { return std::max(0.0, value - std::max(by_chance, 0.0)); }
@@ -55,18 +70,34 @@ double robustness_of(const Candidate& candidate, const Evidence& evidence) {
   return robustness_value(std::max(candidate.gain, 0.0) / std::max(excess, 1e-300));
 }
 
-std::vector<const Contender*> as_good(const Candidate& candidate) {
+std::vector<const Contender*> as_good(const Candidate& candidate, const Evidence& evidence) {
   std::vector<const Contender*> result;
   for (const Contender& row : candidate.contenders) {
     if (row.law) {
       continue;
     }
-    const bool told = row.refitted && row.squares > 0.0 && row.behind.surely_better();
+    const bool told = (row.refitted && row.squares > 0.0 && row.behind.surely_better()) ||
+                      leaves_the_contrast(candidate, row.id, false, evidence);
     const bool limit = row.held_by_the_candidate && !row.apart;
     // What holds the candidate as a limit always explains as much: it counts only where it is surely not at the limit.
     const bool idle = row.holds_the_candidate && !row.apart;
     if (row.ended_as || (!idle && row.share > near && (!told || limit))) {
       result.push_back(&row);
+    }
+  }
+  return result;
+}
+
+std::vector<std::size_t> parts_of_the_law(const Evidence& evidence) {
+  std::vector<std::size_t> result;
+  if (evidence.behind_asked.empty()) {
+    return result;
+  }
+  const Evidence& before = evidence.behind_asked.front();
+  const auto law = std::ranges::find(before.other_laws, evidence.model, &OtherLaw::model);
+  for (std::size_t k = 0; k < before.candidates.size() && law != before.other_laws.end(); ++k) {
+    if (std::ranges::find(law->has, before.candidates[k].id) != law->has.end()) {
+      result.push_back(k);
     }
   }
   return result;
@@ -78,26 +109,25 @@ NameFeatures features_of(const Candidate& candidate, const Evidence& evidence) {
   const double all = std::max(evidence.base_compared - evidence.augmented_compared, 1e-300);
   for (const OtherLaw& other : evidence.other_laws) {
     // A law that has the candidate as a part of its own speaks for it.
-    if (std::ranges::find(other.has, candidate.id) == other.has.end()) {
+    if (std::ranges::find(other.has, candidate.id) == other.has.end() &&
+        !leaves_the_contrast(candidate, other.model, true, evidence)) {
       law = std::max(law, (evidence.base_compared - other.squares) / all);
     }
   }
-  const double outside = best_share(candidate, [](const Contender& row) {
-    return !row.kin && !row.holds_the_candidate && !row.held_by_the_candidate && !row.follows_drive;
+  const auto explains = [&](const Contender& row) { return !leaves_the_contrast(candidate, row.id, false, evidence); };
+  const double inside = best_share(candidate, [&](const Contender& row) {
+    return row.kin && !(row.holds_the_candidate && !row.apart) && explains(row);
   });
-  const double inside =
-      best_share(candidate, [](const Contender& row) { return row.kin && !(row.holds_the_candidate && !row.apart); });
   const std::optional<Speaking> contrast = speaking_for(candidate.id, evidence);
   const double elsewhere = std::max(contrast_elsewhere(evidence), surely);
   return {std::log10(1.0 + std::clamp(candidate.score.mean, 0.0, 1.0) / least_prediction),
-          unit(gain / std::max(evidence.base.excess(), 1e-300)),
-          unit(1.0 - outside),
           unit(1.0 - inside),
           unit(1.0 - law),
-          unit(1.0 - chance(evidence.augmented.recurring, evidence.augmented.recurring_by_chance)),
+          unit(gain / (gain + chance(evidence.augmented.recurring, evidence.augmented.recurring_by_chance) *
+                                  evidence.augmented.squares)),
           1.0 - static_cast<double>(candidate.on_bound) / std::max(candidate.parameters, 1),
           contrast ? unit(contrast->z / std::max(contrast->z, elsewhere)) : unknown_contrast,
-          unit(candidate.gain_alone / gain),
+          unit(gain_alone(candidate, evidence) / gain),
           unit(1.0 - candidate.gain_of_relative / (candidate.gain_of_relative + gain))};
 }
 

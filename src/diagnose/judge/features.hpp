@@ -16,19 +16,19 @@ struct Feature {
 };
 
 // Of a name.
-inline constexpr std::array<Feature, 10> name_features = {{
+inline constexpr std::array<Feature, 8> name_features = {{
     {"prediction", "log10 of 1 + a thousand block scores: how much better recordings left out in turn are predicted"},
-    {"portion", "gain over what the base model leaves beyond the noise"},
-    {"lead", "1 less the share of the gain that the best unrelated effect or law has in its place"},
-    {"lead_in_family", "likewise the best related effect"},
+    {"lead_in_family",
+     "1 less the share of the gain that the best related effect has in its place, of those that explain its contrast "
+     "too"},
     {"no_other_law",
      "1 less the share of what all effects take off that another damper law, without it as a part of its own, takes "
-     "off without any"},
-    {"quiet", "1 less the share of what stays that follows the motion, beyond chance"},
+     "off without any and explains its contrast too"},
+    {"over_rest", "gain over itself and what stays and follows the motion, beyond chance"},
     {"inside", "1 less the share of its parameters that sit on an end of their box"},
     {"contrast_lead",
-     "z of the signature contrast that speaks for it, in its sense, over the largest of all that speak for nothing in "
-     "the model; a half where none can be taken"},
+     "z of the signature contrast that speaks for it, in its sense, over the largest that the augmented model leaves "
+     "of those that speak for nothing in it; a half where none can be taken"},
     {"alone",
      "gain alone behind the base model over that in the augmented one: what only makes up for others has none"},
     {"no_relative",
@@ -56,7 +56,12 @@ double robustness_value(double f2);
 double robustness_of(const Candidate& candidate, const Evidence& evidence);
 
 // Related and unrelated effects that do as well in the candidate's place: the candidate predicts recordings left out no
-// better than two standard errors, or it ends as the other, or is the limit of it that the data do not tell apart.
-std::vector<const Contender*> as_good(const Candidate& candidate);
+// better than two standard errors and the other explains its signature contrast too, or it ends as the other, or is the
+// limit of it that the data do not tell apart.
+std::vector<const Contender*> as_good(const Candidate& candidate, const Evidence& evidence);
+
+// Of the candidates behind the law asked for, those that the law in its place has as parts of its own: what it does
+// better may be their doing.
+std::vector<std::size_t> parts_of_the_law(const Evidence& evidence);
 
 }  // namespace hysteron

@@ -4,21 +4,30 @@
 #include <cmath>
 
 namespace hysteron {
+namespace {
+
+// Standard errors.
+constexpr double surely = 2.0;
+constexpr double loud = 3.0;
+
+}  // namespace
+
+double z_for(const std::string& effect, const Signature& signature) {
+  for (std::size_t k = 0; k < signature.speaks_for.size(); ++k) {
+    if (signature.speaks_for[k] == effect) {
+      return std::max(signature.sign[k] == 0 ? std::fabs(signature.z) : signature.z * signature.sign[k], 0.0);
+    }
+  }
+  return 0.0;
+}
 
 std::optional<Speaking> speaking_for(const std::string& effect, const Evidence& evidence) {
   std::optional<Speaking> best;
   for (const Signature& row : evidence.signatures) {
-    for (std::size_t k = 0; k < row.speaks_for.size(); ++k) {
-      if (row.speaks_for[k] == effect) {
-        const double z = row.sign[k] == 0 ? std::fabs(row.z) : row.z * row.sign[k];
-        if (!best || z > best->z) {
-          best = Speaking{&row, z};
-        }
-      }
+    const double z = z_for(effect, row);
+    if (std::ranges::find(row.speaks_for, effect) != row.speaks_for.end() && (!best || z > best->z)) {
+      best = Speaking{&row, z};
     }
-  }
-  if (best) {
-    best->z = std::max(best->z, 0.0);
   }
   return best;
 }
@@ -32,14 +41,22 @@ double loudness(const Signature& signature) {
 }
 
 bool shows(const Speaking& speaking) {
-  constexpr double surely = 2.0;
   constexpr double beyond_placebos = 0.95;
   return speaking.z >= surely && speaking.signature->placebo_quantile >= beyond_placebos;
 }
 
-bool speaks(const Speaking& speaking) {
-  constexpr double loud = 3.0;
-  return shows(speaking) && speaking.z >= loud;
+bool speaks(const Speaking& speaking) { return shows(speaking) && speaking.z >= loud; }
+
+bool leaves_the_contrast(const Candidate& candidate, const std::string& instead, bool law, const Evidence& evidence) {
+  const auto left = [&](const std::string& by, bool of_law) {
+    const auto at = std::ranges::find_if(evidence.contrasts_left, [&](const ContrastLeft& row) {
+      return row.effect == candidate.id && row.instead == by && row.law == of_law;
+    });
+    return at == evidence.contrasts_left.end() ? std::optional<double>{} : at->z;
+  };
+  const std::optional<double> augmented = left({}, false);
+  const std::optional<double> other = left(instead, law);
+  return augmented && other && *augmented < surely && *other >= loud;
 }
 
 }  // namespace hysteron

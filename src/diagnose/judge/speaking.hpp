@@ -16,6 +16,9 @@ struct Speaking {
 // The one with the largest z in the effect's sense of those that speak for it. Nothing where none could be taken.
 std::optional<Speaking> speaking_for(const std::string& effect, const Evidence& evidence);
 
+// z of a contrast in the effect's sense: not below 0.
+double z_for(const std::string& effect, const Signature& signature);
+
 // z of a contrast in the sense that suits it best of those of the effects it speaks for.
 double loudness(const Signature& signature);
 
@@ -24,5 +27,9 @@ bool shows(const Speaking& speaking);
 
 // Shows, by three standard errors: what noise and the misfit of a bare law do not do (docs/contrasts.md).
 bool speaks(const Speaking& speaking);
+
+// Whether a contrast that speaks for the candidate, and that the augmented model explains, speaks on where `instead`
+// takes the candidate's place (ContrastLeft): it explains the squares, not what the candidate does.
+bool leaves_the_contrast(const Candidate& candidate, const std::string& instead, bool law, const Evidence& evidence);
 
 }  // namespace hysteron

@@ -30,7 +30,7 @@ bool is_told_by_channels(const Candidate& candidate, const Evidence& evidence) {
 std::vector<Named> named(std::size_t index, const Evidence& evidence) {
   const Candidate& candidate = evidence.candidates[index];
   const NameFeatures features = features_of(candidate, evidence);
-  std::vector<const Contender*> others = as_good(candidate);
+  std::vector<const Contender*> others = as_good(candidate, evidence);
   // The channels tell a lag of one of them from a delay of the force.
   if (candidate.as_channels) {
     others.clear();
@@ -86,7 +86,7 @@ double unknown_share(const Verdict& verdict, const Evidence& evidence) {
   double doubted = 0.0;
   for (const std::vector<Named>* list : {&verdict.effects, &verdict.suggestions}) {
     for (const Named& row : *list) {
-      known += row.in_place_of ? 0.0 : row.share_of_misfit;
+      known += row.in_place_of || row.of_law ? 0.0 : row.share_of_misfit;
     }
   }
   for (const Named& row : verdict.doubtful) {
@@ -100,6 +100,14 @@ double unknown_share(const Verdict& verdict, const Evidence& evidence) {
 }
 
 }  // namespace
+
+const Evidence& evidence_for(const Named& named, const Evidence& evidence) {
+  return named.of_law ? evidence.behind_asked.front() : evidence;
+}
+
+const Candidate& candidate_of(const Named& named, const Evidence& evidence) {
+  return evidence_for(named, evidence).candidates[named.candidate];
+}
 
 std::string_view name_of(Answer answer) {
   switch (answer) {
@@ -158,8 +166,21 @@ Verdict answer_of(const Evidence& evidence) {
   verdict.missing = missing_table().probability(features_of(evidence));
   bool alone = false;
   std::vector<std::vector<Named>> suggested;
+  std::vector<std::vector<Named>> found;
+  for (const std::size_t k : parts_of_the_law(evidence)) {
+    std::vector<Named> rows = named(k, evidence.behind_asked.front());
+    for (Named& row : rows) {
+      row.of_law = evidence.model;
+    }
+    // Else it is no shape of the augmented model either: the law has it.
+    if (rows.front().grade != Grade::none && evidence.doubt_of_data.empty()) {
+      found.push_back(std::move(rows));
+    }
+  }
   for (std::size_t k = 0; k < evidence.candidates.size(); ++k) {
-    const std::vector<Named> rows = named(k, evidence);
+    found.push_back(named(k, evidence));
+  }
+  for (const std::vector<Named>& rows : found) {
     const Grade grade = rows.front().grade;
     if (grade == Grade::none || !evidence.doubt_of_data.empty()) {
       verdict.doubtful.push_back(rows.front());
@@ -186,7 +207,9 @@ Verdict answer_of(const Evidence& evidence) {
   }
   if (!evidence.doubt_of_completeness.empty()) {
     verdict.answer = Answer::unattributed;
-    verdict.reason = evidence.doubt_of_completeness;
+    verdict.reason =
+        evidence.doubt_of_completeness +
+        (verdict.suggestions.empty() && evidence.candidates.empty() ? "; no known effect describes it" : "");
     return verdict;
   }
   if (!evidence.asked_for.empty()) {

@@ -31,9 +31,16 @@ struct Named {
   std::vector<std::string> indistinguishable_from;
   double robustness = 0.0;                 // robustness value
   double share_of_misfit = 0.0;            // gain over what the base model leaves beyond the noise
-  std::size_t candidate = 0;               // of the evidence
+  std::size_t candidate = 0;               // of the evidence, or of `behind_asked` where of_law says so
   std::optional<std::string> in_place_of;  // the candidate's id, of another member of its set
+  // The law that took the place of the one asked for and has the candidate as a part of its own: the evidence is what
+  // was found behind the law asked for.
+  std::optional<std::string> of_law = {};
 };
+
+// The evidence that a name was judged by, and the candidate there.
+const Evidence& evidence_for(const Named& named, const Evidence& evidence);
+const Candidate& candidate_of(const Named& named, const Evidence& evidence);
 
 struct Verdict {
   Answer answer = Answer::complete;

@@ -116,18 +116,20 @@ int sign_for(ContrastKind kind, std::string_view effect) {
   return 0;
 }
 
-std::vector<Contrast> contrasts(std::span<const Recording> recordings, std::span<const Residual> residuals) {
+std::vector<Contrast> contrasts(std::span<const Recording> recordings, std::span<const Residual> residuals,
+                                Placebos placebos) {
+  const std::size_t draws = placebos == Placebos::all ? contrast::all_placebos : 0;
   const std::vector<contrast::Track> tracks = contrast::tracks_of(recordings, residuals);
   std::vector<Contrast> result;
   if (tracks.empty()) {
     return result;
   }
-  contrast::add_rest_contrasts(tracks, result);
-  contrast::add_reversal_contrasts(tracks, result);
-  contrast::add_motion_contrasts(tracks, result);
-  contrast::add_slow_contrasts(tracks, result);
-  contrast::add_drive_contrasts(tracks, result);
-  contrast::add_channel_contrasts(tracks, result);
+  contrast::add_rest_contrasts(tracks, draws, result);
+  contrast::add_reversal_contrasts(tracks, draws, result);
+  contrast::add_motion_contrasts(tracks, draws, result);
+  contrast::add_slow_contrasts(tracks, draws, result);
+  contrast::add_drive_contrasts(tracks, draws, result);
+  contrast::add_channel_contrasts(tracks, draws, result);
   std::ranges::stable_sort(result, {}, &Contrast::kind);
   return result;
 }
@@ -140,7 +142,7 @@ std::vector<Contrast> channel_contrasts(std::span<const Recording> recordings) {
   std::vector<Contrast> result;
   const std::vector<contrast::Track> tracks = contrast::tracks_of(recordings, nothing);
   if (!tracks.empty()) {
-    contrast::add_channel_contrasts(tracks, result);
+    contrast::add_channel_contrasts(tracks, contrast::all_placebos, result);
   }
   return result;
 }

@@ -80,8 +80,11 @@ std::span<const std::string_view> speaks_for(ContrastKind kind);
 int sign_for(ContrastKind kind, std::string_view effect);
 
 // In the order of ContrastKind; kinds whose motion no recording holds are absent. `residuals` holds simulated -
-// measured force of the fitted base on each recording. Every number is finite. Deterministic.
-std::vector<Contrast> contrasts(std::span<const Recording> recordings, std::span<const Residual> residuals);
+// measured force of the fitted base on each recording. Every number is finite. Deterministic. Placebos take nearly all
+// of the time: without them `placebo_quantile` is 0.
+enum class Placebos { none, all };
+std::vector<Contrast> contrasts(std::span<const Recording> recordings, std::span<const Residual> residuals,
+                                Placebos placebos = Placebos::all);
 
 // Those of them that the channels of the recordings tell by themselves, whatever the model.
 std::vector<Contrast> channel_contrasts(std::span<const Recording> recordings);

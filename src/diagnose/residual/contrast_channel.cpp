@@ -4,8 +4,8 @@
 
 namespace hysteron::contrast {
 
-void add_channel_contrasts(std::span<const Track> tracks, std::vector<Contrast>& result) {
-  Panel panel(tracks, &Track::slip);
+void add_channel_contrasts(std::span<const Track> tracks, std::size_t placebos, std::vector<Contrast>& result) {
+  Panel panel(tracks, &Track::slip, placebos);
   if (panel.empty()) {
     return;
   }

@@ -63,7 +63,7 @@ Values memory(const Track& track, double half) {
 
 }  // namespace
 
-void add_drive_contrasts(std::span<const Track> tracks, std::vector<Contrast>& result) {
+void add_drive_contrasts(std::span<const Track> tracks, std::size_t placebos, std::vector<Contrast>& result) {
   double low = tracks.front().drive.empty() ? 0.0 : tracks.front().drive.front();
   double high = low;
   for (const Track& track : tracks) {
@@ -112,7 +112,7 @@ void add_drive_contrasts(std::span<const Track> tracks, std::vector<Contrast>& r
     return t.simulated[n] / std::max(mean + slope * (t.drive[n] - middle), least_size * largest);
   };
 
-  Panel panel(tracks, &Track::missing);
+  Panel panel(tracks, &Track::missing, placebos);
   const auto add = [&](auto&& value) { return panel.add(value); };
   const Panel::Column one = add([](const Track&, std::size_t) { return 1.0; });
   const Panel::Column x = add([](const Track& t, std::size_t n) { return t.x[n]; });

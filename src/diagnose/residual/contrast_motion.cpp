@@ -52,7 +52,7 @@ Columns operator+(Columns a, const Columns& b) {
 
 }  // namespace
 
-void add_motion_contrasts(std::span<const Track> tracks, std::vector<Contrast>& result) {
+void add_motion_contrasts(std::span<const Track> tracks, std::size_t placebos, std::vector<Contrast>& result) {
   Range place;
   double fastest = 0.0;
   double strongest = 0.0;
@@ -77,7 +77,7 @@ void add_motion_contrasts(std::span<const Track> tracks, std::vector<Contrast>& 
   const double half = place.half();
   const double slow = low_speed * fastest;
 
-  Panel panel(tracks, &Track::missing);
+  Panel panel(tracks, &Track::missing, placebos);
   const auto add = [&](auto&& value) { return panel.add(value); };
   const Panel::Column one = add([](const Track&, std::size_t) { return 1.0; });
   const Panel::Column x = add([&](const Track& t, std::size_t n) { return t.x[n] - centre; });

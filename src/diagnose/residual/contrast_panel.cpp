@@ -17,7 +17,8 @@ constexpr double fewest_flips = 7.0;
 
 }  // namespace
 
-Panel::Panel(std::span<const Track> tracks, Values Track::*response) : tracks_(tracks) {
+Panel::Panel(std::span<const Track> tracks, Values Track::*response, std::size_t placebos)
+    : tracks_(tracks), placebos_(placebos) {
   for (const Track& track : tracks) {
     std::vector<std::size_t> samples;
     std::size_t hold = 0;
@@ -242,7 +243,7 @@ std::optional<Contrast> Panel::partial(ContrastKind kind, std::span<const Column
   }
   const bool whole = effective_number(recordings) >= fewest_flips;
   Values of_placebos;
-  for (std::size_t p = 0; p < placebos; ++p) {
+  for (std::size_t p = 0; p < placebos_; ++p) {
     double largest = 0.0;
     for (const Left& left : lefts) {
       double score = 0.0;

@@ -19,7 +19,7 @@ class Panel {
 
   // Samples in motion, holds left out; long recordings by means of neighbouring samples. `response` is what is
   // explained.
-  Panel(std::span<const Track> tracks, Values Track::*response);
+  Panel(std::span<const Track> tracks, Values Track::*response, std::size_t placebos);
 
   Column add(const Value& value);
   // Less what the columns `without` explain of it in each recording by itself.
@@ -46,6 +46,7 @@ class Panel {
   [[nodiscard]] Left left_of(Column signature, std::span<const Column> without) const;
 
   std::span<const Track> tracks_;
+  std::size_t placebos_;
   std::vector<std::vector<std::size_t>> samples_;  // of each track, those that count
   std::vector<std::size_t> width_;                 // of each track, samples to a row
   std::vector<Stretch> rows_;                      // of each track

@@ -11,7 +11,7 @@
 
 namespace hysteron::contrast {
 
-constexpr std::size_t placebos = 199;  // so that a quantile of 0.995 can be told
+constexpr std::size_t all_placebos = 199;  // so that a quantile of 0.995 can be told
 
 // What a placebo does to the samples of a residual: `by` samples of a circle of `size` on, in time.
 // By golden sections over the draws, at random from recording to recording; never near a multiple of `period`, in
@@ -46,11 +46,11 @@ double mean_of(std::span<const Event> events);
 void judge(Contrast& contrast, double size, std::span<const double> of_placebos);
 
 // The contrasts, by subject; each adds those whose motion is there.
-void add_rest_contrasts(std::span<const Track> tracks, std::vector<Contrast>& result);
-void add_reversal_contrasts(std::span<const Track> tracks, std::vector<Contrast>& result);
-void add_motion_contrasts(std::span<const Track> tracks, std::vector<Contrast>& result);
-void add_slow_contrasts(std::span<const Track> tracks, std::vector<Contrast>& result);
-void add_drive_contrasts(std::span<const Track> tracks, std::vector<Contrast>& result);
-void add_channel_contrasts(std::span<const Track> tracks, std::vector<Contrast>& result);
+void add_rest_contrasts(std::span<const Track> tracks, std::size_t placebos, std::vector<Contrast>& result);
+void add_reversal_contrasts(std::span<const Track> tracks, std::size_t placebos, std::vector<Contrast>& result);
+void add_motion_contrasts(std::span<const Track> tracks, std::size_t placebos, std::vector<Contrast>& result);
+void add_slow_contrasts(std::span<const Track> tracks, std::size_t placebos, std::vector<Contrast>& result);
+void add_drive_contrasts(std::span<const Track> tracks, std::size_t placebos, std::vector<Contrast>& result);
+void add_channel_contrasts(std::span<const Track> tracks, std::size_t placebos, std::vector<Contrast>& result);
 
 }  // namespace hysteron::contrast

@@ -126,7 +126,7 @@ std::vector<Event> recoveries(std::span<const Track> tracks, std::optional<std::
 
 }  // namespace
 
-void add_rest_contrasts(std::span<const Track> tracks, std::vector<Contrast>& result) {
+void add_rest_contrasts(std::span<const Track> tracks, std::size_t placebos, std::vector<Contrast>& result) {
   const auto add = [&](ContrastKind kind, auto&& events_of) {
     std::optional<Contrast> found = pooled(kind, events_of(tracks, std::nullopt));
     if (!found) {

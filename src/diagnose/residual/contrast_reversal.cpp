@@ -116,7 +116,7 @@ std::vector<Event> gaps(std::span<const Scene> scenes, std::optional<std::size_t
 
 }  // namespace
 
-void add_reversal_contrasts(std::span<const Track> tracks, std::vector<Contrast>& result) {
+void add_reversal_contrasts(std::span<const Track> tracks, std::size_t placebos, std::vector<Contrast>& result) {
   std::vector<Scene> scenes;
   for (const Track& track : tracks) {
     Scene scene{&track, std::max(narrow, over_noise * drive_noise(track.force) / track.peak), crossings_of(track), {}};

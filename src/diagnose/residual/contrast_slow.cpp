@@ -13,7 +13,7 @@ constexpr std::size_t fewest_half_cycles = 4;  // that tell a slow change from t
 
 }  // namespace
 
-void add_slow_contrasts(std::span<const Track> tracks, std::vector<Contrast>& result) {
+void add_slow_contrasts(std::span<const Track> tracks, std::size_t placebos, std::vector<Contrast>& result) {
   std::size_t half_cycles = 0;
   for (const Track& track : tracks) {
     half_cycles = std::max(half_cycles, track.half_cycles.size());
@@ -21,7 +21,7 @@ void add_slow_contrasts(std::span<const Track> tracks, std::vector<Contrast>& re
   if (half_cycles < fewest_half_cycles) {
     return;
   }
-  Panel panel(tracks, &Track::missing);
+  Panel panel(tracks, &Track::missing, placebos);
   const Panel::Column one = panel.add([](const Track&, std::size_t) { return 1.0; });
   const Panel::Column f = panel.add([](const Track& t, std::size_t n) { return t.simulated[n]; });
   const Panel::Column x = panel.add([](const Track& t, std::size_t n) { return t.x[n]; });

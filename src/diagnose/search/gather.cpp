@@ -163,6 +163,46 @@ std::vector<Signature> signatures_of(const std::vector<Contrast>& contrasts) {
   return result;
 }
 
+// What the augmented model, the rivals of each candidate and the other laws leave of the contrast that speaks for it.
+class ContrastsLeft {
+ public:
+  ContrastsLeft(const Circumstances& known, const Evidence& evidence) : known_(&known), evidence_(&evidence) {}
+
+  // z of each signature; 0 where it cannot be taken any more, as the fit's own force holds all of it.
+  std::vector<double> all(const Fit& fit) {
+    std::vector<double> result;
+    for (const Signature& row : evidence_->signatures) {
+      result.push_back(z_of(fit, row.id, [](const Signature& left) { return left.z; }));
+    }
+    return result;
+  }
+
+  void add(std::vector<ContrastLeft>& rows, const std::string& effect, const Fit& fit, const std::string& instead,
+           bool law) {
+    const std::optional<Speaking> speaking = speaking_for(effect, *evidence_);
+    if (!speaking || !speaks(*speaking)) {
+      return;
+    }
+    const double z = z_of(fit, speaking->signature->id, [&](const Signature& left) { return z_for(effect, left); });
+    rows.push_back({effect, instead, law, z});
+  }
+
+ private:
+  template <class Of>
+  double z_of(const Fit& fit, const std::string& id, const Of& of) {
+    auto at = of_.find(&fit);
+    if (at == of_.end()) {
+      at = of_.emplace(&fit, signatures_of(known_->contrasts_of(fit))).first;
+    }
+    const auto left = std::ranges::find(at->second, id, &Signature::id);
+    return left == at->second.end() ? 0.0 : of(*left);
+  }
+
+  const Circumstances* known_;
+  const Evidence* evidence_;
+  std::map<const Fit*, std::vector<Signature>> of_;
+};
+
 }  // namespace
 
 std::vector<std::string> told_by_channels(const std::vector<Recording>& recordings,
@@ -247,8 +287,9 @@ Evidence evidence_of(const Search& search, const Workbench& fine, const Circumst
     }
     const std::vector<ParameterInterval> intervals = known.intervals(search.augmented, one.id);
     one.parameters = static_cast<int>(intervals.size());
-    one.on_bound =
-        static_cast<int>(std::ranges::count_if(intervals, [](const ParameterInterval& p) { return !p.bound.empty(); }));
+    one.on_bound = static_cast<int>(std::ranges::count_if(intervals, [&](const ParameterInterval& p) {
+      return !p.bound.empty() && !is_plain_end(one.id, p.name, p.bound == "upper" ? BoxEnd::upper : BoxEnd::lower);
+    }));
     one.as_channels = found.told || (one.id == channel_lag && as_channels_show(search.augmented, known));
     result.candidates.push_back(std::move(one));
   }
@@ -257,6 +298,18 @@ Evidence evidence_of(const Search& search, const Workbench& fine, const Circumst
       if (is_kin(one.id, other.id)) {
         one.gain_of_relative = std::max(one.gain_of_relative, other.gain);
       }
+    }
+  }
+  ContrastsLeft contrasts_left(known, result);
+  result.signatures_left = contrasts_left.all(search.augmented);
+  for (const Found& found : search.found) {
+    const std::string& id = found.part.effect;
+    contrasts_left.add(result.contrasts_left, id, search.augmented, {}, false);
+    for (const Rival* rival : close_rivals(found)) {
+      contrasts_left.add(result.contrasts_left, id, *rival->fit, name_of(rival->part), false);
+    }
+    for (const Fit& law : search.other_laws) {
+      contrasts_left.add(result.contrasts_left, id, law, law.what.model, true);
     }
   }
   std::ranges::stable_sort(result.candidates, [](const Candidate& a, const Candidate& b) { return a.gain > b.gain; });

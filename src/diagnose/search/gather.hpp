@@ -31,6 +31,8 @@ struct Circumstances {
   std::optional<ChannelLag> channel;
   // Signature contrasts of what the base model leaves of the fitted recordings.
   std::vector<Contrast> contrasts;
+  // Those of what any fit leaves of them, without placebos.
+  std::function<std::vector<Contrast>(const Fit& fit)> contrasts_of;
 };
 
 // Of the candidates, those that the channels of the recordings show by themselves: a contrast that needs no model

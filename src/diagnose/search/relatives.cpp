@@ -87,9 +87,18 @@ std::string limit_parameter(const std::string& effect, const std::string& wider)
 }
 
 const BoxLimit* box_limit(const std::string& effect, const std::string& other) {
+  if (effect == other) {
+    return nullptr;
+  }
   const std::span<const BoxLimit> ends = knowledge_of(effect).ends_as;
   const auto at = std::ranges::find(ends, other, &BoxLimit::other);
   return at == ends.end() ? nullptr : &*at;
+}
+
+bool is_plain_end(const std::string& effect, const std::string& parameter, BoxEnd end) {
+  return std::ranges::any_of(knowledge_of(effect).ends_as, [&](const BoxLimit& row) {
+    return row.other == effect && row.parameter == parameter && row.end == end;
+  });
 }
 
 bool is_part_of(const std::string& effect, const std::string& law) {

@@ -30,6 +30,10 @@ std::string limit_parameter(const std::string& effect, const std::string& wider)
 // A parameter with which, at one end of its box, `effect` is `other`; null where there is none.
 const BoxLimit* box_limit(const std::string& effect, const std::string& other);
 
+// Whether the effect at that end of the parameter's box is a plain form of itself, as Coulomb's law is of a friction
+// that turns over a distance: to sit there is no sign that its form is wrong.
+bool is_plain_end(const std::string& effect, const std::string& parameter, BoxEnd end);
+
 // Whether the law has the effect as a part of its own: the effect's card says so, or it is a linear parameter of the
 // law, as a stiffness or an offset. All that it has.
 bool is_part_of(const std::string& effect, const std::string& law);

@@ -468,6 +468,12 @@ Residual Workbench::residual(const Fit& fit, const Recording& recording) const {
   return result;
 }
 
+std::vector<Residual> Workbench::plain_residuals(const Fit& fit) const {
+  std::vector<Residual> result(split_.fit.size());
+  parallel_for(result.size(), options_.threads, [&](std::size_t k) { result[k] = residual(fit, split_.fit[k]); });
+  return result;
+}
+
 Residuals Workbench::residuals(const Fit& fit) const {
   const std::vector<Recording>& recordings = split_.fit;
   Residuals result;

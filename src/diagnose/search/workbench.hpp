@@ -81,7 +81,9 @@ class Workbench {
   [[nodiscard]] Workbench single_threaded() const;
   // Of a fit on a recording.
   [[nodiscard]] Residual residual(const Fit& fit, const Recording& recording) const;
-  // Of a fit on the fitted recordings, with all that is told of them: two simulations of each, in parallel.
+  // Of a fit on the fitted recordings, in parallel.
+  [[nodiscard]] std::vector<Residual> plain_residuals(const Fit& fit) const;
+  // The same with all that is told of them: two simulations of each, in parallel.
   [[nodiscard]] Residuals residuals(const Fit& fit) const;
   // Noise of the fitted recordings' forces.
   // The noise of the same recordings before they were thinned, which tells it better; by their files.
