@@ -1,103 +1,23 @@
 // hysteron list and describe: the catalogue.
+#include "task/catalogue.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <memory>
 
 #include "app/command.hpp"
-#include "app/effect_card.hpp"
 #include "app/figure.hpp"
 #include "core/error.hpp"
-#include "core/suggest.hpp"
 #include "core/unit_text.hpp"
 #include "datasets/dataset.hpp"
 #include "io/output.hpp"
 #include "presets/preset.hpp"
 #include "report/terminal.hpp"
-#include "study/reproduce.hpp"
+#include "task/effect_card.hpp"
 
 namespace hysteron::app {
 namespace {
-
-using nlohmann::json;
-
-struct Row {
-  std::string id;
-  std::string title;
-  std::string reference;
-};
-
-std::vector<Row> rows_of(const std::string& kind) {
-  std::vector<Row> rows;
-  const auto add = [&](std::string_view id, std::string_view title, std::string_view reference) {
-    rows.push_back({std::string(id), std::string(title), std::string(reference)});
-  };
-  if (kind == "models" || kind == "effects") {
-    for (const Part* part : kind == "models" ? model_catalogue() : effect_catalogue()) {
-      add(part->id, part->title, part->reference);
-    }
-  } else if (kind == "solvers") {
-    for (const SolverEntry* entry : solver_catalogue()) {
-      add(entry->id, entry->title, entry->reference);
-    }
-  } else if (kind == "datasets") {
-    for (const DatasetEntry* entry : dataset_catalogue()) {
-      add(entry->id, entry->title, entry->reference);
-    }
-  } else if (kind == "tables") {
-    for (const PublishedTable& table : published_tables()) {
-      add(table.id, table.title, table.source);
-    }
-  }
-  return rows;
-}
-
-json card_json(const Parameter& card) {
-  return {
-      {"name", card.name},       {"symbol", card.symbol},
-      {"unit", card.unit},       {"meaning", card.meaning},
-      {"lower", card.box.lower}, {"upper", card.box.upper},
-      {"default", card.initial}, {"scale", card.scale == Scale::linear ? "linear" : "log"},
-      {"fixed", card.fixed},     {"role", card.role == PhysicalRole::none ? json(nullptr) : json(name_of(card.role))}};
-}
-
-std::string_view word_of(PresetDrive drive) {
-  return drive == PresetDrive::current ? "current" : drive == PresetDrive::voltage ? "voltage" : "none";
-}
-
-json preset_json(const Preset& preset) {
-  json quantities = json::array();
-  for (const PresetQuantity& quantity : preset.quantities) {
-    quantities.push_back({{"name", quantity.name},
-                          {"unit", quantity.unit},
-                          {"printed", quantity.at != nullptr ? json(quantity.printed) : json(nullptr)}});
-  }
-  json result = {{"kind", "preset"},
-                 {"id", preset.id},
-                 {"title", preset.title},
-                 {"reference", preset.reference},
-                 {"model", preset.model},
-                 {"effects", std::vector<std::string>(preset.effects.begin(), preset.effects.end())},
-                 {"drive", word_of(preset.drive)},
-                 {"by_frequency", preset.by_frequency},
-                 {"lag_s", preset.lag},
-                 {"note", preset.note},
-                 {"quantities", quantities}};
-  if (preset.drive != PresetDrive::none) {
-    result["drive_range"] = {preset.drive_low, preset.drive_high};
-  }
-  return result;
-}
-
-std::vector<const Preset*> presets_of(std::string_view model) {
-  std::vector<const Preset*> result;
-  for (const Preset* preset : preset_catalogue()) {
-    if (preset->model == model) {
-      result.push_back(preset);
-    }
-  }
-  return result;
-}
 
 // Paragraphs, whose lines stand as the source's.
 std::string flowing(std::string_view text) {
@@ -114,11 +34,7 @@ std::string flowing(std::string_view text) {
 
 std::string source_text(std::string_view reference) { return wrapped("Source: " + std::string(reference), 2); }
 
-void describe_preset(const Preset& preset, bool as_json) {
-  if (as_json) {
-    fmt::print("{}", json_text(preset_json(preset)));
-    return;
-  }
+void describe_preset(const Preset& preset) {
   fmt::print("{}\n{}", wrapped(fmt::format("{} (parameter set of {}): {}", preset.id, preset.model, preset.title), 2),
              source_text(preset.reference));
   if (preset.drive != PresetDrive::none) {
@@ -135,33 +51,7 @@ void describe_preset(const Preset& preset, bool as_json) {
              table({"quantity", "unit", "value"}, rows), preset.id);
 }
 
-void describe_part(const Part& part, const std::string& kind, bool as_json) {
-  if (as_json) {
-    json cards = json::array();
-    for (const Parameter& card : part.parameters) {
-      cards.push_back(card_json(card));
-    }
-    json presets = json::array();
-    for (const Preset* preset : presets_of(part.id)) {
-      presets.push_back(preset_json(*preset));
-    }
-    json entry = {{"kind", kind},
-                  {"id", part.id},
-                  {"title", part.title},
-                  {"reference", part.reference},
-                  {"equations", std::vector<std::string>(part.equations.begin(), part.equations.end())},
-                  {"states", part.states},
-                  {"presets", presets},
-                  {"parameters", cards}};
-    if (kind == "model") {
-      entry["alternative"] = part.alternative;
-    }
-    if (kind == "effect") {
-      entry.update(effect_card_json(std::string(part.id)));
-    }
-    fmt::print("{}", json_text(entry));
-    return;
-  }
+void describe_part(const Part& part, const std::string& kind) {
   fmt::print("{}\n", wrapped(fmt::format("{} ({}): {}", part.id, kind, part.title), 2));
   for (const std::string_view equation : part.equations) {
     fmt::print("  {}\n", equation);
@@ -192,33 +82,7 @@ void describe_part(const Part& part, const std::string& kind, bool as_json) {
   }
 }
 
-// "nlopt:*" for a member of the family, else null.
-json family_of(const SolverEntry& entry) {
-  const auto colon = entry.id.find(':');
-  const SolverEntry* family = colon == std::string_view::npos ? nullptr : find_solver_family(entry.id.substr(0, colon));
-  return family == nullptr ? json(nullptr) : json(family->id);
-}
-
-void describe_solver(const SolverEntry& entry, bool as_json) {
-  if (as_json) {
-    json settings = json::array();
-    for (const Setting& row : entry.settings) {
-      settings.push_back({{"name", row.name},
-                          {"default", row.value},
-                          {"lower", row.lower},
-                          {"upper", row.upper},
-                          {"meaning", row.meaning}});
-    }
-    fmt::print("{}", json_text({{"kind", "solver"},
-                                {"id", entry.id},
-                                {"title", entry.title},
-                                {"reference", entry.reference},
-                                {"description", entry.description},
-                                {"uses_derivatives", entry.uses_derivatives},
-                                {"family", family_of(entry)},
-                                {"settings", settings}}));
-    return;
-  }
+void describe_solver(const SolverEntry& entry) {
   const char* const kind = entry.members != nullptr ? "family of solvers" : "solver";
   fmt::print("{}\n{}\n{}\n", wrapped(fmt::format("{} ({}): {}", entry.id, kind, entry.title), 2),
              flowing(entry.description), source_text(entry.reference));
@@ -260,26 +124,18 @@ void add_catalogue(CLI::App& program) {
     if (list_options->word.empty()) {
       throw InputError("list: of what, expected models, solvers, effects, datasets or tables");
     }
-    const std::vector<Row> rows = rows_of(list_options->word);
     if (list_options->json) {
-      json result = json::array();
-      for (const Row& row : rows) {
-        json entry = {{"id", row.id}, {"title", row.title}, {"reference", row.reference}};
-        if (list_options->word == "effects") {
-          entry.update(effect_card_json(row.id));
-        }
-        result.push_back(std::move(entry));
-      }
-      fmt::print("{}", json_text(result));
+      fmt::print("{}", json_text(catalogue_json(list_options->word)));
       return;
     }
+    const std::vector<CatalogueRow> rows = catalogue_rows(list_options->word);
     if (rows.empty()) {
       fmt::print("none yet\n");
       return;
     }
     std::vector<std::vector<std::string>> cells;
     cells.reserve(rows.size());
-    for (const Row& row : rows) {
+    for (const CatalogueRow& row : rows) {
       cells.push_back({row.id, row.title});
     }
     fmt::print("{}", narrow_table({"id", "what it is"}, cells));
@@ -299,44 +155,25 @@ void add_catalogue(CLI::App& program) {
       write_file_atomically(describe_options->figure, figure_of(id));
       return;
     }
-    if (const Part* model = find_model(id)) {
-      describe_part(*model, "model", describe_options->json);
+    if (describe_options->json) {
+      fmt::print("{}", json_text(description_json(id)));
+    } else if (const Part* model = find_model(id)) {
+      describe_part(*model, "model");
     } else if (const Part* effect = find_effect(id)) {
-      describe_part(*effect, "effect", describe_options->json);
+      describe_part(*effect, "effect");
     } else if (const SolverEntry* solver = find_solver(id)) {
-      describe_solver(*solver, describe_options->json);
+      describe_solver(*solver);
     } else if (const SolverEntry* family = find_solver_family(id)) {
-      describe_solver(*family, describe_options->json);
+      describe_solver(*family);
     } else if (const Preset* preset = find_preset(id)) {
-      describe_preset(*preset, describe_options->json);
+      describe_preset(*preset);
     } else if (const DatasetEntry* dataset = find_dataset(id)) {
-      if (describe_options->json) {
-        fmt::print("{}", json_text({{"kind", "dataset"},
-                                    {"id", dataset->id},
-                                    {"title", dataset->title},
-                                    {"reference", dataset->reference},
-                                    {"description", dataset->description},
-                                    {"licence", dataset->licence.empty() ? json(nullptr) : json(dataset->licence)}}));
-      } else {
-        fmt::print("{}\n{}\n{}", wrapped(fmt::format("{} (dataset): {}", dataset->id, dataset->title), 2),
-                   flowing(dataset->description), source_text(dataset->reference));
-        if (!dataset->licence.empty()) fmt::print("Licence: {}\n", dataset->licence);
-        fmt::print("As a folder: hysteron generate {} --out DIR\n", dataset->id);
-      }
+      fmt::print("{}\n{}\n{}", wrapped(fmt::format("{} (dataset): {}", dataset->id, dataset->title), 2),
+                 flowing(dataset->description), source_text(dataset->reference));
+      if (!dataset->licence.empty()) fmt::print("Licence: {}\n", dataset->licence);
+      fmt::print("As a folder: hysteron generate {} --out DIR\n", dataset->id);
     } else {
-      if (find_published_table(id) != nullptr) {
-        throw InputError("'" + id + "' is a published table, which `hysteron reproduce " + id + "` makes again");
-      }
-      std::vector<std::string> known;
-      for (const char* kind : {"models", "effects", "solvers", "datasets"}) {
-        for (const Row& row : rows_of(kind)) {
-          known.push_back(row.id);
-        }
-      }
-      for (const Preset* known_preset : preset_catalogue()) {
-        known.emplace_back(known_preset->id);
-      }
-      throw InputError("nothing is called '" + id + "'" + suggestion(id, known) + ", see `hysteron list models`");
+      static_cast<void>(description_json(id));  // says so, with the nearest name
     }
   });
 }

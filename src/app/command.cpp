@@ -13,11 +13,13 @@
 #include "external/external_solver.hpp"
 #include "external/line_program.hpp"
 #include "fit/parallel.hpp"
+#include "fit/weighting.hpp"
 #include "io/block_means.hpp"
-#include "io/campaign.hpp"
 #include "io/campaign_file.hpp"
 #include "io/file.hpp"
 #include "io/sha256.hpp"
+#include "task/command_text.hpp"
+#include "task/load.hpp"
 
 namespace hysteron::app {
 namespace {
@@ -74,48 +76,23 @@ ReadOptions read_options(const DataOptions& options) {
   return read;
 }
 
-// Recordings whose file is that of an earlier one, by name.
-std::vector<std::pair<std::string, std::string>> copies_in(const Campaign& campaign) {
-  std::map<std::string, std::string> first;
-  std::vector<std::pair<std::string, std::string>> copies;
-  for (const Recording& recording : campaign.recordings) {
-    const auto [known, fresh] = first.emplace(recording.sha256, recording.file);
-    if (!fresh && !recording.sha256.empty()) copies.emplace_back(recording.file, known->second);
-  }
-  return copies;
-}
-
 }  // namespace
 
 void tell(const std::vector<Remark>& remarks, std::vector<std::string>* warnings) {
-  std::vector<std::string> said;
-  for (const Remark& remark : remarks) {
-    if (std::ranges::find(said, remark.key) != said.end()) continue;
-    said.push_back(remark.key);
-    const auto alike = std::ranges::count(remarks, remark.key, &Remark::key) - 1;
-    const std::string more = alike > 0 ? fmt::format(" ({} more recording{} alike)", alike, alike > 1 ? "s" : "") : "";
-    const std::string text = remark.text + more;
-    fmt::print(stderr, "warning: {}: {}\n", printable(remark.file), printable(text));
-    // Result files hold no paths.
-    if (warnings != nullptr) {
-      warnings->push_back(valid_utf8(std::filesystem::path(remark.file).filename().string()) + ": " + text);
-    }
+  for (const Remark& remark : once_each(remarks)) {
+    fmt::print(stderr, "warning: {}: {}\n", printable(remark.file), printable(remark.text));
+    if (warnings != nullptr) warnings->push_back(warning_of(remark));
   }
 }
 
 Campaign load(const DataOptions& options, Required required, std::vector<std::string>* warnings) {
-  ReadOptions read = read_options(options);
-  read.force_required = required == Required::motion_and_force;
-  read.displacement_required = required != Required::nothing;
-  std::vector<Remark> remarks;
-  read.remark = [&](const Remark& remark) { remarks.push_back(remark); };
-  Campaign campaign = load_campaign(options.data, read);
-  for (const auto& [copy, original] : copies_in(campaign)) {
-    remarks.push_back({copy, Remark::Kind::implausible, "copy",
-                       "holds the same bytes as " + original + ", so that neither is held out from the other"});
-  }
-  tell(remarks, warnings);
-  return campaign;
+  Loaded loaded = load_with_remarks(options.data, read_options(options), required);
+  tell(loaded.remarks, warnings);
+  return std::move(loaded.campaign);
+}
+
+void warn_of(const std::vector<std::string>& remarks) {
+  for (const std::string& remark : remarks) fmt::print(stderr, "warning: {}\n", printable(remark));
 }
 
 void add_common_options(CLI::App& command, CommonOptions& options) {
@@ -142,7 +119,7 @@ void add_common_options(CLI::App& command, CommonOptions& options) {
 ObjectiveOptions objective_options(const CommonOptions& options) {
   ObjectiveOptions result;
   result.normalisation = normalisation_of(options.normalisation);
-  result.weighting = options.weighting == "pooled" ? Weighting::pooled : Weighting::per_recording;
+  result.weighting = weighting_of(options.weighting);
   result.tolerance = options.tolerance;
   result.threads = options.threads;
   return result;
@@ -205,11 +182,6 @@ void refuse_standard_output(const std::string& out, const std::string& files) {
   }
 }
 
-std::string json_text(const nlohmann::json& value) {
-  // Names are made UTF-8 where they come in; a finished result is not lost for one that was forgotten.
-  return value.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
-}
-
 nlohmann::json environment(int threads, double seconds) {
   char host[256] = {};
   gethostname(host, sizeof host - 1);
@@ -219,22 +191,7 @@ nlohmann::json environment(int threads, double seconds) {
 }
 
 void remember_command(int count, char** arguments) {
-  typed = "hysteron";
-  // --threads and --out do not change results and would make identical runs differ.
-  for (int k = 1; k < count; ++k) {
-    std::string word = valid_utf8(arguments[k]);
-    if (word == "--threads" || word == "--out") {
-      ++k;
-      continue;
-    }
-    if (word.starts_with("--threads=") || word.starts_with("--out=")) {
-      continue;
-    }
-    if (word.starts_with("/")) {
-      word = std::filesystem::path(word).filename().string();
-    }
-    typed += " " + (word.find(' ') == std::string::npos ? word : "'" + word + "'");
-  }
+  typed = command_text(std::vector<std::string>(arguments + std::min(count, 1), arguments + count));
 }
 
 const std::string& command_line() { return typed; }

@@ -12,6 +12,8 @@
 #include "core/recording.hpp"
 #include "fit/identify.hpp"
 #include "io/channels.hpp"
+#include "task/json_text.hpp"
+#include "task/load.hpp"
 
 namespace hysteron::app {
 
@@ -28,13 +30,14 @@ void add_data_options(CLI::App& command, DataOptions& options);
 void add_reading_options(CLI::App& command, DataOptions& options);
 // For commands that identify; the others take every sample.
 void add_keep_option(CLI::App& command, DataOptions& options);
-// Channels a command does not do without, beside the time.
-enum class Required { motion_and_force, motion, nothing };
 // Says on standard error what readers remark, once for all recordings alike, and puts it into `warnings`.
 void tell(const std::vector<Remark>& remarks, std::vector<std::string>* warnings = nullptr);
 // What the readers remark is said on standard error, once for all recordings alike, and put into `warnings`.
 Campaign load(const DataOptions& options, Required required = Required::motion_and_force,
               std::vector<std::string>* warnings = nullptr);
+
+// "warning: ..." on standard error, a line each.
+void warn_of(const std::vector<std::string>& remarks);
 
 struct CommonOptions {
   std::uint64_t seed = 1;
@@ -68,9 +71,6 @@ void catch_interrupts();
 bool is_standard_output(const std::string& out);
 // Throws InputError for `-` where several files are written.
 void refuse_standard_output(const std::string& out, const std::string& files);
-
-// JSON text of a result file: two-space indent, shortest round-trip numbers, final newline.
-std::string json_text(const nlohmann::json& value);
 
 // Facts that vary between identical runs: host, threads, wall time.
 nlohmann::json environment(int threads, double seconds);

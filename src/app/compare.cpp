@@ -6,9 +6,6 @@
 #include <memory>
 
 #include "app/command.hpp"
-#include "app/finite.hpp"
-#include "app/guesses.hpp"
-#include "app/model_file.hpp"
 #include "app/result.hpp"
 #include "compare/criteria.hpp"
 #include "core/error.hpp"
@@ -18,6 +15,9 @@
 #include "report/csv.hpp"
 #include "report/html.hpp"
 #include "report/terminal.hpp"
+#include "task/finite.hpp"
+#include "task/guesses.hpp"
+#include "task/model_file.hpp"
 
 namespace hysteron::app {
 namespace {
@@ -187,7 +187,7 @@ void run(const Options& options) {
     }
   }
   for (Compared& model : models) {
-    warn_of_guesses(model.stored, model.label, campaign.recordings);
+    warn_of(guesses_of(model.stored, model.label, campaign.recordings));
     std::vector<std::size_t> seen;
     std::vector<std::size_t> unseen;
     for (const std::size_t r : all) {

@@ -5,12 +5,12 @@
 #include <memory>
 
 #include "app/command.hpp"
-#include "app/model_file.hpp"
 #include "app/result.hpp"
 #include "app/values.hpp"
 #include "core/error.hpp"
 #include "export/targets.hpp"
 #include "io/output.hpp"
+#include "task/model_file.hpp"
 
 namespace hysteron::app {
 namespace {

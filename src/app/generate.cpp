@@ -14,19 +14,10 @@
 #include "datasets/support/shipped.hpp"
 #include "io/file.hpp"
 #include "io/output.hpp"
+#include "task/dataset.hpp"
 
 namespace hysteron::app {
 namespace {
-
-std::string csv_of(const Recording& recording) {
-  std::string text = "time [s],displacement [m],velocity [m/s],force [N],";
-  text += recording.drive_kind == DriveKind::voltage ? "voltage [V]\n" : "current [A]\n";
-  for (std::size_t n = 0; n < recording.size(); ++n) {
-    text += fmt::format("{},{},{},{},{}\n", recording.time[n], recording.displacement[n], recording.velocity[n],
-                        recording.force[n], recording.drive[n]);
-  }
-  return text;
-}
 
 // Roles and laws, where the dataset says any; the roles of those written.
 std::string campaign_toml(const Campaign& campaign, const std::string& only) {
@@ -70,7 +61,7 @@ void print_one(const DatasetEntry& entry, const Campaign& campaign, const std::s
   if (chosen.size() != 1) {
     refuse_standard_output("-", fmt::format("{} recordings; --only chooses one", chosen.size()));
   }
-  write_result("-", entry.licence.empty() ? csv_of(*chosen.front())
+  write_result("-", entry.licence.empty() ? csv_of_simulated(*chosen.front())
                                           : read_file(shipped_folder(entry.id) / chosen.front()->file));
 }
 
@@ -121,7 +112,7 @@ void add_generate(CLI::App& program) {
     } else {
       for (const Recording& recording : campaign.recordings) {
         if (recording.file.find(options->only) == std::string::npos) continue;
-        write_file_atomically(std::filesystem::path(options->out) / recording.file, csv_of(recording));
+        write_file_atomically(std::filesystem::path(options->out) / recording.file, csv_of_simulated(recording));
       }
       if (const std::string toml = campaign_toml(campaign, options->only); !toml.empty()) {
         write_file_atomically(std::filesystem::path(options->out) / "campaign.toml", toml);

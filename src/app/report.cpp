@@ -4,14 +4,14 @@
 #include <memory>
 
 #include "app/command.hpp"
-#include "app/diagnosis_text.hpp"
-#include "app/study_output.hpp"
 #include "core/error.hpp"
 #include "io/file.hpp"
 #include "io/output.hpp"
 #include "report/html.hpp"
 #include "report/study.hpp"
 #include "study/gather.hpp"
+#include "task/diagnosis_text.hpp"
+#include "task/study.hpp"
 
 namespace hysteron::app {
 namespace {

@@ -8,12 +8,12 @@
 #include <memory>
 
 #include "app/command.hpp"
-#include "app/guesses.hpp"
-#include "app/model_file.hpp"
 #include "app/result.hpp"
 #include "app/values.hpp"
 #include "core/drive.hpp"
 #include "core/error.hpp"
+#include "task/guesses.hpp"
+#include "task/model_file.hpp"
 
 namespace hysteron::app {
 namespace {
@@ -89,7 +89,7 @@ void run(Options& options) {
   } else {
     stored.frequency_range.reset();  // the user's own choice
   }
-  warn_of_guesses(stored, options.model, {as_motion});
+  warn_of(guesses_of(stored, options.model, {as_motion}));
   Oscillator& oscillator = options.oscillator;
   oscillator.model = stored.model;
   oscillator.parameters = [&](double drive) { return parameters_at(stored.held, stored.terms, drive, frequency); };

@@ -4,13 +4,12 @@
 #include <memory>
 
 #include "app/command.hpp"
-#include "app/finite.hpp"
-#include "app/guesses.hpp"
-#include "app/model_file.hpp"
 #include "app/result.hpp"
 #include "core/error.hpp"
 #include "report/csv.hpp"
 #include "report/terminal.hpp"
+#include "task/finite.hpp"
+#include "task/predict.hpp"
 
 namespace hysteron::app {
 
@@ -38,15 +37,10 @@ void add_score(CLI::App& program) {
     const ObjectiveOptions objective = objective_options(options->common);
     const StoredModel stored = read_model(options->model);
     const Campaign campaign = load(options->data);
-    warn_of_guesses(stored, options->model, campaign.recordings);
-    std::vector<Score> scores;
-    for (const Recording& recording : campaign.recordings) {
-      check_drive(stored, options->model, recording);
-      const std::vector<double> force =
-          predict(stored.model, stored.held, stored.terms, make_target(recording, objective));
-      require_finite(force, recording);
-      scores.push_back(score(force, recording, objective.normalisation));
-    }
+    std::vector<std::string> remarks;
+    const CampaignScore result = score_campaign(stored, options->model, campaign.recordings, objective, remarks);
+    warn_of(remarks);
+    const std::vector<Score>& scores = result.recordings;
     if (!options->out.empty()) {
       std::vector<std::vector<std::string>> cells;
       for (std::size_t k = 0; k < scores.size(); ++k) {
@@ -55,18 +49,8 @@ void add_score(CLI::App& program) {
       }
       write_table(options->out, csv_table({"recording", "nrmse", "rmse [N]", "fit_percent"}, cells));
     }
-    const double total = overall(scores, campaign.recordings, objective.normalisation, objective.weighting);
     if (options->json) {
-      nlohmann::json rows = nlohmann::json::array();
-      for (std::size_t k = 0; k < scores.size(); ++k) {
-        rows.push_back({{"file", campaign.recordings[k].file},
-                        {"nrmse", scores[k].nrmse},
-                        {"rmse_n", scores[k].rmse},
-                        {"fit_percent", scores[k].fit_percent}});
-      }
-      fmt::print("{}", json_text({{"normalisation", word_of(objective.normalisation)},
-                                  {"overall", {{"nrmse", total}}},
-                                  {"recordings", rows}}));
+      fmt::print("{}", json_text(score_json(result, campaign.recordings, objective.normalisation)));
       return;
     }
     std::vector<std::vector<std::string>> rows;
@@ -75,7 +59,7 @@ void add_score(CLI::App& program) {
                       percent_text(scores[k].fit_percent)});
     }
     fmt::print("{}\noverall NRMSE {} ({} weighting, normalised by {})\n",
-               table({"recording", "NRMSE", "RMSE [N]", "fit [%]"}, rows), format_number(total, 4),
+               table({"recording", "NRMSE", "RMSE [N]", "fit [%]"}, rows), format_number(result.overall, 4),
                options->common.weighting, word_of(objective.normalisation));
   });
 }

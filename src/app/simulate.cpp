@@ -6,9 +6,6 @@
 #include <memory>
 
 #include "app/command.hpp"
-#include "app/finite.hpp"
-#include "app/guesses.hpp"
-#include "app/model_file.hpp"
 #include "app/result.hpp"
 #include "app/values.hpp"
 #include "core/error.hpp"
@@ -16,6 +13,8 @@
 #include "fit/start.hpp"
 #include "io/output.hpp"
 #include "presets/preset.hpp"
+#include "task/finite.hpp"
+#include "task/predict.hpp"
 
 namespace hysteron::app {
 namespace {
@@ -180,20 +179,18 @@ void add_simulate(CLI::App& program) {
                        " recordings, expected one");
     }
     Recording recording = campaign.recordings[0];
-    // Of the force only how it begins: in its cycle, or from nothing.
-    recording.start = start_of(recording);
-    recording.force.clear();
     std::vector<double> force;
     if (preset) {
+      // Of the force only how it begins: in its cycle, or from nothing.
+      recording.start = start_of(recording);
+      recording.force.clear();
       force = force_of_preset(*chosen, *options, recording);
+      require_finite(force, recording);
     } else {
-      ObjectiveOptions objective;
-      objective.tolerance = options->tolerance;
-      check_drive(stored, options->words[0], recording);
-      warn_of_guesses(stored, options->words[0], {recording});
-      force = predict(stored.model, stored.held, stored.terms, make_target(recording, objective));
+      std::vector<std::string> remarks;
+      force = simulated_force(stored, options->words[0], recording, options->tolerance, remarks);
+      warn_of(remarks);
     }
-    require_finite(force, recording);
     write_table(options->out, csv_of_prediction(recording.time, force));
   });
 }

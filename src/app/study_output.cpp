@@ -2,20 +2,9 @@
 
 #include <fmt/format.h>
 
-#include "core/error.hpp"
-#include "io/json_reader.hpp"
-#include "io/mat5_writer.hpp"
-#include "io/output.hpp"
-#include "report/study.hpp"
 #include "report/terminal.hpp"
-#include "study/analysis.hpp"
-#include "study/export.hpp"
-#include "study/identifiability.hpp"
-#include "study/stored_plan.hpp"
 
 namespace hysteron::app {
-
-using nlohmann::json;
 
 StudyProgress::StudyProgress(const Plan& plan, bool quiet) : plan_(plan), line_(quiet) {
   line_.show(plan.study.title, 0.0, fmt::format("{} runs", plan.runs.size()));
@@ -33,8 +22,7 @@ void StudyProgress::show(const RunProgress& now) {
 }
 
 RunProgress run_with_progress(const Plan& plan, Store& store, const RunOptions& options, bool quiet) {
-  for (const StudyProblem& problem : plan.problems) store.add_problem(problem.hash, problem.config);
-  store.set_plan(plan_json(plan).dump());
+  begin_study(plan, store);
   StudyProgress line(plan, quiet);
   const RunProgress progress =
       run_plan(plan, store, options, interrupted, [&](const RunProgress& now) { line.show(now); });
@@ -44,91 +32,10 @@ RunProgress run_with_progress(const Plan& plan, Store& store, const RunOptions& 
 
 void add_identifiability(const Plan& plan, Store& store, const std::vector<RunRecord>& records, int threads,
                          bool quiet) {
-  std::vector<std::string> keys;
-  for (const RunRecord* best : best_runs(plan_json(plan), records)) keys.push_back(best == nullptr ? "" : best->key);
-  if (const auto stored = store.identifiability()) {
-    std::vector<std::string> had;
-    const json found = json::parse(*stored);
-    for (const json& row : found.at("problems")) had.push_back(row.is_null() ? "" : row.at("key").get<std::string>());
-    if (had == keys) return;
-  }
   ProgressLine line(quiet);
-  line.show("identifiability of the best fits", 0.0, "");
-  const json found = identifiability(plan, records, threads, interrupted);
+  store_identifiability(plan, store, records, threads, interrupted,
+                        [&] { line.show("identifiability of the best fits", 0.0, ""); });
   line.finish();
-  if (!found.at("problems").is_null()) store.set_identifiability(found.dump());
-}
-
-StudyView view_of(const Store& store, std::vector<RunRecord> records, const std::filesystem::path& folder) {
-  const auto plan = store.plan();
-  if (!plan)
-    throw InputError(folder.string(), 0, "the store holds no plan yet, expected a study begun with `hysteron bench`");
-  return view_of(*plan, store.identifiability(), std::move(records), store.timings(), folder);
-}
-
-StudyView view_of(const std::string& plan, const std::optional<std::string>& identifiability,
-                  std::vector<RunRecord> of_store, const std::vector<RunTiming>& timings,
-                  const std::filesystem::path& folder) {
-  StudyView view;
-  view.plan = parse_plan(plan, folder.string());
-  view.records = std::move(of_store);
-  const std::vector<RunRecord>& records = view.records;
-  view.analysis = analyse(view.plan, records);
-  if (identifiability) {
-    const json found = parse_json(*identifiability, folder.string(), "expected what `hysteron bench` stores");
-    // Of the best runs of now, or not at all.
-    const std::vector<const RunRecord*> best = best_runs(view.plan, records);
-    const json problems = found.is_object() ? found.value("problems", json(nullptr)) : json(nullptr);
-    bool fits = problems.is_array() && problems.size() == best.size();
-    for (std::size_t p = 0; fits && p < best.size(); ++p) {
-      const json& row = problems.at(p);
-      fits = row.is_null() ? best[p] == nullptr
-                           : best[p] != nullptr && row.is_object() && row.value("key", json(nullptr)) == best[p]->key;
-    }
-    if (fits) view.analysis["identifiability"] = problems;
-  }
-  view.times = analyse_times(view.plan, view.analysis, records, timings);
-  return view;
-}
-
-std::map<std::string, std::string> study_report(const std::filesystem::path& folder, const StudyView& view,
-                                                const StudyFiles& wanted) {
-  const std::vector<RunRecord>& records = view.records;
-  const json shown = wanted.times ? view.times : json(nullptr);
-  std::map<std::string, std::string> files;
-  try {
-    files["analysis.json"] = json_text(view.analysis);
-    files["report.html"] = study_html(view.analysis, shown);
-    files["report.md"] = study_markdown(view.analysis, shown);
-    files["tables.tex"] = study_latex(view.analysis, shown);
-    files["runs.csv"] = runs_csv(view.plan, records);
-    files["traces.csv"] = traces_csv(view.plan, records);
-    files["parameters.csv"] = parameters_csv(view.plan, records);
-    files["columns.csv"] = data_dictionary_csv();
-    files["environment.json"] = json_text(view.times);
-    if (wanted.mat) {
-      files["tables.mat"] = mat5_of({{"runs", mat_table(files["runs.csv"])},
-                                     {"traces", mat_table(files["traces.csv"])},
-                                     {"parameters", mat_table(files["parameters.csv"])}});
-    }
-    if (wanted.ioh) {
-      for (auto& [name, content] : ioh_files(view.plan, records)) files["ioh/" + name] = std::move(content);
-    }
-  } catch (const json::exception&) {
-    throw InputError(folder.string(), 0, "what the store says of the fits is not as `hysteron bench` stores it");
-  }
-  return files;
-}
-
-void write_study_report(const std::filesystem::path& from, const std::filesystem::path& folder, const StudyView& view,
-                        const StudyFiles& wanted) {
-  const std::map<std::string, std::string> files = study_report(from, view, wanted);
-  make_output_folder(folder);
-  for (const auto& [name, content] : files) {
-    const std::filesystem::path path = folder / name;
-    make_output_folder(path.parent_path());
-    write_file_atomically(path, content);
-  }
 }
 
 }  // namespace hysteron::app

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <set>
 
 #include "core/error.hpp"
 
@@ -104,13 +103,6 @@ std::map<std::string, double> settings_of(const std::vector<std::string>& words)
     }
   }
   return result;
-}
-
-void refuse_repeats(const std::string& option, const std::vector<std::string>& words) {
-  std::set<std::string> seen;
-  for (const std::string& word : words) {
-    if (!seen.insert(word).second) throw InputError(option + ": '" + word + "' is given twice, expected each once");
-  }
 }
 
 }  // namespace hysteron::app

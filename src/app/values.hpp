@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "task/words.hpp"
+
 namespace hysteron::app {
 
 // A whole number from `low` to `high`, also written 1e5; anything else, and what no integer of the program holds, is
@@ -28,8 +30,5 @@ std::pair<double, double> parse_range(const std::string& option, const std::stri
 
 // Of --set, SETTING=NUMBER each; InputError for a wrong word and a setting that is given twice.
 std::map<std::string, double> settings_of(const std::vector<std::string>& words);
-
-// InputError when a word is there twice.
-void refuse_repeats(const std::string& option, const std::vector<std::string>& words);
 
 }  // namespace hysteron::app

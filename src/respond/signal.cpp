@@ -105,6 +105,18 @@ Interpolation interpolation_of(const std::string& word) {
   throw InputError("--interpolation: '" + word + "' is not known, expected linear, cubic or band-limited");
 }
 
+std::string_view word_of(Interpolation interpolation) {
+  switch (interpolation) {
+    case Interpolation::linear:
+      return "linear";
+    case Interpolation::band_limited:
+      return "band-limited";
+    case Interpolation::cubic:
+      break;
+  }
+  return "cubic";
+}
+
 Signal::Signal(std::vector<double> time, std::vector<double> values, Interpolation interpolation, bool periodic)
     : time_(std::move(time)), values_(std::move(values)), interpolation_(interpolation) {
   const std::size_t n = time_.size();

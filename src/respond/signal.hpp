@@ -9,6 +9,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace hysteron {
@@ -17,6 +18,7 @@ enum class Interpolation { linear, cubic, band_limited };
 
 // Throws InputError for an unknown word.
 Interpolation interpolation_of(const std::string& word);
+std::string_view word_of(Interpolation interpolation);
 
 class Signal {
  public:

@@ -42,6 +42,9 @@ const Allowed& allowed() {
       {"datasets", {"core", "datasets/support", "io", "presets/support", "simulate"}},
       {"src/study",
        {"core", "datasets", "datasets/support", "external", "fit", "io", "presets/support", "report", "simulate"}},
+      {"src/task",
+       {"core", "datasets", "diagnose", "diagnose/search", "fit", "io", "presets", "report", "respond", "simulate",
+        "study"}},
   };
   return table;
 }

@@ -2,13 +2,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/model_file.hpp"
 #include "target.hpp"
+#include "task/model_file.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace hysteron;
-  app::StoredModel stored;
-  if (!fuzz::taken([&] { stored = app::parse_model(fuzz::text_of(data, size), "model.json"); })) return 0;
+  StoredModel stored;
+  if (!fuzz::taken([&] { stored = parse_model(fuzz::text_of(data, size), "model.json"); })) return 0;
   const std::size_t count = stored.model.parameter_names().size();
   for (std::size_t k = 0; k < count; ++k) {
     fuzz::require(std::ranges::any_of(stored.terms, [&](const Term& term) { return term.parameter == k; }),

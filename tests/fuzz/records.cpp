@@ -3,11 +3,11 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "app/study_output.hpp"
 #include "io/sha256.hpp"
 #include "report/study.hpp"
 #include "study/store.hpp"
 #include "target.hpp"
+#include "task/study.hpp"
 
 namespace {
 
@@ -73,8 +73,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   fuzz::taken([&] {
     Store store = Store::memory();
     store.add(entries);
-    const app::StudyView view = app::view_of(named, std::nullopt, store.records(), store.timings(), "study");
-    static_cast<void>(app::study_report("study", view, {.times = true, .ioh = true, .mat = true}));
+    const StudyView view = view_of(named, std::nullopt, store.records(), store.timings(), "study");
+    static_cast<void>(study_report("study", view, {.times = true, .ioh = true, .mat = true}));
     static_cast<void>(study_terminal(view.analysis, view.times));
   });
   return 0;

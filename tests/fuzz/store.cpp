@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "app/study_output.hpp"
 #include "target.hpp"
+#include "task/study.hpp"
 
 namespace {
 
@@ -38,7 +38,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     try {
       const Store store = Store::open(folder(), Store::Mode::read);
       static_cast<void>(store.problems());
-      static_cast<void>(app::view_of(store, store.records(), "study"));
+      static_cast<void>(view_of(store, store.records(), "study"));
     } catch (const InputError& error) {
       throw std::runtime_error(error.what());
     } catch (const WorkError& error) {

@@ -1,4 +1,4 @@
-#include "app/effect_card.hpp"
+#include "task/effect_card.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include "diagnose/search/wording.hpp"
 #include "report/terminal.hpp"
 
-namespace hysteron::app {
+namespace hysteron {
 namespace {
 
 using nlohmann::json;
@@ -96,4 +96,4 @@ std::string effect_card_text(const std::string& effect) {
   return text;
 }
 
-}  // namespace hysteron::app
+}  // namespace hysteron

@@ -1,4 +1,4 @@
-#include "app/diagnosis_text.hpp"
+#include "task/diagnosis_text.hpp"
 
 #include <fmt/format.h>
 
@@ -13,7 +13,7 @@
 #include "io/json_reader.hpp"
 #include "report/terminal.hpp"
 
-namespace hysteron::app {
+namespace hysteron {
 namespace {
 
 using nlohmann::json;
@@ -183,4 +183,4 @@ json parse_diagnosis(std::string_view text, const std::string& path) {
   return record;
 }
 
-}  // namespace hysteron::app
+}  // namespace hysteron

@@ -1,4 +1,4 @@
-#include "app/page.hpp"
+#include "task/page.hpp"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 
 #include "fit/layout.hpp"
 
-namespace hysteron::app {
+namespace hysteron {
 
 using nlohmann::json;
 
@@ -83,6 +83,25 @@ json recording_json(const Recording& recording, const Prediction& prediction, co
   return row;
 }
 
+json model_card_json(const CompositeModel& model) {
+  std::vector<std::string> equations(model.law->equations.begin(), model.law->equations.end());
+  for (const Part* effect : model.effects) {
+    equations.insert(equations.end(), effect->equations.begin(), effect->equations.end());
+  }
+  return {{"id", model.law->id},
+          {"title", model.law->title},
+          {"equations", equations},
+          {"reference", model.law->reference}};
+}
+
+json data_json(const Campaign& campaign) {
+  json data = json::array();
+  for (const Recording& recording : campaign.recordings) {
+    data.push_back({{"file", recording.file}, {"sha256", recording.sha256}});
+  }
+  return data;
+}
+
 json estimate_json(const Estimate& estimate, const Layout& layout) {
   const Parameter& card = layout.cards()[estimate.term.parameter];
   const bool constant = estimate.term.drive_power + estimate.term.frequency_power == 0;
@@ -104,4 +123,4 @@ json estimate_json(const Estimate& estimate, const Layout& layout) {
   return row;
 }
 
-}  // namespace hysteron::app
+}  // namespace hysteron

@@ -1,10 +1,10 @@
-#include "app/track.hpp"
+#include "task/track.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-namespace hysteron::app {
+namespace hysteron {
 
 using nlohmann::json;
 
@@ -70,4 +70,4 @@ json track_json(const RunResult& run, const Layout& layout, const std::vector<co
   return result;
 }
 
-}  // namespace hysteron::app
+}  // namespace hysteron

@@ -1,10 +1,10 @@
-#include "app/stages.hpp"
+#include "task/stages.hpp"
 
 #include <fmt/format.h>
 
 #include "report/terminal.hpp"
 
-namespace hysteron::app {
+namespace hysteron {
 
 using nlohmann::json;
 
@@ -127,4 +127,4 @@ std::string stages_text(const TwoStage& two, const Identification& joint) {
   return text + fmt::format("{}\n", table({"frozen", "law", "scatter [% of box]", "NRMSE then"}, rows));
 }
 
-}  // namespace hysteron::app
+}  // namespace hysteron

@@ -1,13 +1,12 @@
-#include "app/guesses.hpp"
+#include "task/guesses.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "core/printable.hpp"
 #include "fit/layout.hpp"
 
-namespace hysteron::app {
+namespace hysteron {
 namespace {
 
 constexpr double far_beyond = 0.1;  // of what laws were fitted over
@@ -35,18 +34,21 @@ struct Farthest {
     by = out;
   }
 
-  void tell(const std::pair<double, double>& range, const std::string& path, const char* what, const char* unit) const {
+  void tell(const std::pair<double, double>& range, const std::string& path, const char* what, const char* unit,
+            std::vector<std::string>& remarks) const {
     if (count == 0) return;
-    fmt::print(stderr,
-               "warning: {}: a {} of {:.3g} {}, and the laws of {} were fitted from {:.3g} to {:.3g} {}: what they say "
-               "beyond is a guess{}\n",
-               printable(file), what, value, unit, printable(path), range.first, range.second, unit, alike(count));
+    remarks.push_back(
+        fmt::format("{}: a {} of {:.3g} {}, and the laws of {} were fitted from {:.3g} to {:.3g} {}: what they say "
+                    "beyond is a guess{}",
+                    file, what, value, unit, path, range.first, range.second, unit, alike(count)));
   }
 };
 
 }  // namespace
 
-void warn_of_guesses(const StoredModel& stored, const std::string& path, const std::vector<Recording>& recordings) {
+std::vector<std::string> guesses_of(const StoredModel& stored, const std::string& path,
+                                    const std::vector<Recording>& recordings) {
+  std::vector<std::string> remarks;
   const bool voltage = stored.drive == DriveKind::voltage;
   const char* const drive_word = voltage ? "voltage" : "current";
   std::string without;
@@ -66,11 +68,12 @@ void warn_of_guesses(const StoredModel& stored, const std::string& path, const s
     }
   }
   if (count_without > 0) {
-    fmt::print(stderr, "warning: {}: no {} column, and parameters of {} follow the {}: taken as zero{}\n",
-               printable(without), drive_word, printable(path), drive_word, alike(count_without));
+    remarks.push_back(fmt::format("{}: no {} column, and parameters of {} follow the {}: taken as zero{}", without,
+                                  drive_word, path, drive_word, alike(count_without)));
   }
-  if (stored.drive_range) drive.tell(*stored.drive_range, path, drive_word, voltage ? "V" : "A");
-  if (stored.frequency_range) frequency.tell(*stored.frequency_range, path, "frequency", "Hz");
+  if (stored.drive_range) drive.tell(*stored.drive_range, path, drive_word, voltage ? "V" : "A", remarks);
+  if (stored.frequency_range) frequency.tell(*stored.frequency_range, path, "frequency", "Hz", remarks);
+  return remarks;
 }
 
-}  // namespace hysteron::app
+}  // namespace hysteron

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace hysteron::app {
+namespace hysteron {
 
 // Verdict, summary, errors, names, places, what could not be seen, notes. `record` is a diagnosis.json of schema 1 or
 // 2; what schema 1 does not have is left out. Throws InputError, opened by `path`, where a field is missing or of
@@ -17,4 +17,4 @@ nlohmann::json read_diagnosis(const std::string& path);
 // The same of the text of a file; `path` opens the messages.
 nlohmann::json parse_diagnosis(std::string_view text, const std::string& path);
 
-}  // namespace hysteron::app
+}  // namespace hysteron

@@ -7,7 +7,7 @@
 
 #include "fit/identify.hpp"
 
-namespace hysteron::app {
+namespace hysteron {
 
 struct Prediction {
   std::vector<double> force;  // N
@@ -19,6 +19,12 @@ struct Prediction {
 nlohmann::json recording_json(const Recording& recording, const Prediction& prediction, const std::string& role,
                               std::size_t recordings, const std::vector<double>& baseline = {});
 
+// Id, title, equations and source of a model with its effects.
+nlohmann::json model_card_json(const CompositeModel& model);
+
+// Name and sha256 of every recording.
+nlohmann::json data_json(const Campaign& campaign);
+
 nlohmann::json estimate_json(const Estimate& estimate, const Layout& layout);
 
-}  // namespace hysteron::app
+}  // namespace hysteron

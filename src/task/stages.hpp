@@ -6,7 +6,7 @@
 
 #include "fit/two_stage.hpp"
 
-namespace hysteron::app {
+namespace hysteron {
 
 // The joint fit is the chosen solver's, on the same recordings as the two stages, before any refit on all.
 nlohmann::json stages_json(const TwoStage& two, const Identification& joint, const Campaign& campaign);
@@ -14,4 +14,4 @@ nlohmann::json stages_json(const TwoStage& two, const Identification& joint, con
 // The tables of the terminal.
 std::string stages_text(const TwoStage& two, const Identification& joint);
 
-}  // namespace hysteron::app
+}  // namespace hysteron

@@ -1,4 +1,4 @@
-#include "app/finite.hpp"
+#include "task/finite.hpp"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 
 #include "core/error.hpp"
 
-namespace hysteron::app {
+namespace hysteron {
 namespace {
 
 // No force; its square is still a number.
@@ -32,4 +32,4 @@ void require_finite(const std::vector<double>& force, const Recording& recording
   }
 }
 
-}  // namespace hysteron::app
+}  // namespace hysteron

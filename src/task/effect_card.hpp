@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-namespace hysteron::app {
+namespace hysteron {
 
 // {"family": {"id", "title"}, "shows", "acts", "needs": [..], "related": [{"id", "how"}, ..], "experiment"}; null where
 // the card of an effect does not say it.
@@ -13,4 +13,4 @@ nlohmann::json effect_card_json(const std::string& effect);
 // The same in lines that begin with what they say; empty for an effect of which nothing is known.
 std::string effect_card_text(const std::string& effect);
 
-}  // namespace hysteron::app
+}  // namespace hysteron

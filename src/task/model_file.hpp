@@ -11,7 +11,7 @@
 
 #include "fit/identify.hpp"
 
-namespace hysteron::app {
+namespace hysteron {
 
 struct StoredModel {
   CompositeModel model;
@@ -25,7 +25,9 @@ struct StoredModel {
   std::optional<std::pair<double, double>> frequency_range;  // Hz
 };
 
-nlohmann::json model_json(const Identification& result, const Campaign& campaign, const IdentifyOptions& options);
+// `command` is what made it, for its provenance.
+nlohmann::json model_json(const Identification& result, const Campaign& campaign, const IdentifyOptions& options,
+                          const std::string& command);
 
 // Throws InputError for a file that is missing, not JSON, of another schema, or inconsistent with its model: a
 // parameter that is missing, given twice or in another unit than the model's, a law with terms left out.
@@ -36,4 +38,4 @@ StoredModel parse_model(std::string_view text, const std::string& path);
 // Throws InputError where laws in a current would be given a voltage or the other way round. `path` is the model's.
 void check_drive(const StoredModel& stored, const std::string& path, const Recording& recording);
 
-}  // namespace hysteron::app
+}  // namespace hysteron

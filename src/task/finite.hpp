@@ -7,7 +7,7 @@
 
 #include "core/recording.hpp"
 
-namespace hysteron::app {
+namespace hysteron {
 
 // The time from which on the force of a recording is no longer finite.
 [[nodiscard]] std::optional<double> diverges_at(const std::vector<double>& force, const Recording& recording);
@@ -18,4 +18,4 @@ void require_finite(const std::vector<double>& force, const Recording& recording
 // "98.7", or "-" where there is none: the fit in percent of a force that does not change.
 [[nodiscard]] std::string percent_text(double percent);
 
-}  // namespace hysteron::app
+}  // namespace hysteron

@@ -1,4 +1,4 @@
-#include "app/model_file.hpp"
+#include "task/model_file.hpp"
 
 #include <fmt/format.h>
 
@@ -6,20 +6,19 @@
 #include <cmath>
 #include <optional>
 
-#include "app/command.hpp"
-#include "app/values.hpp"
 #include "core/error.hpp"
-#include "core/printable.hpp"
 #include "core/suggest.hpp"
 #include "core/unit_text.hpp"
 #include "io/file.hpp"
 #include "io/json_reader.hpp"
+#include "task/words.hpp"
 
-namespace hysteron::app {
+namespace hysteron {
 
 using nlohmann::json;
 
-json model_json(const Identification& result, const Campaign& campaign, const IdentifyOptions& options) {
+json model_json(const Identification& result, const Campaign& campaign, const IdentifyOptions& options,
+                const std::string& command) {
   json parameters = json::array();
   for (const Estimate& estimate : result.estimates) {
     parameters.push_back({{"name", estimate.name},
@@ -76,7 +75,7 @@ json model_json(const Identification& result, const Campaign& campaign, const Id
             {"heldout", result.nrmse_heldout ? json(*result.nrmse_heldout) : json(nullptr)}}},
           {"provenance",
            {{"program", "hysteron " HYSTERON_VERSION},
-            {"command", command_line()},
+            {"command", command},
             {"seed", options.seed},
             {"solver", result.solvers[result.chosen].run.solver}}}};
 }
@@ -227,4 +226,4 @@ void check_drive(const StoredModel& stored, const std::string& path, const Recor
                        ": parameters of " + path + " follow the " + word(stored.drive));
 }
 
-}  // namespace hysteron::app
+}  // namespace hysteron

@@ -1,0 +1,168 @@
+#include "task/diagnosis.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "diagnose/record.hpp"
+#include "fit/usable.hpp"
+#include "fit/weighting.hpp"
+#include "report/terminal.hpp"
+#include "task/model_file.hpp"
+#include "task/page.hpp"
+#include "task/words.hpp"
+
+namespace hysteron {
+namespace {
+
+using nlohmann::json;
+
+Identification identification_of(const Diagnosis& diagnosis, const Campaign& campaign,
+                                 const ObjectiveOptions& objective, bool roles) {
+  const Fit& fit = diagnosis.final;
+  Identification result{*fit.layout, fit.terms, {}, {}, 0, fit.cost, fit.heldout, {}, {}, roles, {}};
+  std::vector<Recording> fitted;
+  for (std::size_t k = 0; k < campaign.recordings.size(); ++k) {
+    const bool judged = roles && campaign.roles[k] == Role::validate;
+    if (judged) {
+      result.heldout.push_back(k);
+    } else {
+      result.fitted.push_back(k);
+      fitted.push_back(campaign.recordings[k]);
+    }
+  }
+  SolverOutcome outcome;
+  outcome.run.solver = "multistart-lm";
+  outcome.run.cost = fit.cost;
+  result.solvers.push_back(outcome);
+  estimate(result, Objective(*fit.layout, fitted, objective), fit.point, campaign.recordings.front().drive_kind);
+  return result;
+}
+
+// What each name can be looked at by: the force in the stretch where its contrast acts, measured, of the base model and
+// of the augmented one, over what the view says; by id.
+json curves_json(const Diagnosis& diagnosis, const Campaign& campaign, const ObjectiveOptions& objective) {
+  constexpr std::size_t most_points = 500;
+  const auto predicted = [](const Fit& fit, const Target& target) {
+    return predict(fit.layout->model(), fit.layout->held(), fit.terms, target);
+  };
+  json curves = json::object();
+  const std::vector<Named> names = listed(diagnosis.verdict);
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    if (!diagnosis.views[k]) {
+      continue;
+    }
+    const ContrastView& view = *diagnosis.views[k];
+    const std::string& file = diagnosis.bench.split().fit[view.recording].file;
+    const Recording& recording = *std::ranges::find(campaign.recordings, file, &Recording::file);
+    const Target target = make_target(recording, objective);
+    const std::vector<double> base = predicted(diagnosis.search.base, target);
+    const std::vector<double> augmented =
+        predicted(names[k].in_place_of ? fit_of(diagnosis, names[k]) : diagnosis.final, target);
+    const auto first = std::ranges::lower_bound(recording.time, view.from) - recording.time.begin();
+    const auto end = std::ranges::upper_bound(recording.time, view.to) - recording.time.begin();
+    const std::ptrdiff_t stride = (end - first) / static_cast<std::ptrdiff_t>(most_points) + 1;
+    json row = {{"recording", file},        {"over", word_of(view.over)},  {"x", json::array()},
+                {"force_n", json::array()}, {"baseline_n", json::array()}, {"predicted_n", json::array()}};
+    for (auto at = first; at < end; at += stride) {
+      const auto n = static_cast<std::size_t>(at);
+      row["x"].push_back(view.over == ForceOver::time           ? recording.time[n]
+                         : view.over == ForceOver::displacement ? 1e3 * recording.displacement[n]
+                                                                : 1e3 * recording.velocity[n]);
+      row["force_n"].push_back(recording.force[n]);
+      row["baseline_n"].push_back(base[n]);
+      row["predicted_n"].push_back(augmented[n]);
+    }
+    curves[names[k].id] = std::move(row);
+  }
+  return curves;
+}
+
+}  // namespace
+
+void check_diagnosis(const Campaign& campaign, DiagnoseOptions& options) {
+  require_usable(campaign.recordings);
+  if (options.model.empty()) options.model = campaign.model.empty() ? "bouc-wen" : campaign.model;
+  if (options.layout.by_current.empty()) options.layout.by_current = campaign.by_current;
+  if (options.layout.by_frequency.empty()) options.layout.by_frequency = campaign.by_frequency;
+  refuse_repeats("--laws", options.laws);
+  for (const std::string& law : options.laws) {
+    make_model(law, {});
+  }
+  make_model(options.model, {});
+  refuse_repeats("--effects", options.candidates);
+  for (const std::string& effect : options.candidates) {
+    make_model(options.model, {effect});
+  }
+  for (const Recording& recording : campaign.recordings) {
+    normaliser(recording, options.objective.normalisation);
+  }
+}
+
+DiagnosisRecords records_of(const Diagnosis& diagnosis, const Campaign& campaign, const DiagnoseOptions& options,
+                            const std::vector<std::string>& remarks, const std::string& command) {
+  const bool roles = std::ranges::any_of(campaign.roles, [](Role role) { return role == Role::validate; });
+  const Identification result = identification_of(diagnosis, campaign, options.objective, roles);
+  IdentifyOptions stored;
+  stored.seed = options.seed;
+  stored.objective = options.objective;
+  stored.layout = options.layout;
+  for (const ParameterLaw& law : result.layout.laws()) {
+    if (law.drive_nodes.size() > 1) {
+      stored.layout.by_current[result.layout.names()[law.parameter]] = static_cast<int>(law.drive_nodes.size()) - 1;
+    }
+  }
+  DiagnosisRecords records{diagnosis_json(diagnosis), model_json(result, campaign, stored, command), {}};
+  records.diagnosis_file["warnings"] = remarks;
+
+  json page_recordings = json::array();
+  for (const Recording& recording : campaign.recordings) {
+    const Target target = make_target(recording, options.objective);
+    Prediction prediction;
+    prediction.force = predict(result.layout.model(), result.layout.held(), result.terms, target);
+    prediction.score = score(prediction.force, recording, options.objective.normalisation);
+    const Fit& base = diagnosis.search.base;
+    const bool judged = std::ranges::any_of(diagnosis.bench.split().judge, [&](const Judged& one) {
+      return one.recording.file == recording.file && one.from == 0;
+    });
+    page_recordings.push_back(recording_json(recording, prediction, judged ? "held out in the check" : "fit",
+                                             campaign.recordings.size(),
+                                             predict(base.layout->model(), base.layout->held(), base.terms, target)));
+  }
+  json page = {{"title", "Diagnosis of " + std::string(diagnosis.search.base.layout->model().law->title)},
+               {"subtitle", fmt::format("{} recordings", campaign.recordings.size())},
+               {"version", HYSTERON_VERSION},
+               {"command", command},
+               {"seed", options.seed},
+               {"normalisation", word_of(options.objective.normalisation)},
+               {"weighting", word_of(options.objective.weighting)},
+               {"recordings", page_recordings},
+               {"data", data_json(campaign)},
+               {"diagnosis", records.diagnosis_file},
+               {"curves", curves_json(diagnosis, campaign, options.objective)},
+               {"notes", diagnosis.notes},
+               {"warnings", remarks},
+               {"solvers", json::array()},
+               {"provenance", records.model_file["provenance"]}};
+  page["model"] = model_card_json(result.layout.model());
+  page["parameters"] = json::array();
+  for (const Estimate& row : result.estimates) {
+    page["parameters"].push_back(estimate_json(row, result.layout));
+  }
+  const Search& search = diagnosis.search;
+  page["summary"] = json::array({{{"label", "Held-out NRMSE, base model"},
+                                  {"value", format_number(search.base.heldout, 3)},
+                                  {"note", search.base.what.model}},
+                                 {{"label", "Held-out NRMSE, augmented"},
+                                  {"value", format_number(search.augmented.heldout, 3)},
+                                  {"note", diagnosis.bench.split().how}},
+                                 {{"label", "Noise floor, held out"},
+                                  {"value", format_number(diagnosis.noise_floor_heldout, 3)},
+                                  {"note", "fitted " + format_number(diagnosis.noise_floor, 3) + ", by " +
+                                               std::string(word_of(diagnosis.noise_floor_method))}}});
+  records.page = std::move(page);
+  return records;
+}
+
+}  // namespace hysteron

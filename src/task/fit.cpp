@@ -1,0 +1,297 @@
+#include "task/fit.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "fit/predict.hpp"
+#include "fit/usable.hpp"
+#include "fit/weighting.hpp"
+#include "report/terminal.hpp"
+#include "task/finite.hpp"
+#include "task/model_file.hpp"
+#include "task/page.hpp"
+#include "task/stages.hpp"
+#include "task/track.hpp"
+#include "task/words.hpp"
+
+namespace hysteron {
+namespace {
+
+using nlohmann::json;
+
+json trace_json(const RunResult& run) {
+  json trace = json::array();
+  for (const TracePoint& point : run.trace) {
+    if (point.best < diverged_cost) {
+      trace.push_back({point.evaluations, point.best});
+    }
+  }
+  return trace;
+}
+
+json solver_json(const Identification& result, const Campaign& campaign, std::size_t k) {
+  const SolverOutcome& outcome = result.solvers[k];
+  std::vector<const Recording*> followed;
+  for (const std::size_t index : result.compared_on(campaign.recordings.size())) {
+    followed.push_back(&campaign.recordings[index]);
+  }
+  return {{"id", outcome.run.solver},
+          {"title", find_solver(outcome.run.solver)->title},
+          {"cost", outcome.run.cost},
+          {"nrmse_heldout", outcome.nrmse_heldout ? json(*outcome.nrmse_heldout) : json(nullptr)},
+          {"evaluations", outcome.run.evaluations},
+          {"budget", outcome.run.budget},
+          {"diverged", outcome.run.diverged},
+          {"stopped", outcome.run.stopped},
+          {"chosen", k == result.chosen},
+          {"trace", trace_json(outcome.run)},
+          {"track", track_json(outcome.run, result.layout, followed)}};
+}
+
+json final_json(const Identification& result) {
+  if (!result.final_run) {
+    return nullptr;
+  }
+  const RunResult& run = *result.final_run;
+  return {{"stage", result.final_stage},    {"solver", run.solver}, {"cost", run.cost},
+          {"evaluations", run.evaluations}, {"budget", run.budget}, {"stopped", run.stopped}};
+}
+
+json response_json(const ResponseFit& fit, const Rig& rig) {
+  const auto finite = [](double value) { return std::isfinite(value) && value < diverged_cost ? json(value) : json(); };
+  json rows = json::array();
+  for (const ResponseScore& score : fit.scores) {
+    rows.push_back({{"file", score.file}, {"nrmse", finite(score.nrmse)}, {"rmse_m", finite(score.rmse)}});
+  }
+  return {{"mass_kg", rig.mass},
+          {"stiffness_n_per_m", rig.stiffness},
+          {"damping_n_s_per_m", rig.damping},
+          {"interpolation", word_of(rig.interpolation)},
+          {"nrmse_of_equation_of_motion", finite(fit.before)},
+          {"nrmse", finite(fit.cost)},
+          {"evaluations", fit.run.evaluations},
+          {"stopped", fit.run.stopped},
+          {"recordings", rows}};
+}
+
+// Words of the records.
+struct Names {
+  std::string heldout;  // of the recordings held out, for a sentence
+  std::string normalisation;
+};
+
+Names names_of(const Identification& result, const Campaign& campaign, const IdentifyOptions& options) {
+  constexpr std::size_t most_named = 20;
+  Names names{{}, std::string(word_of(options.objective.normalisation))};
+  for (std::size_t k = 0; k < std::min(most_named, result.heldout.size()); ++k) {
+    names.heldout += (k > 0 ? ", " : "") + campaign.recordings[result.heldout[k]].file;
+  }
+  if (result.heldout.size() > most_named) {
+    names.heldout += fmt::format(" and {} more", result.heldout.size() - most_named);
+  }
+  return names;
+}
+
+json summary_json(const FitResult& fit, const Names& names) {
+  const Identification& result = fit.identification;
+  json summary = json::array();
+  if (fit.response) {
+    summary.push_back({{"label", "NRMSE, displacement of the mass"},
+                       {"value", format_number(fit.response->cost, 3)},
+                       {"note",
+                        "simulated motion; forces on this page are of the equation of motion, with the "
+                        "noise of its acceleration"}});
+  }
+  summary.push_back({{"label", fit.response ? "NRMSE, force of the equation of motion" : "NRMSE, fitted recordings"},
+                     {"value", format_number(result.cost, 3)},
+                     {"note", "root mean square over recordings, normalised by " + names.normalisation}});
+  if (result.nrmse_heldout) {
+    summary.push_back({{"label", "NRMSE, held-out recordings"},
+                       {"value", format_number(*result.nrmse_heldout, 3)},
+                       {"note", "fitted without " + names.heldout}});
+  }
+  const RunResult& chosen = result.solvers[result.chosen].run;
+  summary.push_back(
+      {{"label", "Evaluations"},
+       {"value", std::to_string(chosen.evaluations)},
+       {"note", chosen.solver + ": " + chosen.stopped +
+                    (result.final_run ? fmt::format("; and {} in the {} by {}", result.final_run->evaluations,
+                                                    result.final_stage, result.final_run->solver)
+                                      : "")}});
+  return summary;
+}
+
+json page_json(const FitResult& fit, const FitData& data, const FitRequest& request, const std::string& command,
+               const Names& names, json recordings) {
+  const Identification& result = fit.identification;
+  const CompositeModel& model = result.layout.model();
+  json page = fit.fit_file;
+  page["title"] = "Identification of " + std::string(model.law->title);
+  page["subtitle"] =
+      fmt::format("{} recordings, {} free parameters", data.campaign.recordings.size(), result.layout.dimension());
+  page["version"] = HYSTERON_VERSION;
+  page["command"] = command;
+  page["seed"] = request.identify.seed;
+  page["model"] = model_card_json(model);
+  page["summary"] = summary_json(fit, names);
+  page["recordings"] = std::move(recordings);
+  page["data"] = data_json(data.campaign);
+  page["notes"] = {
+      "Standard errors come from the curvature at the optimum with the effective sample size of the "
+      "correlated residual; they do not cover what the model leaves out.",
+      "Fit [%] = 100 (1 - RMSE / standard deviation of the measured force).",
+      "A derivative evaluation is charged as 1 + number of free parameters evaluations."};
+  if (std::ranges::any_of(result.solvers, [](const SolverOutcome& outcome) { return !outcome.run.track.empty(); })) {
+    page["notes"].push_back(
+        "Bands of parameters against time are the filter's own: they hold as far as the model and its noise level do.");
+  }
+  page["diagnosis"] = nullptr;
+  return page;
+}
+
+json fit_json(const FitResult& fit, const FitData& data, const FitRequest& request, const Names& names) {
+  const Identification& result = fit.identification;
+  const Campaign& campaign = data.campaign;
+  json heldout_files = json::array();
+  for (const std::size_t k : result.heldout) {
+    heldout_files.push_back(campaign.recordings[k].file);
+  }
+  json rows = json::array();
+  for (std::size_t k = 0; k < fit.scores.size(); ++k) {
+    rows.push_back({{"file", campaign.recordings[k].file},
+                    {"role", fit.held_out[k] && result.roles_given ? "validate" : "fit"},
+                    {"held_out_in_check", static_cast<bool>(fit.held_out[k])},
+                    {"nrmse", fit.scores[k].nrmse},
+                    {"rmse_n", fit.scores[k].rmse},
+                    {"fit_percent", fit.scores[k].fit_percent}});
+  }
+  json solvers = json::array();
+  for (std::size_t k = 0; k < result.solvers.size(); ++k) {
+    solvers.push_back(solver_json(result, campaign, k));
+  }
+  json estimates = json::array();
+  for (const Estimate& estimate : result.estimates) {
+    estimates.push_back(estimate_json(estimate, result.layout));
+  }
+  return {{"schema", "hysteron.fit/1"},
+          {"model", fit.model_file["model"]},
+          {"effects", fit.model_file["effects"]},
+          {"normalisation", names.normalisation},
+          {"weighting", word_of(request.identify.objective.weighting)},
+          {"nrmse", fit.model_file["nrmse"]},
+          {"held_out", heldout_files},
+          {"held_out_by", result.roles_given ? "campaign.toml" : "the program; final fit uses all recordings"},
+          {"solvers", solvers},
+          {"final", final_json(result)},
+          {"parameters", estimates},
+          {"recordings", rows},
+          {"stages", fit.two_stages ? stages_json(*fit.two_stages, result, campaign) : json(nullptr)},
+          {"response", fit.response ? response_json(*fit.response, *request.rig) : json(nullptr)},
+          {"warnings", fit.warnings},
+          {"provenance", fit.model_file["provenance"]}};
+}
+
+}  // namespace
+
+FitData fit_data(Campaign campaign, FitRequest& request) {
+  require_usable(campaign.recordings, request.rig ? ForceOf::excitation : ForceOf::damper);
+  FitData data{std::move(campaign), {}, {}};
+  if (request.rig) {
+    data.responses = std::move(data.campaign.recordings);
+    data.campaign.recordings = damper_recordings(data.responses, *request.rig);
+  }
+  data.model = request.model.empty() ? data.campaign.model : request.model;
+  if (data.model.empty()) {
+    throw InputError("no model: expected --model NAME or a model in campaign.toml, see `hysteron list models`");
+  }
+  IdentifyOptions& identify_with = request.identify;
+  refuse_repeats("--solver", identify_with.solvers);
+  refuse_repeats("--effects", identify_with.effects);
+  LayoutOptions& layout = identify_with.layout;
+  if (layout.by_current.empty()) layout.by_current = data.campaign.by_current;
+  if (layout.by_frequency.empty()) layout.by_frequency = data.campaign.by_frequency;
+  make_model(data.model, identify_with.effects);
+  normaliser(data.campaign.recordings.front(), identify_with.objective.normalisation);
+  if (request.two_stages && layout.by_current.empty() && layout.by_frequency.empty()) {
+    throw InputError("--stages two: no parameter has a law, expected --by-current or --by-frequency");
+  }
+  if (request.two_stages && request.rig) {
+    throw InputError("--stages two: values of conditions are not fitted to a response, expected one stage");
+  }
+  return data;
+}
+
+FitResult fit_campaign(const FitData& data, const FitRequest& request, const std::vector<std::string>& remarks,
+                       const std::string& command, const FitProgress& progress) {
+  const Campaign& campaign = data.campaign;
+  const IdentifyOptions& identify_with = request.identify;
+  const ObjectiveOptions& objective = identify_with.objective;
+  const auto interrupted = [&] { return objective.stopped && objective.stopped(); };
+  const Progress show = [&](const std::string& stage, const RunResult& run) { return progress(stage, {}, run); };
+  FitResult fit{identify(campaign, data.model, identify_with, show)};
+  Identification& result = fit.identification;
+  if (request.rig && !interrupted()) {
+    fit.response = refine(result, data.responses, *request.rig, identify_with, [&](const RunResult& run) {
+      return progress("lm: motion of the mass", "the displacement", run);
+    });
+    result.cost = predicted_nrmse(result.layout, result.terms, refer_to(campaign.recordings, result.fitted), objective);
+    if (result.roles_given && !result.heldout.empty()) {
+      result.nrmse_heldout =
+          predicted_nrmse(result.layout, result.terms, refer_to(campaign.recordings, result.heldout), objective);
+    }
+  }
+  // An error that is not finite is none; the recordings it comes from are named below.
+  const auto drop_if_not_finite = [](std::optional<double>& error) {
+    if (error && !std::isfinite(*error)) error.reset();
+  };
+  drop_if_not_finite(result.nrmse_heldout);
+  for (SolverOutcome& outcome : result.solvers) drop_if_not_finite(outcome.nrmse_heldout);
+  if (request.two_stages && !interrupted()) {
+    try {
+      fit.two_stages =
+          fit_two_stage(campaign, result.layout, result.compared_on(campaign.recordings.size()), result.heldout,
+                        *find_solver(result.solvers[result.chosen].run.solver), identify_with, show);
+    } catch (const Stopped&) {
+      fit.two_stages.reset();
+    }
+  }
+
+  fit.held_out.assign(campaign.recordings.size(), false);
+  for (const std::size_t k : result.heldout) fit.held_out[k] = true;
+  // One prediction at a time: it is as long as its recording.
+  json page_recordings = json::array();
+  for (std::size_t k = 0; k < campaign.recordings.size(); ++k) {
+    const Recording& recording = campaign.recordings[k];
+    const Target target = make_target(recording, objective);
+    Prediction prediction;
+    prediction.force = predict(result.layout.model(), result.layout.held(), result.terms, target);
+    prediction.score = score(prediction.force, recording, objective.normalisation);
+    if (const auto time = diverges_at(prediction.force, recording)) {
+      fit.diverged += fmt::format("{}{} from {:g} s on", fit.diverged.empty() ? "" : ", ", recording.file, *time);
+    }
+    const std::string shown_role = !fit.held_out[k] ? "fit" : result.roles_given ? "validate" : "checked";
+    page_recordings.push_back(recording_json(recording, prediction, shown_role, campaign.recordings.size()));
+    fit.scores.push_back(prediction.score);
+  }
+
+  fit.warnings = remarks;
+  fit.warnings.insert(fit.warnings.end(), result.warnings.begin(), result.warnings.end());
+  fit.interrupted = interrupted();
+  if (fit.interrupted) {
+    fit.warnings.emplace_back("interrupted: the solvers did not use their whole budget");
+  }
+  if (!fit.diverged.empty()) {
+    fit.diverged = "the simulation of the fitted model does not stay finite: " + fit.diverged;
+    fit.warnings.push_back(fit.diverged);
+  }
+  const Names names = names_of(result, campaign, identify_with);
+  fit.model_file = model_json(result, campaign, identify_with, command);
+  fit.fit_file = fit_json(fit, data, request, names);
+  fit.page = page_json(fit, data, request, command, names, std::move(page_recordings));
+  return fit;
+}
+
+}  // namespace hysteron
