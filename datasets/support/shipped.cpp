@@ -22,6 +22,17 @@ const DatasetEntry* find_dataset(std::string_view id) {
   return found == catalogue.end() ? nullptr : *found;
 }
 
+namespace {
+
+std::vector<fs::path>& further_places() {
+  static std::vector<fs::path> places;
+  return places;
+}
+
+}  // namespace
+
+void look_beside(const fs::path& folder) { further_places().push_back(folder); }
+
 fs::path shipped_folder(std::string_view id) {
   const fs::path name(id);
   std::vector<fs::path> places;
@@ -31,7 +42,9 @@ fs::path shipped_folder(std::string_view id) {
     std::error_code unknown;
     const fs::path program = fs::read_symlink("/proc/self/exe", unknown).parent_path();
     const fs::path share = fs::path("share") / "hysteron" / "datasets" / name;
-    places = {program / share, program.parent_path() / share};
+    for (const fs::path& beside : further_places()) places.push_back(beside / share);
+    places.push_back(program / share);
+    places.push_back(program.parent_path() / share);
   }
   std::string looked;
   for (const fs::path& place : places) {

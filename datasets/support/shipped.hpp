@@ -12,6 +12,10 @@ namespace hysteron {
 // In the format of sha256sum, one line a recording.
 inline constexpr std::string_view shipped_checksums = "SHA256SUMS";
 
+// A folder beside which share/hysteron/datasets is looked for too: a module of another program knows where it stands.
+// Not while datasets are being read.
+void look_beside(const std::filesystem::path& folder);
+
 // share/hysteron/datasets/ID beside the program or beside its bin folder, or ID in the folder the environment variable
 // HYSTERON_DATASETS names. Throws InputError that says where it looked.
 [[nodiscard]] std::filesystem::path shipped_folder(std::string_view id);

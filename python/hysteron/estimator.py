@@ -1,0 +1,121 @@
+"""The estimator interface of scikit-learn."""
+
+import numpy
+from sklearn.base import BaseEstimator, RegressorMixin
+from sklearn.utils.validation import check_is_fitted
+
+from . import recordings as _recordings
+from ._hysteron import InputError
+from .model import fit
+
+# A prediction follows from the motion before it, not from its row alone.
+_HISTORY = "the force depends on the motion before a sample: rows are one recording in time order"
+_SHORT = "a model is identified from 16 samples or more, and the check has 10"
+_XFAIL_CHECKS = {
+    "check_methods_subset_invariance": _HISTORY,
+    "check_methods_sample_order_invariance": _HISTORY,
+    "check_estimators_nan_inf": _SHORT,
+    "check_fit2d_1feature": _SHORT,
+    "check_regressors_no_decision_function": _SHORT,
+}
+
+
+class Damper(RegressorMixin, BaseEstimator):
+    """Force of a damper (y, in N) from its motion (X), rows in time order.
+
+    columns: the columns of X, as in the header of a CSV file ("time", "displacement [mm]", "current [A]", ...);
+    "recording" is a number that tells recordings apart, and a last ... (Ellipsis) stands for columns that are not used.
+    Default: the names of a DataFrame, else time, displacement, and the current as a third. interval: seconds between
+    rows where there is no column of time. A new recording begins where `recording` changes or time does not increase.
+    The other parameters are those of hysteron.fit. After fit, `model_` is the Model."""
+
+    def __init__(self, model="bouc-wen", *, columns=None, interval=None, by_current=None, by_frequency=None, effects=(),
+                 solver="multistart-lm", budget=20000, seed=1, fix=None, bounds=None, settings=None, threads=0):
+        self.model = model
+        self.columns = columns
+        self.interval = interval
+        self.by_current = by_current
+        self.by_frequency = by_frequency
+        self.effects = effects
+        self.solver = solver
+        self.budget = budget
+        self.seed = seed
+        self.fix = fix
+        self.bounds = bounds
+        self.settings = settings
+        self.threads = threads
+
+    def fit(self, X, y):
+        X, y = self._checked(X, y)
+        self.model_ = fit(
+            self._split(X, y), self.model, by_current=self.by_current, by_frequency=self.by_frequency,
+            effects=self.effects, solver=self.solver, budget=self.budget, seed=self.seed, fix=self.fix,
+            bounds=self.bounds, settings=self.settings, threads=self.threads)
+        return self
+
+    def predict(self, X):
+        """Force in N, a value per row."""
+        check_is_fitted(self)
+        X = self._checked(X)
+        return numpy.concatenate([self.model_.simulate(one) for one in self._split(X)])
+
+    def _checked(self, X, *y):
+        """X, and y where it is given, as arrays of finite numbers."""
+        options = {"dtype": numpy.float64, "reset": bool(y)}
+        if y:
+            options.update(y_numeric=True, ensure_min_samples=2)
+        try:
+            from sklearn.utils.validation import validate_data  # from scikit-learn 1.6 on
+        except ImportError:
+            return self._validate_data(X, *y, **options)
+        return validate_data(self, X, *y, **options)
+
+    def _names(self):
+        count = self.n_features_in_
+        if self.columns is not None:
+            names = list(self.columns)
+            if names and names[-1] is Ellipsis:
+                names = names[:-1]
+                if len(names) > count:
+                    raise InputError(f"columns: {len(names)} names and {count} columns, expected no more names")
+            elif len(names) != count:
+                raise InputError(f"columns: {len(names)} names and {count} columns, expected as many; a last ... leaves out the rest")
+        elif hasattr(self, "feature_names_in_"):
+            names = list(self.feature_names_in_)
+        else:
+            names = (["time"] if self.interval is None else []) + ["displacement", "current"]
+            if count > len(names):
+                raise InputError(f"X has {count} columns without names, expected columns=(...) that names them")
+            names = names[:count]
+        return names
+
+    def _split(self, X, y=None):
+        """Recordings of the rows."""
+        data = {name: X[:, k] for k, name in enumerate(self._names())}
+        number = data.pop("recording", None)
+        rows = len(X)
+        if self.interval is not None:
+            data["time"] = float(self.interval) * numpy.arange(rows)
+        if y is not None:
+            data["force"] = y
+        begins = numpy.zeros(rows, dtype=bool)
+        begins[0] = True
+        for name, values in data.items():
+            if str(name).split("[")[0].split("(")[0].strip().lower() in ("time", "t"):
+                begins[1:] |= numpy.diff(values) <= 0
+        if number is not None:
+            begins[1:] |= numpy.diff(number) != 0
+        edges = [*numpy.flatnonzero(begins), rows]
+        result = []
+        for k, (first, end) in enumerate(zip(edges, edges[1:])):
+            part = {name: values[first:end] for name, values in data.items()}
+            result.append(_recordings.recording(part, name=f"recording-{k + 1}.csv", motion_only=y is None))
+        return result
+
+    def _more_tags(self):
+        return {"poor_score": True, "_xfail_checks": _XFAIL_CHECKS}
+
+    def __sklearn_tags__(self):  # from scikit-learn 1.6 on
+        tags = super().__sklearn_tags__()
+        tags.regressor_tags.poor_score = True
+        return tags

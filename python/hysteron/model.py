@@ -1,0 +1,206 @@
+"""Identification, and models that have been identified."""
+
+import json
+import typing
+
+import numpy
+
+from . import _hysteron, _table, _words
+from ._hysteron import InputError
+from .recordings import Recording, as_recordings
+
+
+class Score(typing.NamedTuple):
+    """Errors of a model on recordings."""
+
+    overall: float  # NRMSE
+    recordings: object  # table by file: nrmse, rmse_n, fit_percent
+
+
+class Model:
+    """A damper law with effects and parameter values. `json` is its model.json as a dictionary; `fit_json` and
+    `warnings` are of the fit that made it, None and () where it was read from a file."""
+
+    def __init__(self, text, path="model.json", files=None, warnings=()):
+        self._text = bytes(text)
+        self._path = path
+        self._stored = _hysteron.parse_model(self._text, path)
+        self._files = files
+        self.json = json.loads(self._text)
+        self.fit_json = json.loads(files["fit.json"]) if files and "fit.json" in files else None
+        self.warnings = tuple(warnings)
+
+    def __reduce__(self):
+        return Model, (self._text, self._path, self._files, self.warnings)
+
+    def __repr__(self):
+        parts = " with ".join([self.name, ", ".join(self.effects)]) if self.effects else self.name
+        return f"<hysteron.Model {parts}, NRMSE {self.nrmse:.4g}>"
+
+    name = property(lambda self: self.json["model"])
+    effects = property(lambda self: tuple(self.json.get("effects", ())))
+    nrmse = property(lambda self: self.json["nrmse"]["fit"], doc="over the recordings fitted")
+    nrmse_heldout = property(lambda self: self.json["nrmse"]["heldout"], doc="None where nothing was held out")
+    command = property(lambda self: self.json["provenance"]["command"], doc="the command line that makes it again")
+
+    @property
+    def parameters(self):
+        """Terms by name: value and standard error (NaN where the data do not determine it) in `unit`, the bound met,
+        whether the data determine it, whether it was held."""
+        rows = []
+        for one in self.json["parameters"]:
+            error = one.get("std_error")
+            rows.append({
+                "name": one["name"], "value": one["value"], "std_error": numpy.nan if error is None else error,
+                "unit": one["unit"], "at_bound": one.get("at_bound"),
+                "identifiable": one.get("identifiable", True), "fixed": one.get("fixed", False),
+            })
+        return _table.of_rows(rows, "name")
+
+    @property
+    def convergence(self):
+        """Of every solver compared, by id: an array of two columns, evaluations and best NRMSE."""
+        if self.fit_json is None:
+            return {}
+        return {one["id"]: numpy.array(one["trace"], dtype=float).reshape(-1, 2) for one in self.fit_json["solvers"]}
+
+    def simulate(self, recording, out=None, tolerance=1e-4):
+        """Force in N on the motion of a recording, an array with a value per sample; `out`: a CSV file for it."""
+        if not isinstance(recording, Recording):
+            recordings = as_recordings(recording)
+            if len(recordings) != 1:
+                raise InputError(f"simulate: {len(recordings)} recordings given, expected one")
+            recording = recordings[0]
+        force, remarks = _hysteron.simulate(
+            self._stored, self._path, recording._core, _words.real("tolerance", tolerance, 1e-10, 1e-2))
+        _words.warn(remarks)
+        if out is not None:
+            text = _hysteron.csv_text(["time [s]", "force [N]"], [recording.time, force])
+            _hysteron.write_file(_words.path(out), text)
+        return force
+
+    def score(self, recordings, normalisation="max-abs", weighting="per-recording", tolerance=1e-4):
+        """Errors on recordings that the model need not have seen."""
+        options = _words.common(normalisation, weighting, tolerance, 0)
+        text, remarks = _hysteron.score(self._stored, self._path, as_recordings(recordings, need_force=True).core(), options)
+        _words.warn(remarks)
+        result = json.loads(text)
+        return Score(result["overall"]["nrmse"], _table.of_rows(result["recordings"], "file"))
+
+    def save(self, path):
+        """Writes model.json, the bytes that the program writes."""
+        _hysteron.write_file(_words.path(path), self._text)
+
+    def save_all(self, folder):
+        """Writes model.json and, of a fit, fit.json and report.html into a folder, as `hysteron fit --out` does."""
+        save_files(self._files or {"model.json": self._text}, folder)
+
+    def plot_loops(self, recordings, **arguments):
+        """See hysteron.plot.loops."""
+        from . import plot
+
+        return plot.loops(recordings, self, **arguments)
+
+
+def save_files(files, folder):
+    import os
+
+    folder = _words.path(folder)
+    _hysteron.make_folder(folder)
+    for name, content in files.items():
+        _hysteron.write_file(os.path.join(folder, name), content)
+
+
+def load_model(path):
+    """Reads a model.json of `hysteron fit` or `hysteron diagnose`."""
+    path = _words.path(path)
+    try:
+        with open(path, "rb") as file:
+            text = file.read()
+    except OSError as error:
+        raise InputError(f"{path}: cannot be read ({error.strerror}), expected a model.json written by hysteron") from None
+    return Model(text, path)
+
+
+def fit(recordings, model=None, *, by_current=None, by_frequency=None, effects=(), solver="multistart-lm",
+        budget=20000, seed=1, fix=None, bounds=None, settings=None, two_stages=False, response=None,
+        normalisation="max-abs", weighting="per-recording", tolerance=1e-4, threads=0, progress=None):
+    """Identifies one parameter set over all recordings.
+
+    model: a damper law, see list("models"), default the campaign's; by_current, by_frequency: parameters that are
+    polynomials, {"alpha": 1}; effects: put behind the law; solver: one name or several to compare; budget: evaluations
+    each may use; fix: {"k0": 0.0} held, bounds: {"c0": (0, 5000)}, in SI units; settings: of the solver; two_stages:
+    also the laws through values of conditions fitted freely; response: {"mass": 250, "stiffness": 2e4, "damping": 0,
+    "interpolation": "cubic"}, the recordings are of a mass on the damper; threads: 0 takes OMP_NUM_THREADS or all cores;
+    progress: a function that is called with a Progress now and then. Ctrl-C, or an exception of `progress`, ends it."""
+    recordings = as_recordings(recordings, need_force=response is None)
+    if response is not None:
+        response = {"stiffness": 0.0, "damping": 0.0, "interpolation": "cubic", **response}
+        unknown = set(response) - {"mass", "stiffness", "damping", "interpolation"}
+        if unknown or "mass" not in response:
+            raise InputError("response: expected mass, and stiffness, damping, interpolation where they are not 0, 0, 'cubic'")
+        response["mass"] = _words.real("mass", response["mass"], 1e-9, 1e12)
+        for key in ("stiffness", "damping"):
+            response[key] = _words.real(key, response[key], -1e15, 1e15)
+    solvers = _words.names("solver", solver) or ["multistart-lm"]
+    options = {
+        "model": "" if model is None else str(model),
+        "by_current": _words.orders("by_current", by_current),
+        "by_frequency": _words.orders("by_frequency", by_frequency),
+        "effects": _words.names("effects", effects),
+        "solver": solvers,
+        "budget": _words.whole("budget", budget, 1, 1000000000),
+        "seed": _words.whole("seed", seed, 0, 2**64 - 1),
+        "fix": _words.table("fix", fix, _words.real),
+        "bounds": _words.table("bounds", bounds, _words.interval),
+        "settings": _words.table("settings", settings, _words.real),
+        "two_stages": bool(two_stages),
+        "response": response,
+        **_words.common(normalisation, weighting, tolerance, threads),
+    }
+    typed = as_typed(recordings, options)
+    command = _words.Command("fit", *recordings.command_words())
+    command.add("--model", typed["model"], "")
+    command.add_list("--effects", options["effects"])
+    command.add("--solver", ",".join(solvers), "multistart-lm")
+    command.add("--budget", options["budget"], 20000)
+    command.add_laws(typed["by_current"], typed["by_frequency"])
+    command.add("--stages", "two" if two_stages else "one", "one")
+    command.add_table("--fix", options["fix"], lambda key, value: f"{key}={value!r}")
+    command.add_table("--bounds", options["bounds"], lambda key, value: f"{key}={value[0]!r}:{value[1]!r}")
+    command.add_table("--set", options["settings"], lambda key, value: f"{key}={value!r}")
+    if response is not None:
+        command.words.append("--response")
+        command.add("--mass", response["mass"])
+        command.add("--stiffness", response["stiffness"], 0.0)
+        command.add("--damping", response["damping"], 0.0)
+        command.add("--interpolation", response["interpolation"], "cubic")
+    command.add_common(options["seed"], options)
+    warnings = warnings_of(recordings)
+    result = _hysteron.fit(
+        recordings.core(), recordings.model, with_campaign(recordings, options), warnings, command.text(), _words.observer(progress))
+    _words.warn(result["warnings"][len(warnings):])
+    files = result["files"]
+    return Model(files["model.json"], "model.json", files, result["warnings"])
+
+
+def with_campaign(recordings, options):
+    """Model and laws that are not given are the campaign's."""
+    return {
+        **options,
+        "model": options["model"] or recordings.model,
+        "by_current": options["by_current"] or recordings.by_current,
+        "by_frequency": options["by_frequency"] or recordings.by_frequency,
+    }
+
+
+def as_typed(recordings, options):
+    """What a command line has to say: not what campaign.toml says to it."""
+    return options if recordings.from_paths else with_campaign(recordings, options)
+
+
+def warnings_of(recordings):
+    warnings = list(recordings.warnings)
+    for one in recordings:
+        warnings += getattr(one, "warnings", ())
+    return warnings

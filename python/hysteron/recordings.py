@@ -1,0 +1,239 @@
+"""Recordings: from files, arrays and DataFrames, in SI units."""
+
+import collections.abc
+import os
+
+import numpy
+
+from . import _hysteron, _table, _words
+from ._hysteron import InputError
+
+CHANNELS = ("time", "displacement", "velocity", "acceleration", "force", "current", "voltage", "temperature")
+SI_UNITS = ("s", "m", "m/s", "m/s^2", "N", "A", "V", "degC")
+
+
+class Recording:
+    """One test of one damper. Channels are read-only numpy arrays in SI units (temperature in degC) of equal length:
+    time, displacement, velocity (recorded, or derived from the displacement), force, and where recorded acceleration,
+    current or voltage, temperature; None where there is no such channel. `file` names it in results, `sha256` is of the
+    file's bytes."""
+
+    def __init__(self, core, role="", given=None):
+        self._core = core
+        self.role = role  # "", "fit" or "validate"
+        self._given = given  # names and arrays it was made of, for a file with the same bytes
+
+    file = property(lambda self: self._core.file)
+    sha256 = property(lambda self: self._core.sha256)
+    velocity_measured = property(lambda self: self._core.velocity_measured)
+    time = property(lambda self: self._core.time)
+    displacement = property(lambda self: self._core.displacement)
+    velocity = property(lambda self: self._core.velocity)
+    acceleration = property(lambda self: self._core.acceleration)
+    force = property(lambda self: self._core.force)
+    current = property(lambda self: self._core.current)
+    voltage = property(lambda self: self._core.voltage)
+    temperature = property(lambda self: self._core.temperature)
+
+    def __len__(self):
+        return len(self._core)
+
+    def __repr__(self):
+        seconds = self.time[-1] - self.time[0]
+        return f"<hysteron.Recording {self.file}: {len(self)} samples over {seconds:g} s>"
+
+    @property
+    def channels(self):
+        """The channels there are, by name."""
+        there = {name: getattr(self, name) for name in CHANNELS}
+        return {name: values for name, values in there.items() if values is not None}
+
+    @property
+    def frame(self):
+        """The channels as a table, a column each."""
+        module = _table.pandas()
+        if module is not None:
+            return module.DataFrame(self.channels)
+        rows = zip(*self.channels.values())
+        return [dict(zip(self.channels, row)) for row in rows]
+
+    def save(self, path):
+        """Writes a CSV file. Of a recording made of arrays it holds those, and a program that reads it works on the same
+        numbers under the same sha256; of another one the channels in SI units."""
+        if self._given is not None:
+            names, arrays = self._given
+        else:
+            there = {name: unit for name, unit in zip(CHANNELS, SI_UNITS) if getattr(self, name) is not None}
+            if not self.velocity_measured:
+                there.pop("velocity", None)
+            names = [f"{name} [{unit}]" for name, unit in there.items()]
+            arrays = [getattr(self, name) for name in there]
+        _hysteron.write_file(_words.path(path), _hysteron.csv_text(names, arrays))
+
+
+class Recordings(collections.abc.Sequence):
+    """Recordings that belong together. `model`, `by_current` and `by_frequency` are what campaign.toml says,
+    `warnings` what the reader remarked."""
+
+    def __init__(self, recordings, model="", by_current=None, by_frequency=None, warnings=(), paths=None, options=()):
+        self._recordings = tuple(recordings)
+        self.model = model
+        self.by_current = dict(by_current or {})
+        self.by_frequency = dict(by_frequency or {})
+        self.warnings = tuple(warnings)
+        self._paths = paths  # of a command line that reads the same; None: the files by name
+        self._options = list(options)  # likewise
+
+    def __len__(self):
+        return len(self._recordings)
+
+    def __getitem__(self, index):
+        if isinstance(index, slice):
+            return self._part(self._recordings[index])
+        if isinstance(index, str):
+            for one in self._recordings:
+                if one.file == index:
+                    return one
+            raise KeyError(index)
+        return self._recordings[index]
+
+    def __repr__(self):
+        return f"<hysteron.Recordings: {len(self)}, {', '.join(one.file for one in self._recordings[:5])}" + (
+            ", ...>" if len(self) > 5 else ">"
+        )
+
+    def only(self, text):
+        """Those whose file name contains the text."""
+        chosen = [one for one in self._recordings if text in one.file]
+        if not chosen:
+            raise InputError(f"only: no recording's name contains '{text}'")
+        return self._part(chosen)
+
+    def _part(self, chosen):
+        return Recordings(
+            chosen, self.model, self.by_current, self.by_frequency, self.warnings, options=self._options)
+
+    from_paths = property(lambda self: self._paths is not None)
+
+    def command_words(self):
+        paths = self._paths if self._paths is not None else [one.file for one in self._recordings]
+        return [*paths, *self._options]
+
+    def core(self):
+        return [(one._core, one.role) for one in self._recordings]
+
+
+def as_recordings(value, need_force=False):
+    """Of whatever a function is given: recordings, one or several, or paths of them."""
+    if isinstance(value, Recordings):
+        result = value
+    elif isinstance(value, Recording):
+        result = Recordings([value])
+    elif isinstance(value, (str, os.PathLike)):
+        result = load(value)
+    else:
+        try:
+            items = list(value)
+        except TypeError:
+            items = [value]
+        if items and all(isinstance(one, (str, os.PathLike)) for one in items):
+            result = load(*items)
+        else:
+            for one in items:
+                if not isinstance(one, Recording):
+                    raise InputError(f"{type(one).__name__} is no recording, expected hysteron.load(...) or hysteron.recording(...)")
+            result = Recordings(items)
+    if len(result) == 0:
+        raise InputError("no recordings given, expected at least one")
+    seen = set()
+    for one in result:
+        if one.file in seen:
+            raise InputError(f"two recordings are called {one.file}, expected different names")
+        seen.add(one.file)
+        if need_force and one.force is None:
+            raise InputError(f"{one.file}: has no force, expected one to compare with")
+    return result
+
+
+def load(*data, columns=None, group="", skip=0, keep_samples=_hysteron.default_keep_samples, motion_only=False):
+    """Reads CSV, MAT, TDMS, MDF 4, RPC III and xlsx files and folders of them, with an optional campaign.toml.
+
+    columns: {"force": "CH1 [kgf]"} maps channels to columns of other names or units; group: of TDMS and MDF files, or
+    sheet of workbooks, that is read alone; skip: lines at the head of every CSV file that are not read; keep_samples: of all recordings together, of more several in a row are averaged to one;
+    motion_only=True: the force may be missing, for simulation. Returns Recordings."""
+    paths = [_words.path(one) for one in data]
+    columns = {str(key): str(value) for key, value in (columns or {}).items()}
+    skip = _words.whole("skip", skip, 0, 100000)
+    keep_samples = _words.whole("keep_samples", keep_samples, 0, 1000000000)
+    cores, roles, model, by_current, by_frequency, remarks = _hysteron.load(
+        paths, columns, group, skip, keep_samples, motion_only)
+    _words.warn(text for text, _ in remarks)
+    command = _words.Command()
+    for channel in sorted(columns):
+        command.add("--column", f"{channel}={columns[channel]}")
+    command.add("--group", group, "")
+    command.add("--skip", skip, 0)
+    command.add("--keep-samples", keep_samples, _hysteron.default_keep_samples)
+    return Recordings(
+        (Recording(core, role) for core, role in zip(cores, roles)),
+        model, by_current, by_frequency, [warning for _, warning in remarks], paths, command.words,
+    )
+
+
+def recording(data=None, *, name="recording.csv", units=None, columns=None, role="",
+              keep_samples=_hysteron.default_keep_samples, motion_only=False, **channels):
+    """A recording of arrays: what the CSV file that holds them would be read as.
+
+    Either channels by keyword (time=, displacement=, force=, and velocity=, acceleration=, current=, voltage=,
+    temperature=), or `data`, a DataFrame or dictionary with columns named as in a file ("time", "disp [mm]", ...).
+    units: {"displacement": "mm"} by the name of the column, SI without; columns: as in load; name: in results; role: ""
+    or "fit" or "validate"; motion_only=True: the force may be missing, for simulation."""
+    if (data is None) == (not channels):
+        raise InputError("recording: expected either data or channels by keyword, e.g. time=..., displacement=..., force=...")
+    if data is None:
+        for key in channels:
+            if key not in CHANNELS:
+                raise InputError(f"recording: unknown channel '{key}', expected one of {', '.join(CHANNELS)}")
+        data = {key: values for key, values in channels.items() if values is not None}
+    file = str(name) if str(name).endswith(".csv") else f"{name}.csv"
+    if role not in ("", "fit", "validate"):
+        raise InputError(f"{file}: role {role!r} is not known, expected 'fit' or 'validate'")
+    units = dict(units or {})
+    headers, arrays = [], []
+    for key in data.keys():
+        values = numpy.asarray(data[key])
+        header = str(key)
+        if values.dtype.kind not in "biuf":
+            if header in CHANNELS or header in units:
+                raise InputError(f"{file}: {header} holds no numbers, expected an array of numbers")
+            continue  # as a column of words in a file
+        if values.ndim != 1:
+            raise InputError(f"{file}: {header} has {values.ndim} dimensions, expected one")
+        if any(sign in header for sign in ",;\"\t\r\n") or header.startswith("#"):
+            raise InputError(f"{file}: the column name {header!r} cannot stand in a CSV file, expected no commas, quotes or line ends")
+        if arrays and len(values) != len(arrays[0]):
+            raise InputError(f"{file}: {header} has {len(values)} values and {headers[0]} has {len(arrays[0])}, expected the same number")
+        finite = numpy.isfinite(values)
+        if not finite.all():
+            at = int(numpy.argmin(finite))
+            raise InputError(f"{file}: value {at} of {header} is {values[at]}, expected a finite number")
+        unit = units.pop(key, None)
+        headers.append(f"{header} [{unit}]" if unit else header)
+        arrays.append(numpy.array(values, dtype=float))
+    if units:
+        raise InputError(f"{file}: a unit is given for '{next(iter(units))}', which is no column; the columns are {', '.join(headers)}")
+    if not arrays:
+        raise InputError(f"{file}: no columns of numbers, expected at least time, displacement and force")
+    columns = {str(key): str(value) for key, value in (columns or {}).items()}
+    core, remarks = _hysteron.recording(headers, arrays, file, columns, _words.whole("keep_samples", keep_samples, 0, 1000000000), motion_only)
+    _words.warn(text for text, _ in remarks)
+    result = Recording(core, role, (headers, arrays))
+    result.warnings = tuple(warning for _, warning in remarks)
+    return result
+
+
+def dataset(name, only="", seed=1):
+    """A dataset that ships, see list("datasets"): what `hysteron generate NAME --only TEXT` writes, as Recordings."""
+    cores, roles, model, by_current, by_frequency, _ = _hysteron.dataset(
+        name, only, _words.whole("seed", seed, 0, 2**64 - 1))
+    return Recordings((Recording(core, role) for core, role in zip(cores, roles)), model, by_current, by_frequency)

@@ -1,0 +1,16 @@
+// The compiled part of the Python package hysteron; the package's own files are what users call.
+#include <pybind11/pybind11.h>
+
+#include "core/error.hpp"
+#include "recordings.hpp"
+#include "work.hpp"
+
+PYBIND11_MODULE(_hysteron, module) {
+  namespace py = pybind11;
+  module.doc() = "compiled part of the package hysteron";
+  module.attr("version") = HYSTERON_VERSION;
+  py::register_exception<hysteron::InputError>(module, "InputError", PyExc_ValueError);
+  py::register_exception<hysteron::WorkError>(module, "WorkError", PyExc_RuntimeError);
+  hysteron::python::add_recordings(module);
+  hysteron::python::add_work(module);
+}

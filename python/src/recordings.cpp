@@ -1,0 +1,184 @@
+#include "recordings.hpp"
+
+#include <pybind11/numpy.h>
+#include <pybind11/stl.h>
+
+#include <map>
+#include <span>
+
+#include "core/error.hpp"
+#include "core/suggest.hpp"
+#include "datasets/dataset.hpp"
+#include "datasets/support/shipped.hpp"
+#include "io/block_means.hpp"
+#include "io/csv.hpp"
+#include "io/csv_text.hpp"
+#include "io/plausible.hpp"
+#include "io/sha256.hpp"
+#include "task/dataset.hpp"
+#include "task/load.hpp"
+
+namespace hysteron::python {
+namespace py = pybind11;
+namespace {
+
+using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
+
+// Text for people, and as it stands among the warnings of a result file.
+using Remarks = std::vector<std::pair<std::string, std::string>>;
+
+Remarks remarks_of(const std::vector<Remark>& remarks) {
+  Remarks result;
+  for (const Remark& remark : remarks) result.emplace_back(remark.file + ": " + remark.text, warning_of(remark));
+  return result;
+}
+
+std::string word_of(Role role) { return role == Role::fit ? "fit" : role == Role::validate ? "validate" : ""; }
+
+Role role_of(const std::string& word) {
+  if (word.empty()) return Role::unassigned;
+  if (word == "fit") return Role::fit;
+  if (word == "validate") return Role::validate;
+  throw InputError("unknown role '" + word + "', expected 'fit' or 'validate'");
+}
+
+// Recordings, roles, model, laws by current and by frequency, remarks.
+py::tuple tuple_of(Loaded loaded) {
+  py::list recordings;
+  py::list roles;
+  for (std::size_t k = 0; k < loaded.campaign.recordings.size(); ++k) {
+    recordings.append(std::make_shared<Recording>(std::move(loaded.campaign.recordings[k])));
+    roles.append(word_of(loaded.campaign.roles[k]));
+  }
+  return py::make_tuple(recordings, roles, loaded.campaign.model, loaded.campaign.by_current,
+                        loaded.campaign.by_frequency, remarks_of(once_each(loaded.remarks)));
+}
+
+py::tuple load(const std::vector<std::string>& data, const std::map<std::string, std::string>& columns,
+               const std::string& group, int skip, std::size_t keep_samples, bool motion_only) {
+  ReadOptions options;
+  options.columns = columns;
+  options.group = group;
+  options.skip = skip;
+  options.keep_samples = keep_samples;
+  Loaded loaded;
+  {
+    const py::gil_scoped_release released;
+    loaded = load_with_remarks(data, options, motion_only ? Required::motion : Required::motion_and_force);
+  }
+  return tuple_of(std::move(loaded));
+}
+
+// What the CSV file of this text would be read as.
+Recording recording_of_text(const std::string& text, const std::string& file, const ReadOptions& options) {
+  Recording recording = parse_csv(text, file, options);
+  recording.file = file;
+  recording.sha256 = sha256_hex(text);
+  return recording;
+}
+
+std::string csv_text(const std::vector<std::string>& names, const std::vector<Numbers>& columns) {
+  std::vector<std::span<const double>> spans;
+  for (const Numbers& column : columns) spans.emplace_back(column.data(), static_cast<std::size_t>(column.size()));
+  const py::gil_scoped_release released;
+  return csv_of_columns(names, spans);
+}
+
+py::tuple recording(const std::vector<std::string>& names, const std::vector<Numbers>& arrays, const std::string& file,
+                    const std::map<std::string, std::string>& columns, std::size_t keep_samples, bool motion_only) {
+  const std::string text = csv_text(names, arrays);
+  RecordingPointer result;
+  std::vector<Remark> remarks;
+  {
+    const py::gil_scoped_release released;
+    ReadOptions options;
+    options.columns = columns;
+    options.keep_samples = keep_samples;
+    options.force_required = !motion_only;
+    options.remark = [&](const Remark& remark) { remarks.push_back(remark); };
+    result = std::make_shared<Recording>(recording_of_text(text, file, options));
+  }
+  return py::make_tuple(result, remarks_of(once_each(remarks)));
+}
+
+py::tuple dataset(const std::string& id, const std::string& only, std::uint64_t seed) {
+  const DatasetEntry* entry = find_dataset(id);
+  if (entry == nullptr) {
+    std::vector<std::string> known;
+    for (const DatasetEntry* one : dataset_catalogue()) known.emplace_back(one->id);
+    throw InputError("unknown dataset '" + id + "'" + suggestion(id, known) + ", see hysteron.list(\"datasets\")");
+  }
+  Loaded loaded;
+  {
+    const py::gil_scoped_release released;
+    Campaign campaign = entry->generate(Stream(seed).child(entry->id));
+    loaded.campaign.model = campaign.model;
+    loaded.campaign.by_current = campaign.by_current;
+    loaded.campaign.by_frequency = campaign.by_frequency;
+    for (std::size_t k = 0; k < campaign.recordings.size(); ++k) {
+      Recording& one = campaign.recordings[k];
+      if (one.file.find(only) == std::string::npos) continue;
+      loaded.campaign.roles.push_back(campaign.roles[k]);
+      loaded.campaign.recordings.push_back(
+          entry->licence.empty() ? recording_of_text(csv_of_simulated(one), one.file, {}) : std::move(one));
+    }
+  }
+  if (loaded.campaign.recordings.empty()) throw InputError("only: no recording's name contains '" + only + "'");
+  return tuple_of(std::move(loaded));
+}
+
+// A view of a channel, which keeps its recording alive; None where it was not recorded.
+py::object view(const py::object& self, const std::vector<double>& channel) {
+  if (channel.empty()) return py::none();
+  py::array_t<double> array(static_cast<py::ssize_t>(channel.size()), channel.data(), self);
+  array.attr("setflags")(py::arg("write") = false);
+  return array;
+}
+
+template <std::vector<double> Recording::*channel>
+py::object channel_of(const py::object& self) {
+  return view(self, self.cast<const Recording&>().*channel);
+}
+
+template <DriveKind kind>
+py::object drive_of(const py::object& self) {
+  const auto& recording = self.cast<const Recording&>();
+  return recording.drive_kind == kind ? view(self, recording.drive) : py::none();
+}
+
+}  // namespace
+
+Campaign campaign_of(const std::vector<std::pair<RecordingPointer, std::string>>& recordings) {
+  Campaign campaign;
+  for (const auto& [recording, role] : recordings) {
+    campaign.recordings.push_back(*recording);
+    campaign.roles.push_back(role_of(role));
+  }
+  return campaign;
+}
+
+void add_recordings(py::module_& module) {
+  py::class_<Recording, RecordingPointer>(module, "Recording")
+      .def_readonly("file", &Recording::file)
+      .def_readonly("sha256", &Recording::sha256)
+      .def_readonly("velocity_measured", &Recording::velocity_measured)
+      .def("__len__", &Recording::size)
+      .def_property_readonly("time", &channel_of<&Recording::time>)
+      .def_property_readonly("displacement", &channel_of<&Recording::displacement>)
+      .def_property_readonly("velocity", &channel_of<&Recording::velocity>)
+      .def_property_readonly("acceleration", &channel_of<&Recording::acceleration>)
+      .def_property_readonly("force", &channel_of<&Recording::force>)
+      .def_property_readonly("temperature", &channel_of<&Recording::temperature>)
+      .def_property_readonly("current", &drive_of<DriveKind::current>)
+      .def_property_readonly("voltage", &drive_of<DriveKind::voltage>);
+  module.attr("default_keep_samples") = default_keep_samples;
+  module.def("load", &load);
+  module.def("recording", &recording);
+  module.def("dataset", &dataset);
+  module.def("csv_text", [](const std::vector<std::string>& names, const std::vector<Numbers>& columns) {
+    return py::bytes(csv_text(names, columns));
+  });
+  module.def("look_beside", [](const std::string& folder) { look_beside(folder); });
+}
+
+}  // namespace hysteron::python

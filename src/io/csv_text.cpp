@@ -1,0 +1,36 @@
+#include "io/csv_text.hpp"
+
+#include <array>
+#include <cassert>
+#include <charconv>
+
+namespace hysteron {
+namespace {
+
+void append(std::string& text, double value) {
+  std::array<char, 32> digits{};
+  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
+  text.append(digits.data(), end);
+}
+
+}  // namespace
+
+std::string csv_of_columns(std::span<const std::string> names, std::span<const std::span<const double>> columns) {
+  assert(!names.empty() && names.size() == columns.size());
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ",") + name;
+  text += '\n';
+  const std::size_t rows = columns.front().size();
+  text.reserve(text.size() + 16 * columns.size() * rows);
+  for (std::size_t i = 0; i < rows; ++i) {
+    for (std::size_t k = 0; k < columns.size(); ++k) {
+      assert(columns[k].size() == rows);
+      if (k > 0) text += ',';
+      append(text, columns[k][i]);
+    }
+    text += '\n';
+  }
+  return text;
+}
+
+}  // namespace hysteron

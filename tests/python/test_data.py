@@ -1,0 +1,177 @@
+"""Numbers in and out, and what is said of wrong ones."""
+
+import gc
+import os
+import subprocess
+import sys
+import unittest
+import warnings
+
+import numpy
+import pandas
+
+import hysteron
+from support import InFolder, sine
+
+
+class Data(InFolder):
+    def test_channels_are_the_files_numbers_in_si(self):
+        (self.folder / "mm.csv").write_text(
+            "time [ms],displacement [mm],force [kN]\n" + "".join(f"{k},{k * k},{2 * k}\n" for k in range(20)))
+        one = hysteron.load("mm.csv")[0]
+        k = numpy.arange(20.0)
+        numpy.testing.assert_allclose(one.time, 1e-3 * k, rtol=1e-15)
+        numpy.testing.assert_allclose(one.displacement, 1e-3 * k * k, rtol=1e-15)
+        numpy.testing.assert_allclose(one.force, 2e3 * k, rtol=1e-15)
+        self.assertIsNone(one.current)
+        self.assertFalse(one.velocity_measured)
+        numpy.testing.assert_allclose(one.velocity, 2 * k, atol=1e-9)  # of a parabola, at 1 ms a sample
+        self.assertEqual(list(one.frame.columns), ["time", "displacement", "velocity", "force"])
+
+    def test_arrays_frames_and_files_are_one_recording(self):
+        time, displacement, force, current = sine(2.0, 0.01, 1.0)
+        arrays = hysteron.recording(time=time, displacement=displacement, force=force, current=current)
+        frame = hysteron.recording(pandas.DataFrame({
+            "time [s]": time, "displacement [m]": displacement, "force [N]": force, "current [A]": current,
+            "remark": ["a word"] * len(time)}))
+        arrays.save("saved.csv")
+        file = hysteron.load("saved.csv")[0]
+        self.assertEqual(arrays.sha256, file.sha256)
+        for name in ("time", "displacement", "velocity", "force", "current"):
+            given = getattr(arrays, name)
+            numpy.testing.assert_array_equal(given, getattr(frame, name))
+            numpy.testing.assert_array_equal(given, getattr(file, name))
+        numpy.testing.assert_array_equal(arrays.force, force)
+        other = hysteron.load("data/r0.csv")[0]
+        other.save("again.csv")
+        numpy.testing.assert_array_equal(hysteron.load("again.csv")[0].force, other.force)
+
+    def test_float32_strides_and_lists(self):
+        time, displacement, force, _ = sine(2.0, 0.01, 0.0)
+        table = numpy.column_stack([time, displacement, force])
+        strided = hysteron.recording(time=table[:, 0], displacement=table[:, 1], force=list(table[:, 2]))
+        numpy.testing.assert_array_equal(strided.displacement, displacement)
+        single = hysteron.recording(time=time, displacement=displacement.astype("float32"), force=force)
+        numpy.testing.assert_array_equal(single.displacement, displacement.astype("float32").astype(float))
+
+    def test_views_are_read_only_and_outlive_their_recording(self):
+        force = hysteron.load("data/r0.csv")[0].force
+        expected = force.copy()
+        gc.collect()
+        numpy.testing.assert_array_equal(force, expected)
+        with self.assertRaises(ValueError):
+            force[0] = 0.0
+        self.assertFalse(force.flags.owndata)
+
+    def test_parameters_are_the_truth(self):
+        recordings = [hysteron.recording(**dict(zip(("time", "displacement", "force", "current"), sine(
+            1.0 + k, 0.01, current, noise=0.0))), name=f"r{k}") for k, current in enumerate((0.0, 1.0, 2.0))]
+        smooth = [hysteron.recording(time=one.time, displacement=one.displacement, velocity=one.velocity,
+                                     force=(800 + 300 * one.current) * one.velocity, current=one.current,
+                                     name=one.file) for one in recordings]
+        model = hysteron.fit(smooth, "viscous", by_current={"c0": 1}, budget=2000)
+        self.assertAlmostEqual(model.parameters.loc["c0", "value"], 800, delta=0.1)
+        self.assertAlmostEqual(model.parameters.loc["c0*i", "value"], 300, delta=0.1)
+        self.assertLess(model.nrmse, 1e-3)
+        self.assertEqual(model.parameters.loc["c0", "unit"], "N s/m")
+        self.assertEqual(set(model.convergence), {"multistart-lm"})
+        self.assertTrue((numpy.diff(model.convergence["multistart-lm"][:, 1]) < 0).all())
+
+    def test_a_sequence(self):
+        recordings = hysteron.load("data")
+        self.assertEqual([one.file for one in recordings], ["r0.csv", "r1.csv", "r2.csv", "r3.csv"])
+        self.assertEqual(recordings["r1.csv"].file, "r1.csv")
+        self.assertEqual(len(recordings[1:3]), 2)
+        self.assertEqual(len(recordings.only("r3")), 1)
+
+    def test_campaign_file(self):
+        (self.folder / "data" / "campaign.toml").write_text(
+            'schema = "hysteron.campaign/1"\nmodel = "viscous"\n[by_current]\nc0 = 1\n'
+            '[[recording]]\nfile = "r0.csv"\nrole = "fit"\n[[recording]]\nfile = "r3.csv"\nrole = "validate"\n'
+            '[[recording]]\nfile = "r2.csv"\nrole = "fit"\n')
+        recordings = hysteron.load("data")
+        self.assertEqual([one.role for one in recordings], ["fit", "validate", "fit"])
+        model = hysteron.fit(recordings, budget=300)
+        self.assertEqual((model.name, model.json["by_current"]), ("viscous", {"c0": 1}))
+        self.assertEqual([one["file"] for one in model.json["fitted_on"]], ["r0.csv", "r2.csv"])
+        self.assertIsNotNone(model.nrmse_heldout)
+
+    def test_remarks_are_warnings(self):
+        time, displacement, force, _ = sine(2.0, 0.01, 0.0)
+        with self.assertWarnsRegex(hysteron.HysteronWarning, "displacement"):
+            one = hysteron.recording(time=time, displacement=1e3 * displacement, force=force)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            model = hysteron.fit(one, "viscous", budget=50)
+        self.assertTrue(any("displacement" in text for text in model.warnings))
+
+    def test_without_pandas(self):
+        script = ("import sys; sys.modules['pandas'] = None\nimport hysteron\n"
+                  "model = hysteron.fit('data', 'viscous', budget=50)\n"
+                  "rows = model.parameters\nassert isinstance(rows, list) and rows[0]['name'] == 'c0', rows\n"
+                  "assert hysteron.list('models')[0]['id']\n"
+                  "assert hysteron.load('data')[0].frame[3]['force'] == hysteron.load('data')[0].force[3]\n")
+        subprocess.run([sys.executable, "-c", script], check=True, env=os.environ)
+
+
+class Errors(InFolder):
+    def refuses(self, pattern, function, *arguments, error=hysteron.InputError, **keywords):
+        with self.assertRaisesRegex(error, pattern) as caught:
+            function(*arguments, **keywords)
+        self.assertEqual(str(caught.exception).count("\n"), 0)
+
+    def test_of_files(self):
+        self.refuses("nowhere.csv", hysteron.load, "nowhere.csv")
+        (self.folder / "bad.csv").write_text("time [s],displacement [mm],force [N]\n0,1,2\n1,x,2\n")
+        self.refuses(r"^bad.csv:3: displacement 'x' is not a number, expected", hysteron.load, "bad.csv")
+        self.refuses("no recordings given", hysteron.load)
+        self.refuses("model.json: .*cannot be read", hysteron.load_model, "model.json")
+        (self.folder / "model.json").write_text('{"schema": "hysteron.model/9"}')
+        self.refuses(r"^model.json: schema \"hysteron.model/9\" is not known", hysteron.load_model, "model.json")
+
+    def test_of_arrays(self):
+        time, displacement, force, _ = sine(2.0, 0.01, 0.0)
+        good = {"time": time, "displacement": displacement, "force": force}
+        self.refuses("has 399 values", hysteron.recording, **{**good, "force": force[1:]})
+        self.refuses("value 5 of force is nan", hysteron.recording,
+                     **{**good, "force": numpy.where(numpy.arange(400) == 5, numpy.nan, force)})
+        self.refuses("does not increase", hysteron.recording, **{**good, "time": time[::-1]})
+        self.refuses("2 dimensions", hysteron.recording, **{**good, "time": time.reshape(20, 20)})
+        self.refuses("unknown channel 'forse'", hysteron.recording, **good, forse=force)
+        self.refuses("no force column", hysteron.recording, time=time, displacement=displacement)
+        motion = hysteron.recording(time=time, displacement=displacement, motion_only=True)
+        self.refuses("has no force", hysteron.fit, motion, "viscous")
+        self.refuses("furlong", hysteron.recording, **good, units={"displacement": "furlong"})
+        self.refuses("no column", hysteron.recording, **good, units={"disp": "mm"})
+        self.refuses("called recording.csv", hysteron.fit, [hysteron.recording(**good)] * 2, "viscous")
+
+    def test_of_arguments(self):
+        for pattern, arguments in (
+                ("no model", {}), ("bouc-wem", {"model": "bouc-wem"}), ("gax", {"model": "viscous", "solver": "gax"}),
+                ("budget: 0 is wrong", {"model": "viscous", "budget": 0}),
+                ("budget: 1.5 is wrong", {"model": "viscous", "budget": 1.5}),
+                ("seed: -1 is wrong", {"model": "viscous", "seed": -1}),
+                ("by_current of c0: 9 is wrong", {"model": "viscous", "by_current": {"c0": 9}}),
+                ("c9", {"model": "viscous", "by_current": {"c9": 1}}),
+                ("bounds of c0", {"model": "viscous", "bounds": {"c0": (2, 1)}}),
+                ("tolerance: nan is wrong", {"model": "viscous", "tolerance": float("nan")}),
+                ("normalisation", {"model": "viscous", "normalisation": "peak"}),
+                ("given twice", {"model": "viscous", "solver": ["pso", "pso"]})):
+            self.refuses(pattern, hysteron.fit, hysteron.load("data"), **arguments)
+        self.refuses("expected hysteron.load", hysteron.fit, [1.0], "viscous")
+        self.refuses("int is no recording", hysteron.fit, 3, "viscous")
+        self.refuses("nothing is listed as 'dampers'", hysteron.list, "dampers")
+        self.refuses("nothing is called 'bouc-wan'", hysteron.describe, "bouc-wan")
+        self.refuses("most_effects: 9", hysteron.diagnose, "data", most_effects=9)
+        self.refuses("gone.toml", hysteron.bench, "gone.toml")
+        self.assertTrue(issubclass(hysteron.InputError, ValueError))
+
+    def test_failed_work(self):
+        (self.folder / "closed").write_text("a file where a folder is asked for")
+        model = hysteron.fit("data", "viscous", budget=50)
+        self.refuses("cannot be written", model.save, "nowhere/model.json", error=hysteron.WorkError)
+        self.refuses("closed", model.save_all, "closed")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,99 @@
+"""The estimator of scikit-learn."""
+
+import sys
+import unittest
+import warnings
+
+try:
+    import sklearn
+except ImportError:
+    print("scikit-learn is not installed, the estimator is not tested")
+    sys.exit(77)
+
+import numpy
+import pandas
+from sklearn.base import clone
+from sklearn.exceptions import NotFittedError
+from sklearn.model_selection import GridSearchCV, GroupKFold, cross_val_score
+from sklearn.utils.estimator_checks import check_estimator
+
+import hysteron
+from support import sine
+
+
+def campaign():
+    """X, y and the number of the recording of four sines."""
+    parts = [numpy.column_stack(sine(1.0 + 0.5 * k, 0.01, 0.5 * k, seed=k)) for k in range(4)]
+    rows = numpy.vstack(parts)
+    groups = numpy.repeat(numpy.arange(4), [len(part) for part in parts])
+    return rows[:, [0, 1, 3]], rows[:, 2], groups
+
+
+class Estimator(unittest.TestCase):
+    def test_checks_of_scikit_learn(self):
+        # The checks' data are random numbers of any number of columns: the first is taken for a displacement.
+        damper = hysteron.Damper("viscous", columns=("displacement", ...), interval=1e-3, budget=40, threads=1)
+        expected = damper._more_tags()["_xfail_checks"]
+        passed, failed = set(), {}
+        for estimator, check in check_estimator(damper, generate_only=True):
+            name = check.func.__name__
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")
+                try:
+                    # A check that is expected to fail comes wrapped, as one that is skipped.
+                    getattr(check.func, "__wrapped__", check.func)(*check.args, estimator, **check.keywords)
+                    passed.add(name)
+                except Exception as error:
+                    failed[name] = repr(error)
+        self.assertGreater(len(passed), 30)
+        self.assertEqual(set(failed), set(expected), failed)
+
+    def test_what_is_left_out_does_fail(self):
+        # Rows in another order are another motion.
+        X, y, _ = campaign()
+        damper = hysteron.Damper("bouc-wen", columns=("displacement",), interval=1e-3, budget=400).fit(X[:400, 1:2], y[:400])
+        self.assertFalse(numpy.allclose(damper.predict(X[:400, 1:2])[::-1], damper.predict(X[399::-1, 1:2])))
+
+    def test_is_the_fit(self):
+        X, y, groups = campaign()
+        damper = hysteron.Damper("bingham", by_current={"c0": 1, "fc": 1}, budget=1500).fit(X, y)
+        recordings = [hysteron.recording(time=X[groups == k, 0], displacement=X[groups == k, 1],
+                                         current=X[groups == k, 2], force=y[groups == k], name=f"recording-{k + 1}")
+                      for k in range(4)]
+        model = hysteron.fit(recordings, "bingham", by_current={"c0": 1, "fc": 1}, budget=1500)
+        self.assertEqual(damper.model_.json["parameters"], model.json["parameters"])
+        self.assertEqual(len(damper.predict(X)), len(y))
+        self.assertGreater(damper.score(X, y), 0.98)
+        numpy.testing.assert_array_equal(damper.predict(X)[groups == 2], model.simulate(
+            hysteron.recording(time=X[groups == 2, 0], displacement=X[groups == 2, 1], current=X[groups == 2, 2], motion_only=True)))
+
+    def test_frames_name_their_columns(self):
+        X, y, groups = campaign()
+        frame = pandas.DataFrame({"disp [mm]": 1e3 * X[:, 1], "recording": groups, "current": X[:, 2], "t [ms]": 1e3 * X[:, 0]})
+        damper = hysteron.Damper("bingham", by_current={"c0": 1, "fc": 1}, budget=300).fit(frame, y)
+        self.assertEqual(len(damper.model_.json["fitted_on"]), 4)
+        self.assertGreater(damper.score(frame, y), 0.9)
+
+    def test_selection(self):
+        X, y, groups = campaign()
+        damper = hysteron.Damper("bingham", by_current={"c0": 1, "fc": 1}, budget=300)
+        scores = cross_val_score(damper, X, y, groups=groups, cv=GroupKFold(4))
+        self.assertEqual(len(scores), 4)
+        self.assertGreater(scores.min(), 0.9)
+        search = GridSearchCV(hysteron.Damper(by_current={"c0": 1}, budget=300), {"model": ["viscous", "bingham"]},
+                              cv=GroupKFold(2)).fit(X, y, groups=groups)
+        self.assertEqual(search.best_params_, {"model": "bingham"})  # there is dry friction
+
+    def test_wrong_use(self):
+        X, y, _ = campaign()
+        with self.assertRaises(NotFittedError):
+            hysteron.Damper().predict(X)
+        with self.assertRaisesRegex(hysteron.InputError, "4 columns without names"):
+            hysteron.Damper("viscous").fit(numpy.column_stack([X, y]), y)
+        with self.assertRaisesRegex(hysteron.InputError, "2 names and 3 columns"):
+            hysteron.Damper("viscous", columns=("time", "displacement")).fit(X, y)
+        self.assertEqual(clone(hysteron.Damper("viscous", budget=7)).get_params()["budget"], 7)
+
+
+if __name__ == "__main__":
+    unittest.main()
