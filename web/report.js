@@ -189,7 +189,14 @@ const channels = {
 const roleWords = { fit: "fitted", validate: "held out", checked: "held out in the check, then fitted" };
 const roleOf = (r) => roleWords[r.role] || r.role || "–";
 const hasBaseline = recordings.some((r) => list(r.baseline_n).length > 0);
-const residual = (r) => list(r.force_n).map((f, i) => (isNumber(f) && isNumber(r.predicted_n[i]) ? f - r.predicted_n[i] : null));
+// What is measured and simulated: the force on a recorded motion, or the motion of a mass under a known excitation.
+const ofMotion = Boolean(report.response);
+const plotted = ofMotion
+  ? { word: "Displacement", label: "Displacement [mm]", short: "x [mm]", unit: "mm" }
+  : { word: "Force", label: "Force [N]", short: "F [N]", unit: "N" };
+const measuredOf = (r) => list(ofMotion ? r.displacement_mm : r.force_n);
+const simulatedOf = (r) => list(ofMotion ? r.simulated_mm : r.predicted_n);
+const residual = (r) => measuredOf(r).map((f, i) => (isNumber(f) && isNumber(simulatedOf(r)[i]) ? f - simulatedOf(r)[i] : null));
 const baselineResidual = (r) => list(r.force_n).map((f, i) => (isNumber(f) && isNumber(r.baseline_n[i]) ? f - r.baseline_n[i] : null));
 // What of a recording the curves show, where that is not all of it.
 const partOf = (r) => (r.part ? `, ${fmt(r.part.from, 4)} to ${fmt(r.part.to, 4)} s of ${fmt(r.part.duration, 4)} s shown` : "");
@@ -203,9 +210,9 @@ function residualCurves(r) {
 
 // Curves of a recording in drawing order: the measurement below, simulations above it.
 function curves(r) {
-  const result = [{ y: list(r.force_n), cls: "measured", name: "measured" }];
+  const result = [{ y: measuredOf(r), cls: "measured", name: "measured" }];
   if (list(r.baseline_n).length) result.push({ y: r.baseline_n, cls: "baseline", name: "base model" });
-  result.push({ y: list(r.predicted_n), cls: "simulated", name: "simulated" });
+  result.push({ y: simulatedOf(r), cls: "simulated", name: "simulated" });
   return result;
 }
 
@@ -219,7 +226,7 @@ function legend(withResidual) {
 function overview() {
   const grid = el("div", { class: "minis" });
   const rest = el("div", {});
-  const against = el("select", {}, ["velocity", "displacement", "time"].map((k) => el("option", { value: k }, k)));
+  const against = el("select", {}, (ofMotion ? ["time"] : ["velocity", "displacement", "time"]).map((k) => el("option", { value: k }, k)));
   const scale = el("select", {}, el("option", { value: "own" }, "own for each"), el("option", { value: "same" }, "same for all"));
   const order = el("select", {}, el("option", { value: "given" }, "as given"), el("option", { value: "worst" }, "largest NRMSE first"));
   function draw() {
@@ -233,9 +240,9 @@ function overview() {
       const r = recordings[i];
       const markup = chart({
         width: 240, height: 168, small: true, margin: [4, 4, 16, 40],
-        title: `Force [N] against ${channel.label} of ${nameOf(r)}, measured and simulated`,
+        title: `${plotted.label} against ${channel.label} of ${nameOf(r)}, measured and simulated`,
         x: { label: channel.short, range: padded(shared ? allX : extent([r[channel.key]])) },
-        y: { label: "F [N]", range: padded(shared ? allY : extent(curves(r).map((c) => c.y))) },
+        y: { label: plotted.short, range: padded(shared ? allY : extent(curves(r).map((c) => c.y))) },
         series: curves(r).map((c) => ({ x: list(r[channel.key]), y: c.y, cls: c.cls, limit: 600 })),
       });
       return el("button", { class: "mini", type: "button", "data-index": i, title: r.file, onclick: () => select(i, true) },
@@ -248,7 +255,7 @@ function overview() {
   draw();
   return section("overview", "Every recording at a glance",
     el("div", { class: "controls" },
-      el("label", {}, "Force against", against), el("label", {}, "Scale", scale), el("label", {}, "Order", order)),
+      el("label", {}, `${plotted.word} against`, against), el("label", {}, "Scale", scale), el("label", {}, "Order", order)),
     legend(false),
     el("p", { class: "muted interactive" }, "Select a recording to see it in full below."),
     grid, rest);
@@ -258,7 +265,7 @@ function recordingTable() {
   const columns = [
     { title: "Recording", value: (r) => r.file },
     { title: "NRMSE", value: (r) => r.nrmse, num: true, digits: 3 },
-    { title: "RMSE [N]", value: (r) => r.rmse_n, num: true, digits: 3 },
+    { title: `RMSE [${plotted.unit}]`, value: (r) => (ofMotion ? r.rmse_mm : r.rmse_n), num: true, digits: 3 },
     { title: "Fit [%]", value: (r) => r.fit_percent, num: true, digits: 3 },
     { title: "Role", value: roleOf },
     { title: "Drive", value: (r) => r.drive || "–" },
@@ -374,8 +381,8 @@ function buildPlots(r) {
       return;
     }
     const parts = [`t = ${fmt(t, 5)} s`, `x = ${fmt(list(r.displacement_mm)[index], 4)} mm`, `v = ${fmt(list(r.velocity_mm_s)[index], 4)} mm/s`];
-    for (const c of shown) parts.push(`${c.name} ${fmt(c.y[index], 4)} N`);
-    parts.push(`residual ${fmt(rest[index], 3)} N`);
+    for (const c of shown) parts.push(`${c.name} ${fmt(c.y[index], 4)} ${plotted.unit}`);
+    parts.push(`residual ${fmt(rest[index], 3)} ${plotted.unit}`);
     detail.readout.textContent = parts.join("  ·  ");
   }
   const rest = residual(r);
@@ -524,10 +531,14 @@ function buildPlots(r) {
     plots.push(u);
   }
 
-  timePlot(detail.hosts[0], "Force against time", "Force [N]", 270, shown);
-  loopPlot(detail.hosts[1], channels.displacement);
-  loopPlot(detail.hosts[2], channels.velocity);
-  timePlot(detail.hosts[3], "Residual (measured − simulated) against time", "Residual [N]", 220, residualCurves(r));
+  timePlot(detail.hosts[0], `${plotted.word} against time`, plotted.label, 270, shown);
+  // A motion against itself is no loop.
+  for (const k of [1, 2]) detail.hosts[k].hidden = ofMotion;
+  if (!ofMotion) {
+    loopPlot(detail.hosts[1], channels.displacement);
+    loopPlot(detail.hosts[2], channels.velocity);
+  }
+  timePlot(detail.hosts[3], "Residual (measured − simulated) against time", `Residual [${plotted.unit}]`, 220, residualCurves(r));
 }
 
 // Inverse of the standard normal distribution: Acklam's rational approximations, relative error below 1.2e-9.
@@ -591,7 +602,7 @@ function detailView() {
   const previous = el("button", { type: "button", onclick: () => select(selected - 1) }, "Previous");
   const next = el("button", { type: "button", onclick: () => select(selected + 1) }, "Next");
   const touch = window.matchMedia("(hover: none)").matches;
-  const hint = touch ? "" : "Drag to zoom, double click to reset, Shift and drag to pan. A zoom in time is carried to the loops.";
+  const hint = touch ? "" : `Drag to zoom, double click to reset, Shift and drag to pan.${ofMotion ? "" : " A zoom in time is carried to the loops."}`;
   const heading = el("h3", { id: "detail", tabindex: -1 });
   const readout = el("p", { class: "readout" }, hint);
   const hosts = [0, 1, 2, 3].map((i) => el("figure", { class: i === 0 || i === 3 ? "plot wide" : "plot" }));
@@ -645,10 +656,9 @@ function printDetail() {
   }));
   const cell = (wide, node) => el("figure", { class: wide ? "plot wide" : "plot" }, node);
   const grid = el("div", { class: "plots" },
-    cell(true, make(true, channels.time, "Force [N]", force, forceRange, 190)),
-    cell(false, make(false, channels.displacement, "Force [N]", force, forceRange, 230)),
-    cell(false, make(false, channels.velocity, "Force [N]", force, forceRange, 230)),
-    cell(true, make(true, channels.time, "Residual [N]", rests, padded(extent(rests.map((c) => c.y))), 150)));
+    cell(true, make(true, channels.time, plotted.label, force, forceRange, 190)),
+    ...(ofMotion ? [] : [channels.displacement, channels.velocity].map((channel) => cell(false, make(false, channel, plotted.label, force, forceRange, 230)))),
+    cell(true, make(true, channels.time, `Residual [${plotted.unit}]`, rests, padded(extent(rests.map((c) => c.y))), 150)));
   detail.printed.replaceChildren(grid);
 }
 
@@ -666,9 +676,10 @@ function withinBounds(p) {
     `<rect class="box" x="6" y="6" width="98" height="6" rx="3"/>${interval}<circle class="dot" cx="${at(p.value).toFixed(1)}" cy="9" r="4"/></svg>`);
 }
 
-// As people write them: newtons per ampere are not "N/A", and a law in a voltage is not one in a current.
+// As people write them: newtons per ampere are not "N/A", what is divided by twice has a power, and a law in a voltage is
+// not one in a current.
 function printedUnit(unit) {
-  if (!/\/(A|V|Hz)$/.test(unit || "")) return unit || "–";
+  if (!/\/(A|V|Hz)$|^[^()/]*\/[^()/]*\/[^()]*$/.test(unit || "")) return unit || "–";
   const begin = unit.indexOf("/", unit.indexOf(")") + 1);
   const powers = new Map();
   for (const part of unit.slice(begin + 1).split("/")) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <csignal>
 #include <cstdlib>
+#include <optional>
 
 #include "app/values.hpp"
 #include "core/error.hpp"
@@ -16,6 +17,7 @@
 #include "fit/weighting.hpp"
 #include "io/block_means.hpp"
 #include "io/campaign_file.hpp"
+#include "io/conditions.hpp"
 #include "io/file.hpp"
 #include "io/sha256.hpp"
 #include "task/command_text.hpp"
@@ -57,6 +59,36 @@ void add_keep_option(CLI::App& command, DataOptions& options) {
       ->capture_default_str();
 }
 
+void add_at_option(CLI::App& command, DataOptions& options) {
+  command
+      .add_option("--at", options.at,
+                  "NAME=NUMBER [UNIT] of what laws follow and no column holds, e.g. pressure=\"2.1 bar\"; repeatable")
+      ->allow_extra_args(false);
+}
+
+void add_without_time_option(CLI::App& command, DataOptions& options) {
+  command.add_flag("--without-time", options.without_time,
+                   "files may have no time column: for laws whose force does not depend on the rate");
+}
+
+std::map<std::string, ConditionNumber> numbers_at(const DataOptions& options) {
+  std::map<std::string, ConditionNumber> result;
+  for (const std::string& text : options.at) {
+    const auto [word, value] = split_pair("--at", text, "NAME=NUMBER [UNIT], e.g. pressure=\"2.1 bar\"");
+    std::optional<ConditionNumber> number = condition_number(value);
+    if (!number) {
+      throw InputError("--at: '" + value + "' of " + word + " is not a number with a unit, expected e.g. 2.1e5 or " +
+                       "\"2.1 bar\"");
+    }
+    number->file = "--at";
+    const std::string name = condition_name(word, "--at");
+    if (!result.emplace(name, *number).second) {
+      throw InputError("--at: '" + name + "' is given twice, expected each once");
+    }
+  }
+  return result;
+}
+
 namespace {
 
 ReadOptions read_options(const DataOptions& options) {
@@ -64,6 +96,10 @@ ReadOptions read_options(const DataOptions& options) {
   read.group = options.group;
   read.skip = options.skip;
   read.keep_samples = options.keep_samples;
+  read.conditions = options.conditions;
+  read.without_time = options.without_time;
+  std::ranges::sort(read.conditions);
+  read.numbers = numbers_at(options);
   for (const std::string& mapping : options.columns) {
     const auto equals = mapping.find('=');
     if (equals == std::string::npos || equals == 0 || equals + 1 == mapping.size()) {

@@ -20,16 +20,25 @@ namespace hysteron::app {
 // Options of every command that reads recordings.
 struct DataOptions {
   std::vector<std::string> data;
-  std::vector<std::string> columns;  // force="CH1 [kgf]"
-  std::string group;                 // group or sheet of files that have them
-  int skip = 0;                      // lines at the head of every CSV file, rows of a sheet
-  std::size_t keep_samples = 0;      // of all recordings together, 0 for all
+  std::vector<std::string> columns;     // force="CH1 [kgf]"
+  std::string group;                    // group or sheet of files that have them
+  int skip = 0;                         // lines at the head of every CSV file, rows of a sheet
+  std::size_t keep_samples = 0;         // of all recordings together, 0 for all
+  std::vector<std::string> conditions;  // columns that laws follow, beside those of campaign.toml
+  bool without_time = false;            // where a file has none
+  std::vector<std::string> at;          // NAME=NUMBER [UNIT], of every recording
 };
 void add_data_options(CLI::App& command, DataOptions& options);
 // --column, --group and --skip, for commands that name their recordings in another way.
 void add_reading_options(CLI::App& command, DataOptions& options);
 // For commands that identify; the others take every sample.
 void add_keep_option(CLI::App& command, DataOptions& options);
+// --at, for commands that take a model whose laws may follow what the recordings do not hold.
+void add_at_option(CLI::App& command, DataOptions& options);
+// For commands that take recordings without a time column (task/rate.hpp).
+void add_without_time_option(CLI::App& command, DataOptions& options);
+// The numbers of --at, by name.
+std::map<std::string, ConditionNumber> numbers_at(const DataOptions& options);
 // Says on standard error what readers remark, once for all recordings alike, and puts it into `warnings`.
 void tell(const std::vector<Remark>& remarks, std::vector<std::string>* warnings = nullptr);
 // What the readers remark is said on standard error, once for all recordings alike, and put into `warnings`.

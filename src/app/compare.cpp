@@ -171,7 +171,16 @@ void run(const Options& options) {
     models.emplace_back().stored = read_model(file);
   }
   label(models, files);
+  std::vector<const StoredModel*> stored;
+  for (const Compared& model : models) {
+    stored.push_back(&model.stored);
+  }
+  data.conditions = conditions_of(stored);
   const Campaign campaign = load(data);
+  for (Compared& model : models) {
+    check_rate(model.stored, campaign.recordings);
+    follow_conditions(model.stored, campaign.recordings);
+  }
   if (!is_standard_output(options.out)) {
     check_output_folder(options.out);
   }
@@ -361,6 +370,8 @@ void add_compare(CLI::App& program) {
           "folder for compare.json, models.csv, recordings.csv and report.html; -: compare.json on standard output")
       ->required();
   command->add_flag("--mat", options->mat, "also write the tables as tables.mat, for MATLAB");
+  add_at_option(*command, options->data);
+  add_without_time_option(*command, options->data);
   add_common_options(*command, options->common);
   command->footer("Example:\n  hysteron compare a/model.json b/model.json recordings/ --out comparison");
   command->callback([options] { run(*options); });

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "app/command.hpp"
+#include "app/laws.hpp"
 #include "app/result.hpp"
 #include "app/unfinished.hpp"
 #include "app/values.hpp"
@@ -23,8 +24,7 @@ struct Options {
   DataOptions data;
   CommonOptions common;
   std::string model;
-  std::string by_current;
-  std::string by_frequency;
+  LawOptions follow;
   std::vector<std::string> effects;
   std::vector<std::string> laws;
   int most_effects = 5;
@@ -111,11 +111,12 @@ std::unique_ptr<Diagnosis> diagnosed(const Campaign& campaign, DiagnoseOptions o
 void run(const Options& options) {
   const auto begun = std::chrono::steady_clock::now();
   std::vector<std::string> remarks;
-  const Campaign campaign = load(options.data, Required::motion_and_force, &remarks);
+  DataOptions from = options.data;
+  from.conditions = conditions_asked(options.follow);
+  const Campaign campaign = load(from, Required::motion_and_force, &remarks);
   DiagnoseOptions diagnose_with;
   diagnose_with.model = options.model;
-  diagnose_with.layout.by_current = parse_orders("--by-current", options.by_current);
-  diagnose_with.layout.by_frequency = parse_orders("--by-frequency", options.by_frequency);
+  set_laws(options.follow, diagnose_with.layout);
   diagnose_with.objective = objective_options(options.common);
   diagnose_with.seed = options.common.seed;
   diagnose_with.most_effects = options.most_effects;
@@ -178,9 +179,7 @@ void add_diagnose(CLI::App& program) {
   add_data_options(*command, options->data);
   add_keep_option(*command, options->data);
   command->add_option("--model", options->model, "base damper law; default campaign.toml's, else bouc-wen");
-  command->add_option("--by-current", options->by_current,
-                      "parameters that are polynomials in the drive, e.g. alpha:1,c0:1");
-  command->add_option("--by-frequency", options->by_frequency, "parameters that are polynomials in frequency");
+  add_law_options(*command, options->follow);
   command->add_option("--effects", options->effects, "effects to consider; default all, see `hysteron list effects`")
       ->delimiter(',')
       ->allow_extra_args(false);

@@ -33,6 +33,7 @@ Recording motion_of(const Options& options) {
   }
   DataOptions data = options.data;
   data.data = {options.motion};
+  data.at.clear();  // of the model
   const Campaign campaign = load(data, Required::motion);
   if (campaign.recordings.size() != 1) {
     throw InputError(options.motion + ": holds " + std::to_string(campaign.recordings.size()) +
@@ -43,7 +44,8 @@ Recording motion_of(const Options& options) {
 
 void run(const Options& options) {
   const ExportTarget& target = export_target(options.to);
-  const StoredModel stored = read_model(options.model);
+  StoredModel stored = read_model(options.model);
+  hold_conditions(stored, numbers_at(options.data), "export");
   ExportedModel exported{stored.model, stored.held, stored.terms, options.name};
   exported.tolerance = options.tolerance;
   exported.most_substeps = options.most_substeps;
@@ -100,6 +102,7 @@ void add_export(CLI::App& program) {
       "--motion", options->motion,
       "recording whose motion the test vector replays; default a motion of 10 mm and a drive about 0.5");
   add_reading_options(*command, options->data);
+  add_at_option(*command, options->data);
   command->add_option("--tolerance", options->tolerance, "relative force error allowed to the integration")
       ->check(real_number(1e-10, 1e-2))
       ->capture_default_str();

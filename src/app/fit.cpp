@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "app/command.hpp"
+#include "app/laws.hpp"
 #include "app/result.hpp"
 #include "app/values.hpp"
 #include "core/error.hpp"
@@ -30,8 +31,7 @@ struct FitOptions {
   std::vector<std::string> solver_commands;  // NAME=COMMAND
   std::vector<std::string> effects;
   std::size_t budget = 20000;
-  std::string by_current;
-  std::string by_frequency;
+  LawOptions laws;
   std::string stages = "one";
   std::vector<std::string> fix;
   std::vector<std::string> bounds;
@@ -40,6 +40,7 @@ struct FitOptions {
   bool response = false;  // recordings of a mass on the damper
   Rig rig;
   std::string interpolation = "cubic";
+  std::string excitation = "auto";
 };
 
 FitRequest request_of(const FitOptions& options) {
@@ -49,6 +50,9 @@ FitRequest request_of(const FitOptions& options) {
   if (options.response) {
     request.rig = options.rig;
     request.rig->interpolation = interpolation_of(options.interpolation);
+    request.excitation = options.excitation == "force"  ? Excites::force
+                         : options.excitation == "base" ? Excites::base
+                                                        : Excites::what_is_recorded;
   }
   IdentifyOptions& result = request.identify;
   add_solver_commands(options.solver_commands);
@@ -60,8 +64,7 @@ FitRequest request_of(const FitOptions& options) {
   result.effects = options.effects;
   result.objective = objective_options(options.common);
   result.objective.stopped = [] { return interrupted(); };
-  result.layout.by_current = parse_orders("--by-current", options.by_current);
-  result.layout.by_frequency = parse_orders("--by-frequency", options.by_frequency);
+  set_laws(options.laws, result.layout);
   for (const std::string& text : options.fix) {
     const auto [name, value] = split_pair("--fix", text, "PARAMETER=VALUE in SI units");
     if (!result.layout.fix.emplace(name, parse_number("--fix", value)).second) {
@@ -153,7 +156,9 @@ void tell(const FitResult& fit, const FitData& data, const FitOptions& options) 
 void run(const FitOptions& options) {
   const auto begun = std::chrono::steady_clock::now();
   std::vector<std::string> remarks;
-  Campaign campaign = load(options.data, options.response ? Required::motion : Required::motion_and_force, &remarks);
+  DataOptions from = options.data;
+  from.conditions = conditions_asked(options.laws);
+  Campaign campaign = load(from, options.response ? Required::motion : Required::motion_and_force, &remarks);
   FitRequest request = request_of(options);
   // Wrong names are told before a folder is made.
   const FitData data = fit_data(std::move(campaign), request);
@@ -212,9 +217,7 @@ void add_fit(CLI::App& program) {
   command->add_option("--budget", options->budget, "evaluations each solver may use")
       ->transform(whole_number(1, 1000000000))
       ->capture_default_str();
-  command->add_option("--by-current", options->by_current,
-                      "parameters that are polynomials in the drive, e.g. alpha:1,c0:1");
-  command->add_option("--by-frequency", options->by_frequency, "parameters that are polynomials in frequency");
+  add_law_options(*command, options->laws);
   command
       ->add_option("--stages", options->stages,
                    "two: also the laws through the values of conditions fitted freely, beside the joint fit")
@@ -229,9 +232,10 @@ void add_fit(CLI::App& program) {
   command->add_option("--set", options->settings, "SETTING=NUMBER of the solver; repeatable")
       ->delimiter(',')
       ->allow_extra_args(false);
-  CLI::Option* response = command->add_flag(
-      "--response", options->response,
-      "the recordings are of a mass on the damper: its displacement, and the force on it (none: free decay)");
+  add_without_time_option(*command, options->data);
+  CLI::Option* response = command->add_flag("--response", options->response,
+                                            "the recordings are of a mass on the damper: its displacement, and the "
+                                            "force on it or the displacement of its base (neither: free decay)");
   command->add_option("--mass", options->rig.mass, "kg, with --response")
       ->needs(response)
       ->check(real_number(1e-9, 1e12));
@@ -242,8 +246,14 @@ void add_fit(CLI::App& program) {
       ->needs(response)
       ->check(real_number(-1e15, 1e15));
   command
+      ->add_option("--excitation", options->excitation,
+                   "force: on the mass; base: displacement of what it stands on; auto: what the files hold; with "
+                   "--response")
+      ->check(CLI::IsMember({"auto", "force", "base"}))
+      ->needs(response);
+  command
       ->add_option("--interpolation", options->interpolation,
-                   "of the force on the mass between its samples: linear, cubic, band-limited; with --response")
+                   "of force or base between the samples: linear, cubic, band-limited; with --response")
       ->check(CLI::IsMember({"linear", "cubic", "band-limited"}))
       ->needs(response);
   response->needs(command->get_option("--mass"));
@@ -254,9 +264,11 @@ void add_fit(CLI::App& program) {
   add_common_options(*command, options->common);
   command->footer(
       "Example:\n  hysteron fit recordings/ --model bouc-wen --by-current alpha:1,c0:1 --out out\n"
+      "  hysteron fit recordings/ --model bouc-wen --by pressure=alpha:1,c0:1 --by temperature=c0:1 --out out\n"
       "  hysteron fit recordings/ --model modified-bouc-wen --effects offset-force --solver pso,ga,multistart-lm --out "
       "out\n"
       "  hysteron fit shaker/ --response --mass 250 --stiffness 2e4 --model bouc-wen --out out\n"
+      "  hysteron fit crosshead/ --without-time --model bouc-wen --fix c0=0 --out out\n"
       "  hysteron fit recordings/ --model bouc-wen --solver mine --solver-command \"mine=python3 mine.py\" --out out");
   command->callback([options] { run(*options); });
 }

@@ -72,7 +72,8 @@ std::string reproduction_markdown(const PublishedTable& entry, const Reproductio
   return text;
 }
 
-// Gives the study's solvers these settings, each to those that know it and are not there as they ship. Returns what was changed, "pso: topology = 0".
+// Gives the study's solvers these settings, each to those that know it and are not there as they ship. Returns what was
+// changed, "pso: topology = 0".
 std::vector<std::string> set(Study& study, const std::map<std::string, double>& settings) {
   std::vector<std::string> changed;
   for (const auto& [name, value] : settings) {

@@ -31,8 +31,10 @@ struct Options {
   std::string out;
 };
 
-Recording read_excitation(const Options& options) {
-  const Campaign campaign = load(options.data, Required::nothing);
+Recording read_excitation(const Options& options, const StoredModel& stored) {
+  DataOptions data = options.data;
+  data.conditions = conditions_of({&stored});
+  const Campaign campaign = load(data, Required::nothing);
   if (campaign.recordings.size() != 1) {
     throw InputError(options.data.data[0] + ": holds " + std::to_string(campaign.recordings.size()) +
                      " recordings, expected one");
@@ -55,7 +57,8 @@ std::vector<double> repeated_times(const std::vector<double>& time, int count) {
 
 void run(Options& options) {
   StoredModel stored = read_model(options.model);
-  const Recording recording = read_excitation(options);
+  const Recording recording = read_excitation(options, stored);
+  follow_conditions(stored, {recording});
   if (std::isnan(options.drive)) {
     check_drive(stored, options.model, recording);
   }
@@ -92,15 +95,12 @@ void run(Options& options) {
   warn_of(guesses_of(stored, options.model, {as_motion}));
   Oscillator& oscillator = options.oscillator;
   oscillator.model = stored.model;
-  oscillator.parameters = [&](double drive) { return parameters_at(stored.held, stored.terms, drive, frequency); };
-  for (const Part* effect : stored.model.effects) {
-    const bool follows = std::ranges::any_of(stored.terms, [](const Term& term) { return term.drive_power > 0; });
-    if (follows && (effect->on_double.excite != nullptr || effect->on_double.recall != nullptr) &&
-        drive_varies(recording)) {
-      throw InputError("respond: " + std::string(effect->id) +
-                       " acts on a drive that varies, which is not offered yet; expected a constant drive");
-    }
-  }
+  oscillator.parameters = [&](double drive, std::span<const double> conditions) {
+    return parameters_at(stored.held, stored.terms, drive, frequency, conditions);
+  };
+  const bool follows = std::ranges::any_of(stored.terms, [](const Term& term) { return term.drive_power > 0; });
+  require_response(stored.model, parameters_at(stored.held, stored.terms, 0.0, frequency, middle_of(stored.conditions)),
+                   follows && drive_varies(recording));
   Excitation excitation;
   excitation.time = periodic ? repeated_times(recording.time, options.periods) : recording.time;
   (base ? excitation.base : excitation.force) =
@@ -111,6 +111,7 @@ void run(Options& options) {
   } else if (!recording.drive.empty()) {
     excitation.drive = Signal(recording.time, quiet_drive(recording.drive), Interpolation::linear, periodic);
   }
+  excitation.conditions = condition_signals(recording, periodic);
   const MassMotion response = respond(oscillator, excitation, options.respond);
 
   std::string text = "time [s],displacement [m],velocity [m/s],acceleration [m/s^2],force [N]";
@@ -154,6 +155,7 @@ void add_respond(CLI::App& program) {
       ->required()
       ->expected(1);
   add_reading_options(*command, options->data);
+  add_at_option(*command, options->data);
   command->add_option("--mass", options->oscillator.mass, "kg")->required()->check(real_number(1e-9, 1e12));
   command->add_option("--stiffness", options->oscillator.stiffness, "N/m, of a spring beside the model")
       ->check(real_number(-1e15, 1e15));

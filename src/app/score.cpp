@@ -26,6 +26,8 @@ void add_score(CLI::App& program) {
   command->add_option("MODEL", options->model, "model.json written by fit or diagnose")->required();
   add_data_options(*command, options->data);
   add_keep_option(*command, options->data);
+  add_at_option(*command, options->data);
+  add_without_time_option(*command, options->data);
   add_common_options(*command, options->common);
   command->add_option("--out", options->out, "file for the table of recordings, CSV, or MAT by its ending .mat");
   command->add_flag("--json", options->json, "JSON on standard output");
@@ -35,7 +37,8 @@ void add_score(CLI::App& program) {
       throw InputError("--out -: the scores are on standard output already, expected a file");
     }
     const ObjectiveOptions objective = objective_options(options->common);
-    const StoredModel stored = read_model(options->model);
+    StoredModel stored = read_model(options->model);
+    options->data.conditions = conditions_of({&stored});
     const Campaign campaign = load(options->data);
     std::vector<std::string> remarks;
     const CampaignScore result = score_campaign(stored, options->model, campaign.recordings, objective, remarks);

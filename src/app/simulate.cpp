@@ -109,7 +109,7 @@ std::vector<double> force_of_preset(const Preset& preset, const Options& options
   ObjectiveOptions objective;
   objective.tolerance = options.tolerance;
   const Target target = make_target(recording, objective);
-  if (recording.drive.empty() || !target.drive_varies) {
+  if (recording.drive.empty() || !target.inputs_vary) {
     return predict(model, parameters(recording.drive.empty() ? 0.0 : recording.drive.front()), {}, target);
   }
   // A drive that varies: parameters sample by sample, from rest.
@@ -147,6 +147,8 @@ void add_simulate(CLI::App& program) {
       ->add_option("--drive", options->drive, "constant current or voltage for the preset, instead of the recording's")
       ->check(real_number(-1e9, 1e9));
   add_reading_options(*command, options->data);
+  add_at_option(*command, options->data);
+  add_without_time_option(*command, options->data);
   command
       ->add_option("--out", options->out,
                    "file to write, CSV, or MAT by its ending .mat: time [s],force [N]; -: standard output")
@@ -164,6 +166,9 @@ void add_simulate(CLI::App& program) {
       throw InputError(preset ? "simulate --preset: expected RECORDING alone"
                               : "simulate: expected MODEL and RECORDING");
     }
+    if (preset && (options->data.without_time || !options->data.at.empty())) {
+      throw InputError("simulate: --without-time and --at belong to a model.json");
+    }
     if (!preset && (!options->set.empty() || !std::isnan(options->drive))) {
       throw InputError("simulate: --set and --drive belong to --preset");
     }
@@ -173,6 +178,7 @@ void add_simulate(CLI::App& program) {
       stored = read_model(options->words[0]);
     }
     options->data.data = {options->words.back()};
+    if (!preset) options->data.conditions = conditions_of({&stored});
     const Campaign campaign = load(options->data, Required::motion);
     if (campaign.recordings.size() != 1) {
       throw InputError(options->data.data[0] + ": holds " + std::to_string(campaign.recordings.size()) +

@@ -60,6 +60,10 @@ std::string identity_of(const Campaign& campaign, const DiagnoseOptions& options
   const auto whole = [&](int order) { bytes.whole(static_cast<std::uint64_t>(order)); };
   add_map(bytes, options.layout.by_current, whole);
   add_map(bytes, options.layout.by_frequency, whole);
+  for (const auto& [condition, orders] : options.layout.by) {
+    bytes.text(condition);
+    add_map(bytes, orders, whole);
+  }
   whole(static_cast<int>(options.objective.normalisation));
   whole(static_cast<int>(options.objective.weighting));
   bytes.number(options.objective.tolerance);

@@ -70,4 +70,13 @@ std::vector<double> quiet_drive(const std::vector<double>& drive) {
   return result;
 }
 
+std::vector<double> quiet_condition(const std::vector<double>& values) {
+  if (values.empty() || varies(values)) {
+    return quiet_drive(values);
+  }
+  const auto [low, high] = std::ranges::minmax(values);
+  // The mean of equal numbers is not always theirs.
+  return {low == high ? low : std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size())};
+}
+
 }  // namespace hysteron

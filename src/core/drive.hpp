@@ -5,8 +5,8 @@
 
 namespace hysteron {
 
-// Fourth differences, scaled so that white noise keeps its standard deviation; empty for fewer than five values. What is
-// smooth leaves next to nothing in them.
+// Fourth differences, scaled so that white noise keeps its standard deviation; empty for fewer than five values. What
+// is smooth leaves next to nothing in them.
 std::vector<double> fourth_differences(const std::vector<double>& values);
 
 // Standard deviation of the channel's white noise, by the median of its fourth differences; 0 for a channel that is
@@ -19,5 +19,8 @@ bool varies(const std::vector<double>& drive);
 // Its mean where it does not vary; else each sample is the mean of up to 17 around it, as far to both sides as they
 // agree with it within their noise, so that steps and ramps stay.
 std::vector<double> quiet_drive(const std::vector<double>& drive);
+
+// As quiet_drive, and one value alone where it does not vary.
+std::vector<double> quiet_condition(const std::vector<double>& values);
 
 }  // namespace hysteron

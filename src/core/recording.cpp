@@ -8,9 +8,17 @@
 
 namespace hysteron {
 
-std::array<std::vector<double>*, 8> channels_of(Recording& recording) {
-  return {&recording.time,         &recording.displacement,         &recording.velocity, &recording.force,
-          &recording.acceleration, &recording.derived_acceleration, &recording.drive,    &recording.temperature};
+std::vector<std::vector<double>*> channels_of(Recording& recording) {
+  std::vector<std::vector<double>*> result = {
+      &recording.time,  &recording.displacement, &recording.velocity,
+      &recording.force, &recording.acceleration, &recording.derived_acceleration,
+      &recording.drive, &recording.temperature,  &recording.base};
+  for (ConditionChannel& condition : recording.conditions) {
+    if (condition.values.size() > 1) {
+      result.push_back(&condition.values);
+    }
+  }
+  return result;
 }
 
 Recording every_kth(const Recording& recording, std::size_t k) {
@@ -24,7 +32,11 @@ Recording every_kth(const Recording& recording, std::size_t k) {
   };
   // A member that is added and forgotten here does not compile.
   const auto& [file, sha256, time, displacement, velocity, force, acceleration, derived_acceleration, drive,
-               temperature, unused, drive_kind, velocity_measured, start] = recording;
+               temperature, base, unused, conditions, drive_kind, velocity_measured, started, timed, start] = recording;
+  std::vector<ConditionChannel> kept_conditions;
+  for (const ConditionChannel& condition : conditions) {
+    kept_conditions.push_back({condition.name, condition.unit, kept(condition.values)});
+  }
   return {file,
           sha256,
           kept(time),
@@ -35,9 +47,13 @@ Recording every_kth(const Recording& recording, std::size_t k) {
           kept(derived_acceleration),
           kept(drive),
           kept(temperature),
+          kept(base),
           unused,
+          std::move(kept_conditions),
           drive_kind,
           velocity_measured,
+          started,
+          timed,
           start};
 }
 
@@ -73,11 +89,16 @@ std::vector<UnusedOfAll> unused_of_all(const std::vector<Recording>& recordings)
       result.push_back(std::move(column));
     }
   };
-  add("temperature [degC]", [](const Recording& of) {
-    return of.temperature.empty() ? std::nullopt
-                                  : std::optional(std::accumulate(of.temperature.begin(), of.temperature.end(), 0.0) /
-                                                  static_cast<double>(of.temperature.size()));
-  });
+  const auto follows = [&](const char* name) {
+    return std::ranges::find(recordings.front().conditions, name, &ConditionChannel::name) !=
+           recordings.front().conditions.end();
+  };
+  if (!follows("temperature"))
+    add("temperature [degC]", [](const Recording& of) {
+      return of.temperature.empty() ? std::nullopt
+                                    : std::optional(std::accumulate(of.temperature.begin(), of.temperature.end(), 0.0) /
+                                                    static_cast<double>(of.temperature.size()));
+    });
   for (const UnusedColumn& column : recordings.front().unused) {
     add(column.name, [&](const Recording& of) {
       const auto own = std::ranges::find(of.unused, column.name, &UnusedColumn::name);

@@ -1,9 +1,9 @@
 // A measured recording and a campaign of them: plain values in SI units.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,6 +22,17 @@ struct UnusedColumn {
   double mean = 0.0;
 };
 
+// What parameters may follow beside motion, frequency and drive: a column of the file (a pressure, a temperature, the
+// position of a valve), or one number of the whole recording.
+struct ConditionChannel {
+  std::string name;            // in lower case
+  std::string unit;            // of the values: in SI where the program knows the unit, else as written; may be empty
+  std::vector<double> values;  // without the noise of the measurement; one a sample, or one where it does not vary
+};
+
+// Parameter -> order of its polynomial.
+using LawOrders = std::map<std::string, int>;
+
 // One test of one damper. All channels have the length of `time`; absent optional channels are empty.
 struct Recording {
   std::string file;                          // as the user named it, relative to the campaign folder, forward slashes
@@ -34,16 +45,20 @@ struct Recording {
   std::vector<double> derived_acceleration;  // m/s^2, slope of the velocity, smoothed as its noise asks; may be empty
   std::vector<double> drive;                 // A or V, optional
   std::vector<double> temperature;           // degC, optional
+  std::vector<double> base;                  // m, displacement of what the mass stands on, optional
   std::vector<UnusedColumn> unused;          // numbers all along, in the order of the file
+  std::vector<ConditionChannel> conditions;  // that laws follow, in order of name, the same in all of a campaign
   DriveKind drive_kind = DriveKind::none;
   bool velocity_measured = false;
+  std::optional<double> started;  // s since 1970 by the clock that the file or campaign.toml names
+  bool timed = true;  // else the file has no time, and one was made for a law that does not depend on the rate
   Start start = Start::unknown;  // known of copies with fewer samples, which no longer show it
 
   [[nodiscard]] std::size_t size() const { return time.size(); }
 };
 
-// All channels, absent ones too.
-std::array<std::vector<double>*, 8> channels_of(Recording& recording);
+// All channels, absent ones too, and the conditions that vary.
+std::vector<std::vector<double>*> channels_of(Recording& recording);
 // Recordings where they are, for what needs no copy of them: all, or those of the indices.
 std::vector<const Recording*> refer_to(const std::vector<Recording>& recordings);
 std::vector<const Recording*> refer_to(const std::vector<Recording>& recordings,
@@ -65,10 +80,11 @@ enum class Role { unassigned, fit, validate };
 // Recordings that belong together, with what campaign.toml says of them.
 struct Campaign {
   std::vector<Recording> recordings;
-  std::vector<Role> roles;                  // one per recording
-  std::string model;                        // default for --model, may be empty
-  std::map<std::string, int> by_current;    // parameter -> polynomial order in the drive
-  std::map<std::string, int> by_frequency;  // parameter -> polynomial order in frequency
+  std::vector<Role> roles;              // one per recording
+  std::string model;                    // default for --model, may be empty
+  LawOrders by_current;                 // in the drive
+  LawOrders by_frequency;               // in the frequency of the motion
+  std::map<std::string, LawOrders> by;  // in a condition, by its name
 };
 
 }  // namespace hysteron

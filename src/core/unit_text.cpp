@@ -17,8 +17,19 @@ std::string term_unit(std::string_view unit, int drive_power, int frequency_powe
   return result;
 }
 
+std::string unit_over(std::string_view unit, std::string_view by, int power) {
+  std::string result(unit);
+  const bool one_symbol = by.find_first_of("/ *") == std::string_view::npos;
+  for (int k = 0; k < power && !by.empty(); ++k) {
+    result += one_symbol ? "/" + std::string(by) : "/(" + std::string(by) + ")";
+  }
+  return result;
+}
+
 std::string unit_text(const std::string& unit) {
-  if (!unit.ends_with("/A") && !unit.ends_with("/V") && !unit.ends_with("/Hz")) {
+  // Of laws in the drive or the frequency, or divided more than once, as a law in a column is: "N s/m/degC/degC".
+  const bool divided_again = std::ranges::count(unit, '/') > 1 && unit.find_first_of("()") == std::string::npos;
+  if (!divided_again && !unit.ends_with("/A") && !unit.ends_with("/V") && !unit.ends_with("/Hz")) {
     return unit;
   }
   // Behind a bracket what is divided by is a whole: "m/(N s)/A".

@@ -14,7 +14,7 @@ std::vector<Handle> handles_of(const Fit& fit) {
     const bool of_the_law = fit.layout->names()[law.parameter].find('.') == std::string::npos;
     const PhysicalRole role = fit.layout->cards()[law.parameter].role;
     if (of_the_law && (fit.layout->coordinates()[law.first].linear || role != PhysicalRole::none)) {
-      result.push_back({law.parameter, law.drive_nodes.size() * law.frequency_nodes.size() > 1});
+      result.push_back({law.parameter, law.count() > 1});
     }
   }
   return result;
@@ -25,7 +25,7 @@ Fit moved(const Fit& fit, const Handle& handle, double step) {
   for (Term& term : result.terms) {
     if (term.parameter == handle.parameter && handle.factor) {
       term.value *= 1.0 + step;
-    } else if (term.parameter == handle.parameter && term.drive_power == 0 && term.frequency_power == 0) {
+    } else if (term.parameter == handle.parameter && term.constant()) {
       term.value += step;
     }
   }

@@ -162,7 +162,8 @@ void fit_groups(Belonging& result, const Workbench& bench, const Fit& joint, con
     const Fit own = bench.on_all(joint, members, descent_rounds);
     result.nrmse.push_back(own.cost);
     apart += squared(own.cost) * static_cast<double>(members.size()) / static_cast<double>(recordings.size());
-    values.push_back(parameters_at(own.layout->held(), own.terms, drive, frequency));
+    values.push_back(
+        parameters_at(own.layout->held(), own.terms, drive, frequency, middle_of(own.layout->conditions())));
   }
   result.apart = std::sqrt(apart);
   const std::vector<double> costs = cost_of_sharing(quadratics, partition.groups);

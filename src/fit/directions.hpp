@@ -9,9 +9,9 @@
 
 namespace hysteron {
 
-// Where the drive is constant along a recording and no effect acts on it, the parameters are constant, and the
-// derivatives by all nodes of a parameter's law are multiples of that by the parameter: one direction a law. Else one
-// direction a coordinate.
+// Where drive and conditions are constant along a recording and no effect acts on it, the parameters are constant, and
+// the derivatives by all nodes of a parameter's law are multiples of that by the parameter: one direction a law. Else
+// one direction a coordinate.
 struct Directions {
   struct Of {
     std::size_t direction;

@@ -137,7 +137,7 @@ void add_estimates(Identification& result, const Uncertainty& uncertainty, const
                    DriveKind drive_kind) {
   const Layout& layout = result.layout;
   for (const ParameterLaw& law : layout.laws()) {
-    const std::size_t count = law.drive_nodes.size() * law.frequency_nodes.size();
+    const std::size_t count = law.count();
     bool law_open = false;
     bool law_free = false;
     std::optional<std::string> bound;
@@ -156,8 +156,8 @@ void add_estimates(Identification& result, const Uncertainty& uncertainty, const
       const Parameter& card = layout.cards()[law.parameter];
       Estimate estimate;
       estimate.term = term;
-      estimate.name = term_name(layout.names()[law.parameter], term.drive_power, term.frequency_power);
-      estimate.unit = term_unit(card.unit, term.drive_power, term.frequency_power, drive_kind);
+      estimate.name = term_name(layout.names()[law.parameter], term, layout.conditions());
+      estimate.unit = term_unit(card.unit, term, layout.conditions(), drive_kind);
       estimate.meaning = std::string(card.meaning);
       estimate.lower = card.box.lower;
       estimate.upper = card.box.upper;

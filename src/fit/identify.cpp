@@ -120,7 +120,7 @@ void check_integration(Identification& result, const std::vector<double>& best, 
 std::vector<std::string> warnings_of(const std::vector<Estimate>& estimates) {
   std::vector<std::string> result;
   for (const Estimate& estimate : estimates) {
-    if (estimate.term.drive_power + estimate.term.frequency_power > 0) {
+    if (!estimate.term.constant()) {
       continue;
     }
     if (estimate.at_bound) {

@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "core/suggest.hpp"
+#include "core/unit_text.hpp"
 
 namespace hysteron {
 namespace {
@@ -104,6 +105,72 @@ double dominant_frequency(const Recording& recording) {
   return 0.5 / halves[halves.size() / 2];
 }
 
+std::size_t ParameterLaw::count() const {
+  std::size_t result = drive_nodes.size() * frequency_nodes.size();
+  for (const std::vector<double>& nodes : condition_nodes) {
+    result *= nodes.size();
+  }
+  return result;
+}
+
+ParameterLaw::Node ParameterLaw::node(std::size_t k) const {
+  Node result{drive_nodes[k % drive_nodes.size()], 0.0, {}};
+  k /= drive_nodes.size();
+  result.frequency = frequency_nodes[k % frequency_nodes.size()];
+  k /= frequency_nodes.size();
+  for (const std::vector<double>& nodes : condition_nodes) {
+    result.conditions.push_back(nodes[k % nodes.size()]);
+    k /= nodes.size();
+  }
+  return result;
+}
+
+bool Term::constant() const {
+  return drive_power == 0 && frequency_power == 0 &&
+         std::ranges::all_of(condition_powers, [](int power) { return power == 0; });
+}
+
+bool Term::same_powers(const Term& other) const {
+  const auto power = [](const Term& of, std::size_t c) {
+    return c < of.condition_powers.size() ? of.condition_powers[c] : 0;
+  };
+  bool same = drive_power == other.drive_power && frequency_power == other.frequency_power;
+  for (std::size_t c = 0; c < std::max(condition_powers.size(), other.condition_powers.size()); ++c) {
+    same = same && power(*this, c) == power(other, c);
+  }
+  return same;
+}
+
+std::vector<double> middle_of(const std::vector<ConditionRange>& conditions) {
+  std::vector<double> result;
+  result.reserve(conditions.size());
+  for (const ConditionRange& condition : conditions) {
+    result.push_back(0.5 * (condition.low + condition.high));
+  }
+  return result;
+}
+
+namespace {
+
+// Takes the conditions of a recording into the ranges, which are empty where it is the first.
+void widen(std::vector<ConditionRange>& ranges, const Recording& recording, bool first) {
+  if (first) {
+    for (const ConditionChannel& condition : recording.conditions) {
+      ranges.push_back({condition.name, condition.unit, condition.values.front(), condition.values.front()});
+    }
+  }
+  if (!std::ranges::equal(ranges, recording.conditions, {}, &ConditionRange::name, &ConditionChannel::name)) {
+    throw InputError(recording.file + ": not the conditions of the other recordings, expected the same in all");
+  }
+  for (std::size_t c = 0; c < ranges.size(); ++c) {
+    const auto range = std::ranges::minmax(recording.conditions[c].values);
+    ranges[c].low = std::min(ranges[c].low, range.min);
+    ranges[c].high = std::max(ranges[c].high, range.max);
+  }
+}
+
+}  // namespace
+
 DataScale scale_of(const std::vector<Recording>& recordings) {
   DataScale scale{0.0, 0.0, 0.0};
   bool first = true;
@@ -132,6 +199,7 @@ DataScale scale_of(const std::vector<Recording>& recordings) {
     scale.drive_high = first ? drive_high : std::max(scale.drive_high, drive_high);
     scale.frequency_low = first ? frequency : std::min(scale.frequency_low, frequency);
     scale.frequency_high = first ? frequency : std::max(scale.frequency_high, frequency);
+    widen(scale.conditions, recording, first);
     first = false;
   }
   scale.middle = 0.5 * (lowest + highest);
@@ -139,12 +207,23 @@ DataScale scale_of(const std::vector<Recording>& recordings) {
 }
 
 Layout::Layout(CompositeModel model, const DataScale& scale, const LayoutOptions& options)
-    : model_(std::move(model)), cards_(model_.parameters()), names_(model_.parameter_names()) {
+    : model_(std::move(model)),
+      cards_(model_.parameters()),
+      names_(model_.parameter_names()),
+      conditions_(scale.conditions) {
   for (const auto& [name, order] : options.by_current) {
     check_known(names_, name, "--by-current");
   }
   for (const auto& [name, order] : options.by_frequency) {
     check_known(names_, name, "--by-frequency");
+  }
+  for (const auto& [condition, orders] : options.by) {
+    for (const auto& [name, order] : orders) {
+      check_known(names_, name, "--by " + condition);
+    }
+    if (std::ranges::find(conditions_, condition, &ConditionRange::name) == conditions_.end()) {
+      throw InputError("--by " + condition + ": the recordings were read without it, expected a column of them");
+    }
   }
   for (const auto& [name, value] : options.fix) {
     check_known(names_, name, "--fix");
@@ -193,16 +272,29 @@ Layout::Layout(CompositeModel model, const DataScale& scale, const LayoutOptions
       throw InputError("--by-frequency " + names_[j] + ":" + std::to_string(frequency_order) +
                        ": the recordings hold only one frequency, expected at least two");
     }
+    std::vector<std::vector<double>> condition_nodes;
+    bool follows_condition = false;
+    for (const ConditionRange& condition : conditions_) {
+      const auto orders = options.by.find(condition.name);
+      const auto own = orders == options.by.end() ? LawOrders::const_iterator{} : orders->second.find(names_[j]);
+      const int order = orders == options.by.end() || own == orders->second.end() ? 0 : own->second;
+      if (order > 0 && !(condition.high > condition.low)) {
+        throw InputError("--by " + condition.name + "=" + names_[j] + ":" + std::to_string(order) +
+                         ": the recordings hold only one " + condition.name + ", expected at least two");
+      }
+      follows_condition = follows_condition || order > 0;
+      condition_nodes.push_back(nodes(condition.low, condition.high, order));
+    }
     if (card.fixed) {
-      if (drive_order + frequency_order > 0) {
+      if (drive_order + frequency_order > 0 || follows_condition) {
         throw InputError("parameter '" + names_[j] + "' is fixed and cannot follow a law, expected --bounds for it");
       }
       continue;
     }
     ParameterLaw law{j, nodes(scale.drive_low, scale.drive_high, drive_order),
                      nodes(scale.frequency_low, scale.frequency_high, frequency_order), coordinates_.size()};
-    const std::size_t count = law.drive_nodes.size() * law.frequency_nodes.size();
-    for (std::size_t node = 0; node < count; ++node) {
+    law.condition_nodes = std::move(condition_nodes);
+    for (std::size_t node = 0; node < law.count(); ++node) {
       coordinates_.push_back(
           {j, node, card.scale, card.box.lower, card.box.upper, card.linear && card.scale == Scale::linear});
     }
@@ -239,7 +331,8 @@ double Layout::unit(std::size_t c, double value) const {
 }
 
 template <class T>
-std::vector<T> Layout::weights(const ParameterLaw& law, const T& drive, double frequency) {
+std::vector<T> Layout::weights(const ParameterLaw& law, const T& drive, double frequency,
+                               std::span<const double> conditions) {
   const std::vector<T> by_drive = lagrange<T>(law.drive_nodes, drive);
   const std::vector<double> by_frequency = lagrange<double>(law.frequency_nodes, frequency);
   std::vector<T> result;
@@ -248,11 +341,44 @@ std::vector<T> Layout::weights(const ParameterLaw& law, const T& drive, double f
       result.push_back(wd * T(wf));
     }
   }
+  for (std::size_t c = 0; c < law.condition_nodes.size(); ++c) {
+    if (law.condition_nodes[c].size() == 1) {
+      continue;
+    }
+    std::vector<T> wider;
+    for (const double wc : lagrange<double>(law.condition_nodes[c], conditions[c])) {
+      for (const T& weight : result) {
+        wider.push_back(weight * T(wc));
+      }
+    }
+    result = std::move(wider);
+  }
   return result;
 }
-template std::vector<double> Layout::weights(const ParameterLaw&, const double&, double);
-template std::vector<Lanes> Layout::weights(const ParameterLaw&, const Lanes&, double);
-template std::vector<LaneDual> Layout::weights(const ParameterLaw&, const LaneDual&, double);
+template std::vector<double> Layout::weights(const ParameterLaw&, const double&, double, std::span<const double>);
+template std::vector<Lanes> Layout::weights(const ParameterLaw&, const Lanes&, double, std::span<const double>);
+template std::vector<LaneDual> Layout::weights(const ParameterLaw&, const LaneDual&, double, std::span<const double>);
+
+namespace {
+
+// Nodes of a law's polynomials, in the order in which its nodes run.
+std::vector<std::vector<double>> axes_of(const ParameterLaw& law) {
+  std::vector<std::vector<double>> result{law.drive_nodes, law.frequency_nodes};
+  result.insert(result.end(), law.condition_nodes.begin(), law.condition_nodes.end());
+  return result;
+}
+
+// Where node or term k of a law stands on every axis.
+std::vector<std::size_t> place_of(const std::vector<std::vector<double>>& axes, std::size_t k) {
+  std::vector<std::size_t> result;
+  for (const std::vector<double>& axis : axes) {
+    result.push_back(k % axis.size());
+    k /= axis.size();
+  }
+  return result;
+}
+
+}  // namespace
 
 std::vector<double> Layout::initial() const {
   std::vector<double> u;
@@ -266,17 +392,20 @@ std::vector<double> Layout::term_matrix() const {
   const std::size_t d = dimension();
   std::vector<double> matrix(d * d, 0.0);  // as many terms as nodes
   for (const ParameterLaw& law : laws_) {
-    const std::size_t nd = law.drive_nodes.size();
-    const std::size_t nf = law.frequency_nodes.size();
-    for (std::size_t b = 0; b < nf; ++b) {
-      const auto by_frequency = lagrange_coefficients(law.frequency_nodes, b);
-      for (std::size_t a = 0; a < nd; ++a) {
-        const auto by_drive = lagrange_coefficients(law.drive_nodes, a);
-        for (std::size_t q = 0; q < nf; ++q) {
-          for (std::size_t p = 0; p < nd; ++p) {
-            matrix[(law.first + q * nd + p) * d + law.first + b * nd + a] = by_drive[p] * by_frequency[q];
-          }
+    const std::vector<std::vector<double>> axes = axes_of(law);
+    for (std::size_t node = 0; node < law.count(); ++node) {
+      const std::vector<std::size_t> at = place_of(axes, node);
+      std::vector<std::vector<double>> coefficients;
+      for (std::size_t a = 0; a < axes.size(); ++a) {
+        coefficients.push_back(lagrange_coefficients(axes[a], at[a]));
+      }
+      for (std::size_t term = 0; term < law.count(); ++term) {
+        const std::vector<std::size_t> power = place_of(axes, term);
+        double product = 1.0;
+        for (std::size_t a = 0; a < axes.size(); ++a) {
+          product *= coefficients[a][power[a]];
         }
+        matrix[(law.first + term) * d + law.first + node] = product;
       }
     }
   }
@@ -288,20 +417,25 @@ std::vector<Term> Layout::terms(const std::vector<double>& u) const {
   const std::vector<double> matrix = term_matrix();
   std::vector<Term> result;
   for (const ParameterLaw& law : laws_) {
-    const std::size_t nd = law.drive_nodes.size();
-    for (std::size_t k = 0; k < nd * law.frequency_nodes.size(); ++k) {
+    const std::vector<std::vector<double>> axes = axes_of(law);
+    for (std::size_t k = 0; k < law.count(); ++k) {
       double value = 0.0;
       for (std::size_t c = 0; c < d; ++c) {
         value += matrix[(law.first + k) * d + c] * physical(c, u[c]);
       }
-      result.push_back({law.parameter, static_cast<int>(k % nd), static_cast<int>(k / nd), value});
+      const std::vector<std::size_t> powers = place_of(axes, k);
+      result.push_back({law.parameter,
+                        static_cast<int>(powers[0]),
+                        static_cast<int>(powers[1]),
+                        value,
+                        {powers.begin() + 2, powers.end()}});
     }
   }
   return result;
 }
 
 std::vector<double> parameters_at(const std::vector<double>& held, const std::vector<Term>& terms, double drive,
-                                  double frequency) {
+                                  double frequency, std::span<const double> conditions) {
   std::vector<double> result = held;
   for (const Term& term : terms) {
     result[term.parameter] = 0.0;
@@ -314,21 +448,38 @@ std::vector<double> parameters_at(const std::vector<double>& held, const std::ve
     for (int k = 0; k < term.frequency_power; ++k) {
       power *= frequency;
     }
+    for (std::size_t c = 0; c < term.condition_powers.size(); ++c) {
+      for (int k = 0; k < term.condition_powers[c]; ++k) {
+        power *= conditions[c];
+      }
+    }
     result[term.parameter] += term.value * power;
   }
   return result;
 }
 
-std::string term_name(const std::string& parameter, int drive_power, int frequency_power) {
+std::string term_name(const std::string& parameter, const Term& term, const std::vector<ConditionRange>& conditions) {
   std::string name = parameter;
-  const auto add = [&](const char* symbol, int power) {
+  const auto add = [&](const std::string& symbol, int power) {
     if (power > 0) {
-      name += std::string("*") + symbol + (power > 1 ? "^" + std::to_string(power) : "");
+      name += "*" + symbol + (power > 1 ? "^" + std::to_string(power) : "");
     }
   };
-  add("i", drive_power);
-  add("f", frequency_power);
+  add("i", term.drive_power);
+  add("f", term.frequency_power);
+  for (std::size_t c = 0; c < term.condition_powers.size(); ++c) {
+    add(conditions[c].name, term.condition_powers[c]);
+  }
   return name;
+}
+
+std::string term_unit(std::string_view unit, const Term& term, const std::vector<ConditionRange>& conditions,
+                      DriveKind drive) {
+  std::string result(unit);
+  for (std::size_t c = 0; c < term.condition_powers.size(); ++c) {
+    result = unit_over(result, conditions[c].unit, term.condition_powers[c]);
+  }
+  return term_unit(result, term.drive_power, term.frequency_power, drive);
 }
 
 }  // namespace hysteron

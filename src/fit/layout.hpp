@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,14 @@
 #include "simulate/composite.hpp"
 
 namespace hysteron {
+
+// A condition over the recordings: its range is what laws in it are spanned over.
+struct ConditionRange {
+  std::string name;
+  std::string unit;
+  double low = 0.0;
+  double high = 0.0;
+};
 
 // What scales the identification box: peak force (N), half stroke (m), peak speed (m/s) of the recordings, the middle
 // of all their displacements (m), and the ranges of drive (A or V) and frequency (Hz) over which parameter laws are
@@ -22,16 +31,19 @@ struct DataScale {
   double frequency_low = 0.0;
   double frequency_high = 0.0;
   double middle = 0.0;
+  std::vector<ConditionRange> conditions = {};  // those of the recordings, in their order
 };
 
+// InputError where recordings have other conditions than the first.
 DataScale scale_of(const std::vector<Recording>& recordings);
 
 // Frequency in Hz of the motion between its first and last turning points; 0 when it never turns.
 double dominant_frequency(const Recording& recording);
 
 struct LayoutOptions {
-  std::map<std::string, int> by_current;
-  std::map<std::string, int> by_frequency;
+  LawOrders by_current;
+  LawOrders by_frequency;
+  std::map<std::string, LawOrders> by;                      // condition -> parameters
   std::map<std::string, double> fix;                        // parameter -> value held
   std::map<std::string, std::pair<double, double>> bounds;  // parameter -> box
 };
@@ -46,21 +58,36 @@ struct Coordinate {
   bool linear;
 };
 
-// A parameter as a polynomial in drive and frequency, carried by its values at equispaced nodes, so that every node
-// value lies in the parameter's box.
+// A parameter as a polynomial in drive, frequency and conditions (the product of one polynomial in each), carried by
+// its values at equispaced nodes, so that every node value lies in the parameter's box.
 struct ParameterLaw {
+  struct Node {
+    double drive;
+    double frequency;
+    std::vector<double> conditions;
+  };
   std::size_t parameter;
   std::vector<double> drive_nodes;  // one node: constant
   std::vector<double> frequency_nodes;
-  std::size_t first;  // index of its first coordinate; nodes run drive-fastest
+  std::size_t first;  // index of its first coordinate; nodes run drive-fastest, then frequency, then the conditions
+  std::vector<std::vector<double>> condition_nodes = {};  // one entry a condition of the layout
+
+  [[nodiscard]] std::size_t count() const;  // of its nodes, and of its terms
+  [[nodiscard]] Node node(std::size_t k) const;
 };
 
-// One term of a law in the power basis: value * drive^drive_power * frequency^frequency_power.
+// One term of a law in the power basis: value * drive^drive_power * frequency^frequency_power * the powers of the
+// conditions.
 struct Term {
   std::size_t parameter;
   int drive_power;
   int frequency_power;
   double value;
+  std::vector<int> condition_powers = {};  // one a condition, or none for constants
+
+  [[nodiscard]] bool constant() const;
+  // Whether the powers are those of another term of whichever parameter.
+  [[nodiscard]] bool same_powers(const Term& other) const;
 };
 
 class Layout {
@@ -75,6 +102,8 @@ class Layout {
   [[nodiscard]] const std::vector<Coordinate>& coordinates() const { return coordinates_; }
   [[nodiscard]] const std::vector<ParameterLaw>& laws() const { return laws_; }
   [[nodiscard]] std::vector<bool> linear() const;
+  // Conditions of the scale: laws may follow them, and are evaluated at as many values.
+  [[nodiscard]] const std::vector<ConditionRange>& conditions() const { return conditions_; }
   // Values of parameters that are not searched (entries of searched ones are ignored).
   [[nodiscard]] const std::vector<double>& held() const { return held_; }
 
@@ -82,9 +111,11 @@ class Layout {
   [[nodiscard]] double physical(std::size_t c, double u) const;
   [[nodiscard]] double slope(std::size_t c, double u) const;
   [[nodiscard]] double unit(std::size_t c, double value) const;
-  // Weights of a law's nodes at a drive level and frequency; T is double, Lanes or LaneDual.
+  // Weights of a law's nodes at a drive level, a frequency and values of the conditions; T is double, Lanes or
+  // LaneDual.
   template <class T>
-  [[nodiscard]] static std::vector<T> weights(const ParameterLaw& law, const T& drive, double frequency);
+  [[nodiscard]] static std::vector<T> weights(const ParameterLaw& law, const T& drive, double frequency,
+                                              std::span<const double> conditions);
 
   // The card's initial values as a point of the unit box.
   [[nodiscard]] std::vector<double> initial() const;
@@ -100,13 +131,20 @@ class Layout {
   std::vector<double> held_;
   std::vector<Coordinate> coordinates_;
   std::vector<ParameterLaw> laws_;
+  std::vector<ConditionRange> conditions_;
 };
 
-// Parameter values at a drive level and frequency from terms, over the held values.
-std::vector<double> parameters_at(const std::vector<double>& held, const std::vector<Term>& terms, double drive,
-                                  double frequency);
+// The middle of every condition's range.
+std::vector<double> middle_of(const std::vector<ConditionRange>& conditions);
 
-// "alpha", "alpha*i", "alpha*i^2*f": how a term is named in results.
-std::string term_name(const std::string& parameter, int drive_power, int frequency_power);
+// Parameter values at a drive level, a frequency and values of the conditions from terms, over the held values.
+std::vector<double> parameters_at(const std::vector<double>& held, const std::vector<Term>& terms, double drive,
+                                  double frequency, std::span<const double> conditions);
+
+// "alpha", "alpha*i", "alpha*i^2*f", "alpha*i*pressure": how a term is named in results.
+std::string term_name(const std::string& parameter, const Term& term, const std::vector<ConditionRange>& conditions);
+// Its unit, that of its parameter over those of what it is multiplied by.
+std::string term_unit(std::string_view unit, const Term& term, const std::vector<ConditionRange>& conditions,
+                      DriveKind drive);
 
 }  // namespace hysteron

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -14,16 +15,18 @@ namespace hysteron {
 
 inline constexpr std::size_t block_samples = 128;
 
-// A march of a target in pieces of block_samples. parameters_at_drive(drive, p) writes the parameters at a drive.
+// A march of a target in pieces of block_samples. parameters_at(drive, conditions, p) writes the parameters at a drive
+// and at values of the conditions.
 template <class T, class Parameters>
 class Marcher {
  public:
-  Marcher(const CompositeModel& model, const Target& target, Parameters parameters_at_drive)
+  Marcher(const CompositeModel& model, const Target& target, Parameters parameters_at)
       : model_(model),
         target_(target),
-        parameters_at_drive_(std::move(parameters_at_drive)),
+        parameters_at_(std::move(parameters_at)),
         width_(model.parameter_count()),
-        p_(target.drive_varies ? width_ * (block_samples + 1) : width_),
+        conditions_(target.conditions.size()),
+        p_(target.inputs_vary ? width_ * (block_samples + 1) : width_),
         out_(block_samples),
         excitation_(model) {}
 
@@ -31,7 +34,7 @@ class Marcher {
   // is handed; elsewhere `state` is that at the sample.
   template <class Before>
   void start(std::size_t first, std::vector<T>& state, Before&& before) {
-    if (!target_.drive_varies) {
+    if (!target_.inputs_vary) {
       const double instant = 0.0;
       parameters_of({{&instant, 1}, {&target_.drive, 1}, 0}, p_.data());
     }
@@ -42,7 +45,7 @@ class Marcher {
         march(target_.lead_in, begin, end, state, begin > 0);
         before(begin, end - begin, out_.data());
       }
-    } else if (target_.drive_varies && !excitation_.none()) {
+    } else if (target_.inputs_vary && !excitation_.none()) {
       // What the effects on the drive remember, from the start of the recording.
       for (std::size_t n = 0; n < first; ++n) {
         parameters_of({target_.motion.time, target_.motion.drive, n}, p_.data());
@@ -61,16 +64,21 @@ class Marcher {
 
  private:
   void parameters_of(const Command& command, T* values) {
-    parameters_at_drive_(command.drive[command.at], values);
+    for (std::size_t c = 0; c < conditions_.size(); ++c) {
+      const std::vector<double>& along = target_.conditions[c];
+      conditions_[c] = along.size() > 1 ? along[command.at] : along[0];
+    }
+    const std::span<const double> conditions(conditions_);
+    parameters_at_(command.drive[command.at], conditions, values);
     if (!excitation_.none()) {
-      parameters_at_drive_(excitation_.act(command, values), values);
+      parameters_at_(excitation_.act(command, values), conditions, values);
     }
   }
 
   // Effects on the drive remember: every sample is asked once, and the one that ends a block begins the next.
   void march(const Motion& motion, std::size_t begin, std::size_t end, std::vector<T>& state, bool goes_on) {
     const std::size_t samples = motion.time.size();
-    if (target_.drive_varies) {
+    if (target_.inputs_vary) {
       if (goes_on) {
         std::copy_n(p_.data() + block_samples * width_, width_, p_.data());
       }
@@ -78,7 +86,7 @@ class Marcher {
         parameters_of({motion.time, motion.drive, n}, p_.data() + (n - begin) * width_);
       }
     }
-    const std::size_t stride = target_.drive_varies ? width_ : 0;
+    const std::size_t stride = target_.inputs_vary ? width_ : 0;
     if (!is_lean(motion)) {
       model_.march<T>(motion, p_.data(), stride, begin, end, state.data(), out_.data());
       return;
@@ -91,8 +99,9 @@ class Marcher {
 
   const CompositeModel& model_;
   const Target& target_;
-  Parameters parameters_at_drive_;
+  Parameters parameters_at_;
   std::size_t width_;
+  std::vector<double> conditions_;  // at the sample
   std::vector<T> p_;
   std::vector<T> out_;
   MarchInputs<T> excitation_;
@@ -104,9 +113,9 @@ class Marcher {
 // the period marched beforehand to the other one. `state` holds max_states: those at the first sample, then those at
 // the last; a march that begins the target starts from rest, whatever it held.
 template <class T, class Parameters, class Sink, class Before>
-void march_window(const CompositeModel& model, const Target& target, const Parameters& parameters_at_drive,
-                  std::size_t first, std::size_t last, std::vector<T>& state, Sink&& sink, Before&& before) {
-  Marcher<T, const Parameters&> marcher(model, target, parameters_at_drive);
+void march_window(const CompositeModel& model, const Target& target, const Parameters& parameters_at, std::size_t first,
+                  std::size_t last, std::vector<T>& state, Sink&& sink, Before&& before) {
+  Marcher<T, const Parameters&> marcher(model, target, parameters_at);
   marcher.start(first, state, before);
   for (std::size_t begin = first; begin < last; begin += block_samples) {
     const std::size_t end = std::min(begin + block_samples, last);
@@ -117,10 +126,10 @@ void march_window(const CompositeModel& model, const Target& target, const Param
 
 // The whole target.
 template <class T, class Parameters, class Sink, class Before>
-void march_target(const CompositeModel& model, const Target& target, const Parameters& parameters_at_drive, Sink&& sink,
+void march_target(const CompositeModel& model, const Target& target, const Parameters& parameters_at, Sink&& sink,
                   Before&& before) {
   std::vector<T> state(max_states);
-  march_window<T>(model, target, parameters_at_drive, 0, target.motion.time.size(), state, sink, before);
+  march_window<T>(model, target, parameters_at, 0, target.motion.time.size(), state, sink, before);
 }
 
 }  // namespace hysteron

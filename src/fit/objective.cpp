@@ -98,7 +98,9 @@ void Objective::sum_costs(const std::vector<double>& points, Rows rows, const Ta
   Lanes alive;
   march_target<Lanes>(
       layout_.model(), target,
-      [&](const auto& drive, Lanes* p) { parameters_of_pack(layout_, nodes, drive, target.frequency, p); },
+      [&](const auto& drive, std::span<const double> conditions, Lanes* p) {
+        parameters_of_pack(layout_, nodes, drive, target.frequency, conditions, p);
+      },
       [&](std::size_t begin, std::size_t samples, const Lanes* out) {
         check_stopped();
         for (std::size_t k = 0; k < samples; ++k) {
@@ -131,6 +133,7 @@ std::vector<std::size_t> Objective::packing(const std::vector<double>& points) c
     return order;
   }
   const Target& target = targets_.front();
+  const std::vector<double> conditions = target.conditions_at(0);
   std::vector<double> stiffness(order.size());
   std::vector<double> nodes(d);
   std::vector<double> p(model.parameter_count());
@@ -138,7 +141,7 @@ std::vector<std::size_t> Objective::packing(const std::vector<double>& points) c
     for (std::size_t c = 0; c < d; ++c) {
       nodes[c] = layout_.physical(c, points[row * d + c]);
     }
-    parameters_of_pack(layout_, nodes, target.drive, target.frequency, p.data());
+    parameters_of_pack(layout_, nodes, target.drive, target.frequency, conditions, p.data());
     const double bound = stiffness_bound(model, p.data(), target.fastest);
     stiffness[row] = std::isfinite(bound) ? bound : 1e300;
   }

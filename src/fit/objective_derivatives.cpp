@@ -49,8 +49,9 @@ Objective::PackSums Objective::differentiated(const std::vector<double>& points,
   }
   // All groups pass a block of samples before the next block, so that its columns come together in little memory.
   const auto parameters_of = [&](std::size_t group) {
-    return [this, &nodes, &target, &directions, &differentiate, group](const auto& drive, LaneDual* p) {
-      parameters_of_pack(layout_, nodes[group], drive, target.frequency, p);
+    return [this, &nodes, &target, &directions, &differentiate, group](
+               const auto& drive, std::span<const double> conditions, LaneDual* p) {
+      parameters_of_pack(layout_, nodes[group], drive, target.frequency, conditions, p);
       for (std::size_t j = 0; directions.by_parameter && j < directions.count; ++j) {
         const ParameterLaw& law = layout_.laws()[j];
         if (directions.of[law.first].shared) {

@@ -40,7 +40,9 @@ Response Objective::evaluate_window(const Request& request) const {
     }
     march_window<Lanes>(
         layout_.model(), target,
-        [&](const auto& drive, Lanes* p) { parameters_of_pack(layout_, nodes, drive, target.frequency, p); },
+        [&](const auto& drive, std::span<const double> conditions, Lanes* p) {
+          parameters_of_pack(layout_, nodes, drive, target.frequency, conditions, p);
+        },
         window.begin, window.end, state,
         [&](std::size_t begin, std::size_t count, const Lanes* out) {
           check_stopped();

@@ -23,15 +23,16 @@ Lanes lanes_of(const std::vector<double>& points, Rows rows, const Layout& layou
   return result;
 }
 
-// Parameters of a pack at one drive level: nodes weighted by the law. For duals, the directions of this sweep are the
-// coordinates [sweep, sweep + sweep_directions).
+// Parameters of a pack at one drive level and values of the conditions: nodes weighted by the law. For duals, the
+// directions of this sweep are the coordinates [sweep, sweep + sweep_directions).
 template <class T, class Drive>
-void parameters_of_pack(const Layout& layout, const std::vector<T>& nodes, const Drive& drive, double frequency, T* p) {
+void parameters_of_pack(const Layout& layout, const std::vector<T>& nodes, const Drive& drive, double frequency,
+                        std::span<const double> conditions, T* p) {
   for (std::size_t j = 0; j < layout.cards().size(); ++j) {
     p[j] = T(layout.held()[j]);
   }
   for (const ParameterLaw& law : layout.laws()) {
-    const std::vector<Drive> weights = Layout::weights<Drive>(law, drive, frequency);
+    const std::vector<Drive> weights = Layout::weights<Drive>(law, drive, frequency, conditions);
     T value = T(weights[0]) * nodes[law.first];
     for (std::size_t k = 1; k < weights.size(); ++k) {
       value = fma(T(weights[k]), nodes[law.first + k], value);

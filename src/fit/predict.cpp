@@ -12,8 +12,8 @@ std::vector<double> predict(const CompositeModel& model, const std::vector<doubl
   std::vector<double> force(target.motion.time.size());
   march_target<double>(
       model, target,
-      [&](double drive, double* p) {
-        const std::vector<double> values = parameters_at(held, terms, drive, target.frequency);
+      [&](double drive, std::span<const double> conditions, double* p) {
+        const std::vector<double> values = parameters_at(held, terms, drive, target.frequency, conditions);
         std::ranges::copy(values, p);
       },
       [&](std::size_t begin, std::size_t count, const double* out) {

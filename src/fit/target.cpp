@@ -14,10 +14,24 @@ namespace hysteron {
 
 namespace {
 
+bool conditions_vary(const Recording& recording) {
+  return std::ranges::any_of(recording.conditions,
+                             [](const ConditionChannel& condition) { return condition.values.size() > 1; });
+}
+
 Motion motion_of(const Recording& recording, double tolerance, bool lean) {
+  std::vector<double> drive = quiet_drive(recording.drive);
+  if (drive.empty() && conditions_vary(recording)) {
+    drive.assign(recording.size(), 0.0);  // parameters are evaluated at every sample, at its drive
+  }
   return (lean ? make_lean_motion : make_motion)(recording.time, recording.displacement, recording.velocity,
-                                                 quiet_drive(recording.drive), tolerance,
-                                                 recording.derived_acceleration);
+                                                 std::move(drive), tolerance, recording.derived_acceleration);
+}
+
+void take_conditions(const Recording& recording, Target& target) {
+  for (const ConditionChannel& condition : recording.conditions) {
+    target.conditions.push_back(condition.values);
+  }
 }
 
 // The first samples of a motion as one of their own.
@@ -131,6 +145,15 @@ std::size_t run_in_samples(const Recording& recording) {
 
 }  // namespace
 
+std::vector<double> Target::conditions_at(std::size_t n) const {
+  std::vector<double> result;
+  result.reserve(conditions.size());
+  for (const std::vector<double>& values : conditions) {
+    result.push_back(values.size() > 1 ? values[n] : values[0]);
+  }
+  return result;
+}
+
 Target make_target(const Recording& recording, const ObjectiveOptions& options) {
   return make_target(recording, options, recording.size() > options.most_prepared_samples);
 }
@@ -146,8 +169,10 @@ Target make_target(const Recording& recording, const ObjectiveOptions& options, 
   target.frequency = dominant_frequency(recording);
   if (!recording.drive.empty()) {
     target.drive = mean_of(recording.drive);
-    target.drive_varies = drive_varies(recording);
+    target.inputs_vary = drive_varies(recording);
   }
+  take_conditions(recording, target);
+  target.inputs_vary = target.inputs_vary || conditions_vary(recording);
   lead_in(target, recording);
   if (options.comparing) {
     target.lead_in = comparing_motion(std::move(target.lead_in));
@@ -166,7 +191,8 @@ Target make_screening_target(const Target& full, const Recording& whole, const O
   target.weight = full.weight;
   target.frequency = full.frequency;
   target.drive = full.drive;
-  target.drive_varies = full.drive_varies;
+  take_conditions(recording, target);
+  target.inputs_vary = full.inputs_vary;
   target.motion = motion_of(recording, options.tolerance, false);
   target.fastest = fastest_of(target.motion);
   if (full.preroll > 0) {

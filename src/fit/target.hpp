@@ -36,11 +36,16 @@ struct Target {
   double weight = 1.0;     // of a squared residual in cost^2
   double frequency = 0.0;  // Hz
   double drive = 0.0;      // mean level; used when the drive is constant
-  bool drive_varies = false;
-  std::size_t run_in = 0;   // samples at the start that do not count
-  std::size_t preroll = 0;  // samples of the first period marched beforehand when the recording starts in motion
-  Motion lead_in;           // them, with the sample after them; empty without
-  double fastest = 0.0;     // m/s, bound of |v|
+  // Those of the recording, in its order: one value a sample, or one where it does not vary.
+  std::vector<std::vector<double>> conditions;
+  bool inputs_vary = false;  // the drive, or a condition: parameters may differ from sample to sample
+  std::size_t run_in = 0;    // samples at the start that do not count
+  std::size_t preroll = 0;   // samples of the first period marched beforehand when the recording starts in motion
+  Motion lead_in;            // them, with the sample after them; empty without
+  double fastest = 0.0;      // m/s, bound of |v|
+
+  // Values of the conditions at a sample.
+  [[nodiscard]] std::vector<double> conditions_at(std::size_t n) const;
 };
 
 Target make_target(const Recording& recording, const ObjectiveOptions& options, bool lean);

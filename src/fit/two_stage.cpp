@@ -39,7 +39,7 @@ std::vector<Condition> conditions_of(const std::vector<Recording>& recordings, c
 }
 
 double law_value(const ParameterLaw& law, const std::vector<double>& nodes, const Condition& condition) {
-  const std::vector<double> weights = Layout::weights<double>(law, condition.drive, condition.frequency);
+  const std::vector<double> weights = Layout::weights<double>(law, condition.drive, condition.frequency, {});
   return std::inner_product(weights.begin(), weights.end(), nodes.begin(), 0.0);
 }
 
@@ -67,12 +67,13 @@ struct ConditionFit {
 std::vector<double> law_through(const ParameterLaw& law, const Parameter& card,
                                 const std::vector<Condition>& conditions, const std::vector<ConditionValue>& values) {
   const auto rows = static_cast<Eigen::Index>(values.size());
-  const auto columns = static_cast<Eigen::Index>(law.drive_nodes.size() * law.frequency_nodes.size());
+  const auto columns = static_cast<Eigen::Index>(law.count());
   Eigen::MatrixXd matrix(rows, columns);
   Eigen::VectorXd right(rows);
   for (Eigen::Index r = 0; r < rows; ++r) {
     const auto at = static_cast<std::size_t>(r);
-    const std::vector<double> weights = Layout::weights<double>(law, conditions[at].drive, conditions[at].frequency);
+    const std::vector<double> weights =
+        Layout::weights<double>(law, conditions[at].drive, conditions[at].frequency, {});
     const double sigma = sigma_of(values[at], card);
     for (Eigen::Index c = 0; c < columns; ++c) {
       matrix(r, c) = weights[static_cast<std::size_t>(c)] / sigma;
@@ -95,7 +96,11 @@ TwoStage fit_two_stage(const Campaign& campaign, const Layout& layout, const std
   const std::vector<ParameterLaw>& laws = layout.laws();
   const std::vector<Parameter>& cards = layout.cards();
   for (const ParameterLaw& law : laws) {
-    const std::size_t coefficients = law.drive_nodes.size() * law.frequency_nodes.size();
+    if (std::ranges::any_of(law.condition_nodes, [](const auto& nodes) { return nodes.size() > 1; })) {
+      throw InputError("--stages two: " + layout.names()[law.parameter] +
+                       " follows a condition, expected laws in drive and frequency only");
+    }
+    const std::size_t coefficients = law.count();
     if (result.conditions.size() < coefficients) {
       throw InputError("--stages two: the law of " + layout.names()[law.parameter] + " has " +
                        std::to_string(coefficients) + " coefficients, the fitted recordings only " +

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <set>
 #include <string_view>
 #include <utility>
@@ -10,6 +11,7 @@
 #include "core/printable.hpp"
 #include "io/block_means.hpp"
 #include "io/campaign_file.hpp"
+#include "io/conditions.hpp"
 #include "io/file.hpp"
 #include "io/format.hpp"
 #include "io/sha256.hpp"
@@ -26,6 +28,8 @@ struct Item {
   std::string name;  // relative to `base`
   fs::path base;     // absolute folder, for telling equal names apart
   Role role = Role::unassigned;
+  std::map<std::string, ConditionNumber> numbers = {};
+  std::optional<double> start = {};
 };
 
 std::string extension_of(const fs::path& path) { return lower_case(path.extension().string()); }
@@ -94,6 +98,9 @@ void merge(Campaign& campaign, const CampaignFile& declared, const std::string& 
   }
   merge_orders(campaign.by_current, declared.by_current, file, "by_current");
   merge_orders(campaign.by_frequency, declared.by_frequency, file, "by_frequency");
+  for (const auto& [condition, orders] : declared.by) {
+    merge_orders(campaign.by[condition], orders, file, "by." + condition);
+  }
 }
 
 void add_folder(const fs::path& folder, Campaign& campaign, std::vector<Item>& items) {
@@ -111,7 +118,7 @@ void add_folder(const fs::path& folder, Campaign& campaign, std::vector<Item>& i
       throw InputError(toml.string(), entry.line,
                        "there is no recording " + in_quotes(entry.file) + " in the folder, expected a file with one");
     }
-    items.push_back({path, entry.file, base, entry.role});
+    items.push_back({path, entry.file, base, entry.role, entry.numbers, entry.start});
   }
   if (!declared.entries.empty()) return;
   const auto names = names_in(folder);
@@ -189,6 +196,15 @@ std::size_t limit_of_each(const std::vector<Item>& items, std::size_t total) {
   return kept_of_each(samples, total);
 }
 
+// Where every recording says when it was started, the time since the first is kept beside the unused columns.
+void tell_clock(std::vector<Recording>& recordings) {
+  const auto untold = [](const Recording& recording) { return !recording.started; };
+  if (recordings.size() < 2 || std::ranges::any_of(recordings, untold)) return;
+  const auto by_start = [](const Recording& recording) { return *recording.started; };
+  const double first = *std::ranges::min(recordings, {}, by_start).started;
+  for (Recording& recording : recordings) recording.unused.push_back({"clock [s]", *recording.started - first});
+}
+
 }  // namespace
 
 Campaign load_campaign(const std::vector<std::string>& data, const ReadOptions& options) {
@@ -207,11 +223,21 @@ Campaign load_campaign(const std::vector<std::string>& data, const ReadOptions& 
   tell_apart(items);
   ReadOptions of_each = options;
   of_each.keep_samples = limit_of_each(items, options.keep_samples);
+  for (const auto& [condition, orders] : campaign.by) {
+    const auto at = std::ranges::lower_bound(of_each.conditions, condition);
+    if (at == of_each.conditions.end() || *at != condition) of_each.conditions.insert(at, condition);
+  }
   for (const auto& item : items) {
+    of_each.numbers = item.numbers;
+    for (const auto& [name, number] : options.numbers) of_each.numbers.insert_or_assign(name, number);
     campaign.recordings.push_back(load_recording(item.path, of_each));
     campaign.recordings.back().file = valid_utf8(item.name);
+    take_numbers(campaign.recordings.back(), of_each);
+    if (item.start) campaign.recordings.back().started = item.start;
     campaign.roles.push_back(item.role);
   }
+  tell_clock(campaign.recordings);
+  agree_on_units(campaign.recordings);
   return campaign;
 }
 

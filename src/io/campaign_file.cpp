@@ -1,8 +1,15 @@
 #include "io/campaign_file.hpp"
 
+#include <cmath>
+#include <optional>
 #include <set>
+#include <sstream>
 #include <string_view>
 
+#include "core/error.hpp"
+#include "core/suggest.hpp"
+#include "io/clock_time.hpp"
+#include "io/conditions.hpp"
 #include "io/file.hpp"
 #include "io/text.hpp"
 #include "io/toml_reader.hpp"
@@ -18,7 +25,7 @@ class CampaignParser : private TomlReader {
 
   CampaignFile run(const std::string& text) {
     const toml::table root = parse(text, schema);
-    check_keys(root, {"schema", "model", "by_current", "by_frequency", "recording"}, "");
+    check_keys(root, {"schema", "model", "by_current", "by_frequency", "by", "recording"}, "");
     CampaignFile result;
     if (const auto* node = root.get("model")) {
       result.model = text_of(*node, "model");
@@ -26,6 +33,7 @@ class CampaignParser : private TomlReader {
     }
     if (const auto* node = root.get("by_current")) result.by_current = orders_of(*node, "by_current");
     if (const auto* node = root.get("by_frequency")) result.by_frequency = orders_of(*node, "by_frequency");
+    if (const auto* node = root.get("by")) add_laws(*node, result);
     if (const auto* node = root.get("recording")) result.entries = entries_of(*node);
     return result;
   }
@@ -46,6 +54,50 @@ class CampaignParser : private TomlReader {
     return orders;
   }
 
+  // [by.NAME] for every NAME; current and frequency are those of the tables of their own.
+  void add_laws(const toml::node& node, CampaignFile& result) const {
+    const auto* table = node.as_table();
+    if (table == nullptr) fail(node, "'by' is not a table, expected [by.NAME] with PARAMETER = ORDER");
+    for (const auto& [key, orders] : *table) {
+      const std::string text(key.str());
+      const std::string name = name_of(orders, text, "[by]");
+      LawOrders& into = name == "current"     ? result.by_current
+                        : name == "frequency" ? result.by_frequency
+                                              : result.by[name];
+      if (!into.empty()) fail(orders, "two tables of laws in the " + name + ", expected one");
+      into = orders_of(orders, "by." + text);
+    }
+  }
+
+  [[nodiscard]] std::string name_of(const toml::node& node, const std::string& key, const std::string& where) const {
+    try {
+      return condition_name(key, where);
+    } catch (const InputError& error) {
+      fail(node, error.what());
+    }
+  }
+
+  // A key of [[recording]] beside file and role: a number of the whole recording.
+  [[nodiscard]] ConditionNumber number_of(const toml::key& key, const toml::node& node) const {
+    std::optional<ConditionNumber> number;
+    if (const auto whole = node.as_integer()) {
+      number = ConditionNumber{static_cast<double>(whole->get()), {}, {}, 0};
+    } else if (const auto real = node.as_floating_point()) {
+      if (std::isfinite(real->get())) number = ConditionNumber{real->get(), {}, {}, 0};
+    } else if (const auto text = node.as_string()) {
+      number = condition_number(text->get());
+    }
+    if (!number || !(std::abs(number->value) <= largest_value)) {
+      fail_at(static_cast<int>(key.source().begin.line),
+              "unknown key " + in_quotes(key.str()) + " in [[recording]]" +
+                  suggestion(key.str(), {"file", "role", "start"}) +
+                  ", expected file, role, start, or a number of the recording such as pressure = 2.1e5 or \"2.1 bar\"");
+    }
+    number->file = this->file();
+    number->line = static_cast<int>(key.source().begin.line);
+    return *number;
+  }
+
   [[nodiscard]] std::vector<CampaignEntry> entries_of(const toml::node& node) const {
     const auto* array = node.as_array();
     if (array == nullptr) fail(node, "'recording' is not an array of tables, expected [[recording]]");
@@ -54,7 +106,6 @@ class CampaignParser : private TomlReader {
     for (const auto& element : *array) {
       const auto* table = element.as_table();
       if (table == nullptr) fail(element, "'recording' is not an array of tables, expected [[recording]]");
-      check_keys(*table, {"file", "role"}, " in [[recording]]");
       const auto* file = table->get("file");
       if (file == nullptr) fail(element, "[[recording]] without 'file', expected file = \"NAME.csv\"");
       CampaignEntry entry;
@@ -71,9 +122,35 @@ class CampaignParser : private TomlReader {
         fail(*file, "recording " + in_quotes(entry.file) + " is listed twice, expected each once");
       }
       if (const auto* role = table->get("role")) entry.role = role_of(*role);
+      for (const auto& [key, value] : *table) {
+        if (key.str() == "file" || key.str() == "role") continue;
+        if (key.str() == "start") {
+          entry.start = start_of(value);
+          continue;
+        }
+        const ConditionNumber number = number_of(key, value);
+        if (!entry.numbers.emplace(name_of(value, std::string(key.str()), "[[recording]]"), number).second) {
+          fail(value, in_quotes(key.str()) + " is given twice, expected each once");
+        }
+      }
       entries.push_back(std::move(entry));
     }
     return entries;
+  }
+
+  // A date-time of TOML, or one in quotes.
+  [[nodiscard]] double start_of(const toml::node& node) const {
+    std::string text;
+    if (const auto* stated = node.as_date_time()) {
+      std::ostringstream out;
+      out << stated->get();
+      text = out.str();
+    } else if (const auto* quoted = node.as_string()) {
+      text = quoted->get();
+    }
+    const auto start = clock_time(text);
+    if (!start) fail(node, "'start' is not a date and time, expected for example 2026-11-24T14:50:58");
+    return *start;
   }
 
   [[nodiscard]] Role role_of(const toml::node& node) const {

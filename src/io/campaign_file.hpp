@@ -3,10 +3,12 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/recording.hpp"
+#include "io/channels.hpp"
 
 namespace hysteron {
 
@@ -16,14 +18,17 @@ inline constexpr int highest_order = 5;
 struct CampaignEntry {
   std::string file;  // relative to the folder, forward slashes
   Role role = Role::unassigned;
-  int line = 0;  // of the entry, for messages
+  std::optional<double> start;                     // s since 1970
+  std::map<std::string, ConditionNumber> numbers;  // of the whole recording, by name
+  int line = 0;                                    // of the entry, for messages
 };
 
 struct CampaignFile {
   std::string model;  // may be empty
-  std::map<std::string, int> by_current;
-  std::map<std::string, int> by_frequency;
-  std::vector<CampaignEntry> entries;  // empty: all recordings of the folder
+  LawOrders by_current;
+  LawOrders by_frequency;
+  std::map<std::string, LawOrders> by;  // in conditions, by their names
+  std::vector<CampaignEntry> entries;   // empty: all recordings of the folder
 };
 
 // Unknown keys, wrong types and values are InputErrors at file:line. Whether the files exist is not looked at.

@@ -1,6 +1,7 @@
 #include "io/channels.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <utility>
 
@@ -44,6 +45,8 @@ constexpr std::pair<std::string_view, Quantity> synonyms[] = {
     {"volts", Quantity::voltage},
     {"temperature", Quantity::temperature},
     {"temp", Quantity::temperature},
+    {"base", Quantity::base},
+    {"base displacement", Quantity::base},
 };
 
 std::string names_of(Quantity quantity) {
@@ -87,10 +90,16 @@ class Assigner {
       : columns_(columns), options_(options), file_(file), line_(line), taken_(columns.size(), false) {}
 
   Sources run() {
-    for (const auto& [channel, value] : options_.columns) map(channel, value);
+    for (const auto& [channel, value] : options_.columns) {
+      if (std::ranges::find(options_.conditions, lower_case(trimmed(channel))) == options_.conditions.end() ||
+          quantity_of_name(channel)) {
+        map(channel, value);
+      }
+    }
+    keep_for_conditions();
     for (std::size_t i = 0; i < columns_.size(); ++i) match(i);
     match_last_words();
-    if (options_.time_required) require(Quantity::time);
+    if (options_.time_required && !options_.without_time) require(Quantity::time);
     if (options_.displacement_required) require(Quantity::displacement);
     if (options_.force_required) require(Quantity::force);
     return sources_;
@@ -116,6 +125,19 @@ class Assigner {
       if (!found.empty()) return found;
     }
     return {};
+  }
+
+  // Columns of conditions are no channel's, whatever their last words are.
+  void keep_for_conditions() {
+    for (const std::string& name : options_.conditions) {
+      if (quantity_of_name(name)) continue;
+      const auto mapped = std::ranges::find_if(
+          options_.columns, [&](const auto& entry) { return lower_case(trimmed(entry.first)) == name; });
+      const std::string& text = mapped == options_.columns.end() ? name : mapped->second;
+      auto found = matches(trimmed(text));
+      if (found.empty()) found = matches(split_column(text).name);
+      for (const std::size_t i : found) taken_[i] = true;
+    }
   }
 
   void map(const std::string& channel, const std::string& value) {
@@ -237,6 +259,18 @@ Sources assign_columns(const std::vector<Column>& columns, const ReadOptions& op
   return Assigner(columns, options, file, line).run();
 }
 
+bool make_time(Channels& channels) {
+  std::vector<double>& time = channels[static_cast<std::size_t>(Quantity::time)];
+  const std::vector<double>& x = channels[static_cast<std::size_t>(Quantity::displacement)];
+  if (!time.empty() || x.empty()) return false;
+  constexpr double fastest = 0.1;  // m/s
+  double widest = 0.0;
+  for (std::size_t n = 1; n < x.size(); ++n) widest = std::max(widest, std::abs(x[n] - x[n - 1]));
+  const double step = widest > 0.0 ? widest / fastest : 1.0;
+  for (std::size_t n = 0; n < x.size(); ++n) time.push_back(static_cast<double>(n) * step);
+  return true;
+}
+
 Recording make_recording(Channels&& channels) {
   const auto take = [&](Quantity quantity) { return std::move(channels[static_cast<std::size_t>(quantity)]); };
   Recording recording;
@@ -246,6 +280,7 @@ Recording make_recording(Channels&& channels) {
   recording.acceleration = take(Quantity::acceleration);
   recording.force = take(Quantity::force);
   recording.temperature = take(Quantity::temperature);
+  recording.base = take(Quantity::base);
   recording.velocity_measured = !recording.velocity.empty();
   recording.drive = take(Quantity::current);
   recording.drive_kind = DriveKind::current;

@@ -23,6 +23,14 @@ struct Remark {
   std::string text;  // one line
 };
 
+// One number for a whole recording, in SI, with its unit (empty: not said) and where it is said, for messages.
+struct ConditionNumber {
+  double value = 0.0;
+  std::string unit;
+  std::string file;
+  int line = 0;
+};
+
 struct ReadOptions {
   // Channel -> column, e.g. "force" -> "CH1 [kgf]": the column's full text or name; a unit given here overrides
   // the file's. In MAT files also a column number "3 [kN]" or "MATRIX:3 [kN]", counted from 1; in files with groups
@@ -30,7 +38,11 @@ struct ReadOptions {
   std::map<std::string, std::string> columns;
   bool force_required = true;
   bool displacement_required = true;
-  int skip = 0;  // lines at the head of a CSV file that are not read
+  bool without_time = false;  // a file may have no time, and one is made (make_time)
+  int skip = 0;               // lines at the head of a CSV file that are not read
+  // What laws follow beside drive and frequency, in order: columns to keep (io/conditions.hpp).
+  std::vector<std::string> conditions = {};
+  std::map<std::string, ConditionNumber> numbers = {};  // of the recording
   // Samples kept of all recordings together, 0 for all samples (io/block_means.hpp).
   std::size_t keep_samples = 0;
   std::function<void(const Remark&)> remark = {};
@@ -79,6 +91,10 @@ inline constexpr double shortest_step = 1e-30;  // s
 
 // One sample of every channel; of those that the file does not have it says nothing.
 using Row = std::array<double, quantity_count>;
+
+// Where the channels have no time, one for laws that do not depend on the rate: equal steps, such that the fastest
+// speed between two samples is 0.1 m/s. Whether one was made.
+bool make_time(Channels& channels);
 
 // Checked channels in SI -> recording: a missing velocity is derived, current goes before voltage as the drive.
 [[nodiscard]] Recording make_recording(Channels&& channels);

@@ -12,6 +12,8 @@
 
 #include "core/error.hpp"
 #include "io/block_means.hpp"
+#include "io/clock_time.hpp"
+#include "io/conditions.hpp"
 #include "io/file.hpp"
 #include "io/plausible.hpp"
 #include "io/sha256.hpp"
@@ -133,14 +135,24 @@ class CsvReader {
     read_header();
     read_rows();
     const auto rows = static_cast<double>(rows_read_);
+    bool made_time = false;
     if (means_) {
       const double bend = means_->bend();
       channels_ = means_->take();
+      made_time = make_time(channels_);
       if (options_.remark) {
         options_.remark(thinning_remark(file_, rows_read_, stride_, channels_[0], bend));
       }
     }
+    made_time = make_time(channels_) || made_time;
+    if (means_) {
+      for (std::size_t c = 0; c < conditions_.size(); ++c) condition_values_[c] = condition_means_[c].take();
+    }
+    std::vector<ConditionChannel> conditions = make_conditions(conditions_, std::move(condition_values_), channels_);
     Recording recording = make_recording(std::move(channels_));
+    recording.conditions = std::move(conditions);
+    recording.timed = !made_time;
+    recording.started = started_;
     for (std::size_t i = 0; i < columns_.size(); ++i) {
       if (unused_[i].numbers && std::isfinite(unused_[i].sum))
         recording.unused.push_back({columns_[i].text, unused_[i].sum / rows});
@@ -194,6 +206,7 @@ class CsvReader {
       if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
       const auto first = line.find_first_not_of(" \t");
       if (first != std::string_view::npos && line[first] != '#') return true;
+      if (!in_rows_ && !started_) started_ = clock_time_in(line);
     }
     return false;
   }
@@ -296,6 +309,9 @@ class CsvReader {
     for (const auto cell : cells) columns_.push_back(split_column(unquoted(cell)));
     read_unit_row();
     sources_ = assign_columns(columns_, options_, file_, header_line_);
+    conditions_ = assign_conditions(columns_, sources_, options_, file_, header_line_);
+    condition_row_.resize(conditions_.size());
+    condition_values_.resize(conditions_.size());
   }
 
   // A row below the names without any number and with at least one known unit.
@@ -328,6 +344,7 @@ class CsvReader {
     if (options_.keep_samples > 0 && rows > options_.keep_samples) {
       stride_ = (rows + options_.keep_samples - 1) / options_.keep_samples;
       means_.emplace(sources_, stride_);
+      condition_means_.assign(conditions_.size(), ConditionMeans(stride_));
     }
     for (std::size_t i = 0; i < sources_.size(); ++i) {
       if (sources_[i].column < 0) continue;
@@ -339,6 +356,16 @@ class CsvReader {
                                ", expected one channel per column");
       channel = static_cast<int>(i);
       if (!means_) channels_[i].reserve(rows + 1);
+    }
+    for (std::size_t c = 0; c < conditions_.size(); ++c) {
+      if (conditions_[c].column < 0) continue;
+      auto& channel = channel_of[static_cast<std::size_t>(conditions_[c].column)];
+      if (channel >= 0) {
+        fail(header_line_, "column " + in_quotes(columns_[static_cast<std::size_t>(conditions_[c].column)].text) +
+                               " is both " + name_of(channel) + " and " + in_quotes(conditions_[c].name) +
+                               ", expected a column for each");
+      }
+      channel = quantity_count + static_cast<int>(c);
     }
     for (std::size_t i = 0; i < columns_.size(); ++i) {
       unused_.push_back({0.0, channel_of[i] < 0 && !columns_[i].text.empty()});
@@ -400,18 +427,23 @@ class CsvReader {
     }
   }
 
-  static std::string name_of(int channel) { return std::string(quantity_name(static_cast<Quantity>(channel))); }
+  [[nodiscard]] std::string name_of(int channel) const {
+    return channel < quantity_count ? std::string(quantity_name(static_cast<Quantity>(channel)))
+                                    : conditions_[static_cast<std::size_t>(channel - quantity_count)].name;
+  }
 
   void add(int channel, std::string_view field, bool decimal_comma) {
     double value = 0.0;
     const auto index = static_cast<std::size_t>(channel);
+    const ConditionSource* condition =
+        channel < quantity_count ? nullptr : &conditions_[static_cast<std::size_t>(channel - quantity_count)];
     switch (parse_number(field, decimal_comma, value)) {
       case NumberError::none:
-        value = sources_[index].unit.to_si(value);
+        value = condition == nullptr ? sources_[index].unit.to_si(value) : condition->unit.conversion.to_si(value);
         if (!(std::abs(value) <= largest_value)) {
           fail(line_, name_of(channel) + " " + in_quotes(field) + " is too large, expected at most 1e30 in SI units");
         }
-        row_[index] = value;
+        (condition == nullptr ? row_[index] : condition_row_[index - quantity_count]) = value;
         return;
       case NumberError::empty:
         fail(line_, name_of(channel) + " is empty, expected a finite number");
@@ -425,7 +457,7 @@ class CsvReader {
   }
 
   void check_time() const {
-    if (rows_read_ == 0 || row_[0] - time_before_ > shortest_step) return;
+    if (sources_[0].column < 0 || rows_read_ == 0 || row_[0] - time_before_ > shortest_step) return;
     fail(line_, "time " + shortest(row_[0]) + " s does not increase after " + shortest(time_before_) +
                     " s, expected strictly increasing times");
   }
@@ -435,10 +467,14 @@ class CsvReader {
     time_before_ = row_[0];
     if (means_) {
       means_->add(row_);
+      for (std::size_t c = 0; c < conditions_.size(); ++c) condition_means_[c].add(condition_row_[c]);
       return;
     }
     for (std::size_t i = 0; i < sources_.size(); ++i) {
       if (sources_[i].column >= 0) channels_[i].push_back(row_[i]);
+    }
+    for (std::size_t c = 0; c < conditions_.size(); ++c) {
+      if (conditions_[c].column >= 0) condition_values_[c].push_back(condition_row_[c]);
     }
   }
 
@@ -476,7 +512,12 @@ class CsvReader {
   double time_before_ = 0.0;
   std::size_t stride_ = 1;  // samples averaged to one
   std::optional<BlockMeans> means_;
+  std::optional<double> started_;  // by a comment before the rows
   std::vector<Unused> unused_;
+  std::vector<ConditionSource> conditions_;
+  std::vector<double> condition_row_;
+  std::vector<std::vector<double>> condition_values_;  // of those with a column
+  std::vector<ConditionMeans> condition_means_;
 };
 
 }  // namespace

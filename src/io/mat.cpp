@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "io/block_means.hpp"
+#include "io/conditions.hpp"
 #include "io/file.hpp"
 #include "io/mat5.hpp"
 #include "io/mat73.hpp"
@@ -53,12 +54,21 @@ class MatReader {
     for (std::size_t i = 0; i < sources.size(); ++i) {
       if (sources[i].column >= 0) channels[i] = read(sources[i]);
     }
+    const bool made_time = make_time(channels);
     check(channels, sources);
     const std::size_t samples = channels[0].size();
-    const std::vector<UnusedColumn> others = unused(sources, samples);
+    const std::vector<ConditionSource> followed = assign_conditions(columns_, sources, options_, file_, 0);
+    std::vector<std::vector<double>> values = read(followed, samples);
+    const std::vector<UnusedColumn> others = unused(sources, followed, samples);
     variables_ = {};  // as large as the channels
-    thin(channels, sources, options_, file_);
+    Sources present = sources;
+    if (made_time) present[0].column = 0;
+    thin(channels, present, options_, file_);
+    thin_conditions(values, samples, options_);
+    std::vector<ConditionChannel> conditions = make_conditions(followed, std::move(values), channels);
     Recording recording = make_recording(std::move(channels));
+    recording.conditions = std::move(conditions);
+    recording.timed = !made_time;
     recording.unused.insert(recording.unused.end(), others.begin(), others.end());
     remark_on_sizes(recording, sources, columns_, options_, file_);
     return recording;
@@ -113,6 +123,22 @@ class MatReader {
     slices_.push_back(slice);
   }
 
+  // Of conditions: a value a sample, or one.
+  [[nodiscard]] std::vector<std::vector<double>> read(const std::vector<ConditionSource>& conditions,
+                                                      std::size_t samples) const {
+    std::vector<std::vector<double>> result(conditions.size());
+    for (std::size_t c = 0; c < conditions.size(); ++c) {
+      if (conditions[c].column < 0) continue;
+      result[c] = read({conditions[c].column, conditions[c].unit.conversion, false});
+      if (result[c].size() != samples && result[c].size() != 1) {
+        fail("variable " + in_quotes(columns_[static_cast<std::size_t>(conditions[c].column)].text) + " has " +
+             std::to_string(result[c].size()) + " values and time has " + std::to_string(samples) +
+             ", expected as many or one");
+      }
+    }
+    return result;
+  }
+
   [[nodiscard]] std::vector<double> read(const Source& source) const {
     const auto index = static_cast<std::size_t>(source.column);
     const auto& slice = slices_[index];
@@ -139,14 +165,15 @@ class MatReader {
   }
 
   // Variables that are no channel, of as many numbers as there are samples or of one.
-  [[nodiscard]] std::vector<UnusedColumn> unused(const Sources& sources, std::size_t samples) const {
+  [[nodiscard]] std::vector<UnusedColumn> unused(const Sources& sources, const std::vector<ConditionSource>& followed,
+                                                 std::size_t samples) const {
     std::vector<UnusedColumn> result;
     for (std::size_t i = 0; i < columns_.size(); ++i) {
-      const auto taken = [&](const Source& source) { return source.column == static_cast<int>(i); };
+      const auto taken = [&](const auto& source) { return source.column == static_cast<int>(i); };
       const Slice& slice = slices_[i];
       const auto& variable = variables_[slice.variable];
-      if (std::ranges::any_of(sources, taken) || variable.damaged || variable.complex ||
-          (slice.count != samples && slice.count != 1)) {
+      if (std::ranges::any_of(sources, taken) || std::ranges::any_of(followed, taken) || variable.damaged ||
+          variable.complex || (slice.count != samples && slice.count != 1)) {
         continue;
       }
       const auto first = variable.values.begin() + static_cast<std::ptrdiff_t>(slice.first);

@@ -11,6 +11,7 @@
 
 #include "core/error.hpp"
 #include "io/block_means.hpp"
+#include "io/conditions.hpp"
 #include "io/plausible.hpp"
 #include "io/resample.hpp"
 #include "io/text.hpp"
@@ -53,12 +54,17 @@ class RecordingMaker {
     for (std::size_t i = 1; i < sources_.size(); ++i) {
       if (sources_[i].column >= 0) place(static_cast<Quantity>(i));
     }
+    place_conditions();
     cut();
     check();
     if (options_.remark) remark_on_times();
     const std::vector<UnusedColumn> others = unused();
+    const std::size_t samples = values_[time_at].size();
     thin(values_, sources_, options_, file_);
+    thin_conditions(condition_values_, samples, options_);
+    std::vector<ConditionChannel> conditions = make_conditions(conditions_, std::move(condition_values_), values_);
     Recording recording = make_recording(std::move(values_));
+    recording.conditions = std::move(conditions);
     recording.unused.insert(recording.unused.end(), others.begin(), others.end());
     remark_on_sizes(recording, sources_, columns_, options_, file_);
     return recording;
@@ -204,6 +210,8 @@ class RecordingMaker {
     ReadOptions of_columns = options_;
     of_columns.time_required = false;
     sources_ = assign_columns(columns_, of_columns, file_, 0);
+    conditions_ = assign_conditions(columns_, sources_, options_, file_, 0);
+    condition_values_.resize(conditions_.size());
     if (sources_[time_at].column < 0) return;
     times_are_a_column_ = true;
     // The times of all channels of its group with as many values.
@@ -321,14 +329,26 @@ class RecordingMaker {
 
   // Reads a channel and puts it on the times of the recording.
   void place(Quantity quantity) {
-    const MeasuredChannel& channel = channel_at(quantity);
-    const std::string name = text_of(quantity);
     const auto index = static_cast<std::size_t>(quantity);
-    std::vector<double> values = read(channel, sources_[index].unit, name);
+    values_[index] = placed(channel_at(quantity), sources_[index].unit, text_of(quantity),
+                            std::string(quantity_name(quantity)), is_motion(quantity));
+  }
+
+  void place_conditions() {
+    for (std::size_t c = 0; c < conditions_.size(); ++c) {
+      if (conditions_[c].column < 0) continue;
+      const auto column = static_cast<std::size_t>(conditions_[c].column);
+      condition_values_[c] = placed(channels_[channel_of_[column]], conditions_[c].unit.conversion,
+                                    in_quotes(columns_[column].text), conditions_[c].name, false);
+    }
+  }
+
+  std::vector<double> placed(const MeasuredChannel& channel, const UnitConversion& unit, const std::string& name,
+                             const std::string& word, bool smooth) {
+    std::vector<double> values = read(channel, unit, name);
     if (same_times(channel)) {
       last_ = std::min(last_, values.size());
-      values_[index] = std::move(values);
-      return;
+      return values;
     }
     const std::vector<double> time = times_of(channel, name);
     if (time.empty()) {
@@ -336,12 +356,9 @@ class RecordingMaker {
            ", expected a start and a step, or a channel named time with as many values in its group");
     }
     const std::vector<double>& at = values_[time_at];
-    if (time == at) {
-      values_[index] = std::move(values);
-      return;
-    }
+    if (time == at) return values;
     if (time.size() < 2) fail(name + " has one value, expected two at least to put it on the times of another channel");
-    const Between between = is_motion(quantity) ? Between::smooth : Between::straight;
+    const Between between = smooth ? Between::smooth : Between::straight;
     const double before = between == Between::smooth ? 0.0 : time[1] - time[0];
     const double behind = between == Between::smooth ? 0.0 : time.back() - time[time.size() - 2];
     const auto from = std::ranges::lower_bound(at, time.front() - before) - at.begin();
@@ -353,11 +370,11 @@ class RecordingMaker {
     }
     std::vector<double> clamped(at.begin() + from, at.begin() + to);
     for (double& t : clamped) t = std::clamp(t, time.front(), time.back());
-    const std::vector<double> placed = resampled(time, values, clamped, between);
-    values_[index].assign(at.size(), 0.0);
-    std::ranges::copy(placed, values_[index].begin() + from);
-    (between == Between::smooth ? smooth_ : straight_)
-        .push_back(std::string(quantity_name(quantity)) + " (" + frequency_of(time) + ")");
+    const std::vector<double> there = resampled(time, values, clamped, between);
+    std::vector<double> result(at.size(), 0.0);
+    std::ranges::copy(there, result.begin() + from);
+    (between == Between::smooth ? smooth_ : straight_).push_back(word + " (" + frequency_of(time) + ")");
+    return result;
   }
 
   // To the times that all channels have.
@@ -366,6 +383,11 @@ class RecordingMaker {
     left_out_ = first_ + (count - std::min(count, last_));
     if (first_ >= last_ || last_ - first_ < fewest_rows) too_few(first_ < last_ ? last_ - first_ : 0);
     for (std::vector<double>& values : values_) {
+      if (values.empty()) continue;
+      values.resize(last_);
+      values.erase(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(first_));
+    }
+    for (std::vector<double>& values : condition_values_) {
       if (values.empty()) continue;
       values.resize(last_);
       values.erase(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(first_));
@@ -407,7 +429,8 @@ class RecordingMaker {
   [[nodiscard]] std::vector<UnusedColumn> unused() const {
     std::vector<UnusedColumn> result;
     for (std::size_t k = 0; k < columns_.size(); ++k) {
-      if (std::ranges::any_of(sources_, [&](const Source& s) { return s.column == static_cast<int>(k); })) continue;
+      const auto taken = [&](const auto& source) { return source.column == static_cast<int>(k); };
+      if (std::ranges::any_of(sources_, taken) || std::ranges::any_of(conditions_, taken)) continue;
       const MeasuredChannel& channel = channels_[channel_of_[k]];
       if (channel.count == 0) continue;
       std::vector<double> values;
@@ -433,6 +456,8 @@ class RecordingMaker {
   bool times_are_a_column_ = false;
   Quantity base_ = Quantity::time;  // whose times are those of the recording
   Channels values_;
+  std::vector<ConditionSource> conditions_;
+  std::vector<std::vector<double>> condition_values_;  // of those with a column
   std::size_t first_ = 0;
   std::size_t last_ = 0;
   std::size_t left_out_ = 0;

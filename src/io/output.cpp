@@ -94,9 +94,9 @@ void make_output_folder(const std::filesystem::path& path) {
     throw InputError(name, 0, "the folder cannot be made (" + code.message() + "), expected a writable place");
   }
   if (::access(path.c_str(), W_OK | X_OK) != 0) {
-    throw InputError(
-        name, 0,
-        std::string("the folder cannot be written to (") + std::system_category().message(errno) + "), expected a writable place");
+    throw InputError(name, 0,
+                     std::string("the folder cannot be written to (") + std::system_category().message(errno) +
+                         "), expected a writable place");
   }
 }
 

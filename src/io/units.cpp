@@ -65,6 +65,12 @@ constexpr BaseUnit force_units[] = {
 constexpr BaseUnit current_units[] = {
     {"A", 1.0, true}, {"amp", 1.0, false}, {"amps", 1.0, false}, {"ampere", 1.0, false}, {"amperes", 1.0, false}};
 constexpr BaseUnit voltage_units[] = {{"V", 1.0, true}, {"volt", 1.0, false}, {"volts", 1.0, false}};
+constexpr double square_inch = 0.0254 * 0.0254;
+constexpr BaseUnit pressure_units[] = {{"Pa", 1.0, true},
+                                       {"bar", 1e5, true},
+                                       {"psi", pound_force / square_inch, false},
+                                       {"ksi", 1e3 * pound_force / square_inch, false},
+                                       {"atm", 101325.0, false}};
 constexpr BaseUnit gravity_units[] = {{"g", standard_gravity, false}, {"mg", 1e-3 * standard_gravity, false}};
 
 // Both code points of the micro sign occur in files.
@@ -140,7 +146,7 @@ std::optional<UnitConversion> plain(std::optional<double> factor) {
 
 std::string_view quantity_name(Quantity quantity) {
   static constexpr std::array<std::string_view, quantity_count> names = {
-      "time", "displacement", "velocity", "acceleration", "force", "current", "voltage", "temperature"};
+      "time", "displacement", "velocity", "acceleration", "force", "current", "voltage", "temperature", "base"};
   return names[static_cast<std::size_t>(quantity)];
 }
 
@@ -152,7 +158,8 @@ std::string_view accepted_units(Quantity quantity) {
                                                                          "N, kN, MN, daN, mN, lbf, lb, kip, kgf",
                                                                          "A, mA",
                                                                          "V, mV",
-                                                                         "degC, K, degF"};
+                                                                         "degC, K, degF",
+                                                                         "m, mm, cm, um, in, ft"};
   return units[static_cast<std::size_t>(quantity)];
 }
 
@@ -162,6 +169,7 @@ std::optional<UnitConversion> find_unit(Quantity quantity, std::string_view text
     case Quantity::time:
       return plain(find_factor(time_units, text));
     case Quantity::displacement:
+    case Quantity::base:
       return plain(find_factor(length_units, text));
     case Quantity::velocity:
       return plain(find_velocity(text));
@@ -177,6 +185,10 @@ std::optional<UnitConversion> find_unit(Quantity quantity, std::string_view text
       return find_temperature(text);
   }
   return std::nullopt;
+}
+
+std::optional<UnitConversion> find_pressure(std::string_view text) {
+  return plain(find_factor(pressure_units, trimmed(text)));
 }
 
 UnitConversion parse_unit(Quantity quantity, std::string_view text, const std::string& file, int line) {

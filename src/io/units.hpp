@@ -8,8 +8,8 @@
 namespace hysteron {
 
 // What a channel measures. The order is that of the channels in every table of src/io.
-enum class Quantity { time, displacement, velocity, acceleration, force, current, voltage, temperature };
-inline constexpr int quantity_count = 8;
+enum class Quantity { time, displacement, velocity, acceleration, force, current, voltage, temperature, base };
+inline constexpr int quantity_count = 9;
 
 // inside = value * factor + offset; only temperatures have an offset.
 struct UnitConversion {
@@ -28,6 +28,9 @@ struct UnitConversion {
 
 // The conversion of `text` (case matters: mN is not MN), or nothing when it is not a unit of the quantity.
 [[nodiscard]] std::optional<UnitConversion> find_unit(Quantity quantity, std::string_view text);
+
+// To Pa, of a unit of pressure: Pa and bar with SI prefixes, psi, ksi, atm.
+[[nodiscard]] std::optional<UnitConversion> find_pressure(std::string_view text);
 
 // As find_unit; an unknown unit is an InputError at file:line that names it and the accepted ones.
 [[nodiscard]] UnitConversion parse_unit(Quantity quantity, std::string_view text, const std::string& file = {},

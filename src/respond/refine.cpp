@@ -10,6 +10,7 @@
 #include "core/error.hpp"
 #include "fit/neighbours.hpp"
 #include "fit/parallel.hpp"
+#include "io/velocity.hpp"
 #include "respond/respond.hpp"
 
 namespace hysteron {
@@ -43,21 +44,26 @@ MotionTarget prepared(const Recording& recording, const Rig& rig) {
     throw InputError(recording.file + ": the mass does not move, expected a displacement to compare with");
   }
   result.excitation.time = recording.time;
-  const std::vector<double> nothing(recording.size(), 0.0);
-  result.excitation.force =
-      Signal(recording.time, recording.force.empty() ? nothing : recording.force, rig.interpolation, false);
+  if (rig.base) {
+    result.excitation.base = Signal(recording.time, recording.base, rig.interpolation, false);
+  } else {
+    result.excitation.force = Signal(recording.time, excitation_of(recording, rig), rig.interpolation, false);
+  }
   if (!recording.drive.empty()) {
     result.excitation.drive = Signal(recording.time, quiet_drive(recording.drive), Interpolation::linear, false);
   }
+  result.excitation.conditions = condition_signals(recording, false);
   return result;
 }
 
-// Difference of the simulated and recorded displacement over its largest, per sample; empty where the motion runs away.
-std::vector<double> misfit(const Layout& layout, const std::vector<Term>& terms, const Rig& rig, const MotionTarget& of,
-                           double displacement, double velocity) {
+// Displacement of the simulated motion; empty where it runs away.
+std::vector<double> simulated(const Layout& layout, const std::vector<Term>& terms, const Rig& rig,
+                              const MotionTarget& of, double displacement, double velocity) {
   Oscillator oscillator;
   oscillator.model = layout.model();
-  oscillator.parameters = [&](double drive) { return parameters_at(layout.held(), terms, drive, of.frequency); };
+  oscillator.parameters = [&](double drive, std::span<const double> conditions) {
+    return parameters_at(layout.held(), terms, drive, of.frequency, conditions);
+  };
   oscillator.mass = rig.mass;
   oscillator.stiffness = rig.stiffness;
   oscillator.damping = rig.damping;
@@ -65,12 +71,17 @@ std::vector<double> misfit(const Layout& layout, const std::vector<Term>& terms,
   with.tolerance = step_tolerance;
   with.displacement = displacement;
   with.velocity = velocity;
-  std::vector<double> result;
   try {
-    result = respond(oscillator, of.excitation, with).displacement;
+    return respond(oscillator, of.excitation, with).displacement;
   } catch (const WorkError&) {
     return {};
   }
+}
+
+// Difference of a simulated displacement and the recorded one over its largest, per sample; empty where the motion runs
+// away.
+std::vector<double> misfit(const std::vector<double>& displacement, const MotionTarget& of) {
+  std::vector<double> result = displacement;
   for (std::size_t n = 0; n < result.size(); ++n) {
     result[n] = (result[n] - of.recording->displacement[n]) / of.scale;
     if (!std::isfinite(result[n])) {
@@ -105,14 +116,18 @@ class ResponseObjective {
   }
 
   [[nodiscard]] std::vector<double> misfit_of(const std::vector<double>& point, std::size_t r) const {
+    return misfit(simulated_of(point, r), targets_[r]);
+  }
+
+  [[nodiscard]] std::vector<double> simulated_of(const std::vector<double>& point, std::size_t r) const {
     const MotionTarget& of = targets_[r];
     const std::size_t d = layout_.dimension();
     const auto about = [&](double middle, double largest, double unit) {
       return middle + span_of_start * largest * (2.0 * unit - 1.0);
     };
-    return misfit(layout_, layout_.terms({point.begin(), point.begin() + static_cast<std::ptrdiff_t>(d)}), rig_, of,
-                  about(of.recording->displacement[0], of.scale, point[d + 2 * r]),
-                  about(of.recording->velocity[0], of.fastest, point[d + 2 * r + 1]));
+    return simulated(layout_, layout_.terms({point.begin(), point.begin() + static_cast<std::ptrdiff_t>(d)}), rig_, of,
+                     about(of.recording->displacement[0], of.scale, point[d + 2 * r]),
+                     about(of.recording->velocity[0], of.fastest, point[d + 2 * r + 1]));
   }
 
   [[nodiscard]] Response evaluate(const Request& request) const {
@@ -208,13 +223,11 @@ class ResponseObjective {
 std::vector<double> unit_point(const Layout& layout, const std::vector<Term>& terms) {
   std::vector<double> result(layout.dimension());
   for (const ParameterLaw& law : layout.laws()) {
-    for (std::size_t f = 0; f < law.frequency_nodes.size(); ++f) {
-      for (std::size_t i = 0; i < law.drive_nodes.size(); ++i) {
-        const std::size_t c = law.first + f * law.drive_nodes.size() + i;
-        const double value =
-            parameters_at(layout.held(), terms, law.drive_nodes[i], law.frequency_nodes[f])[law.parameter];
-        result[c] = std::clamp(layout.unit(c, value), 0.0, 1.0);
-      }
+    for (std::size_t k = 0; k < law.count(); ++k) {
+      const ParameterLaw::Node node = law.node(k);
+      const double value =
+          parameters_at(layout.held(), terms, node.drive, node.frequency, node.conditions)[law.parameter];
+      result[law.first + k] = std::clamp(layout.unit(law.first + k, value), 0.0, 1.0);
     }
   }
   return result;
@@ -238,6 +251,39 @@ Response without_starts(const Response& whole, std::size_t kept) {
 
 }  // namespace
 
+std::vector<double> excitation_of(const Recording& response, const Rig& rig) {
+  if (!rig.base) {
+    return response.force.empty() ? std::vector<double>(response.size(), 0.0) : response.force;
+  }
+  if (response.base.empty()) {
+    throw InputError(response.file + ": no base column, expected the displacement of what the mass stands on");
+  }
+  std::vector<double> result =
+      derive_acceleration(response.time, response.base, derive_velocity(response.time, response.base), false);
+  for (double& value : result) {
+    value *= -rig.mass;
+  }
+  return result;
+}
+
+void refuse_if_not_responding(const Layout& layout, const std::vector<Recording>& responses, const Rig& rig) {
+  if (rig.base && rig.interpolation == Interpolation::linear) {
+    throw InputError(
+        "--interpolation linear: straight lines of a base have no acceleration, expected cubic or band-limited");
+  }
+  constexpr double off_neutral = 0.6;  // of the box
+  std::vector<double> p = layout.held();
+  bool follows = false;
+  for (const ParameterLaw& law : layout.laws()) {
+    p[law.parameter] = layout.physical(law.first, off_neutral);
+    follows = follows || law.drive_nodes.size() > 1;
+  }
+  for (const Recording& recording : responses) {
+    require_response(layout.model(), p, follows && drive_varies(recording));
+    prepared(recording, rig);
+  }
+}
+
 std::vector<Recording> damper_recordings(const std::vector<Recording>& responses, const Rig& rig) {
   std::vector<Recording> result = responses;
   for (Recording& recording : result) {
@@ -246,7 +292,7 @@ std::vector<Recording> damper_recordings(const std::vector<Recording>& responses
     if (acceleration.size() != recording.size()) {
       throw InputError(recording.file + ": no acceleration can be had, expected more samples or its column");
     }
-    recording.force.resize(recording.size(), 0.0);
+    recording.force = excitation_of(recording, rig);
     for (std::size_t n = 0; n < recording.size(); ++n) {
       recording.force[n] -=
           rig.mass * acceleration[n] + rig.damping * recording.velocity[n] + rig.stiffness * recording.displacement[n];
@@ -309,18 +355,14 @@ ResponseFit refine(Identification& result, const std::vector<Recording>& respons
   std::size_t next = 0;
   for (std::size_t k = 0; k < responses.size(); ++k) {
     const bool is_fitted = next < result.fitted.size() && result.fitted[next] == k;
-    std::vector<double> values;
-    double scale = 0.0;
-    if (is_fitted) {
-      values = objective.misfit_of(point, next++);
-      scale = largest(responses[k].displacement);
-    } else {
-      const MotionTarget of = prepared(responses[k], rig);
-      values = misfit(layout, result.terms, rig, of, responses[k].displacement[0], responses[k].velocity[0]);
-      scale = of.scale;
-    }
+    const MotionTarget of = prepared(responses[k], rig);
+    std::vector<double> motion =
+        is_fitted ? objective.simulated_of(point, next++)
+                  : simulated(layout, result.terms, rig, of, responses[k].displacement[0], responses[k].velocity[0]);
+    const std::vector<double> values = misfit(motion, of);
     const double nrmse = values.empty() ? std::nan("") : std::sqrt(mean_square(values));
-    fit.scores.push_back({responses[k].file, nrmse, nrmse * scale});
+    fit.scores.push_back({responses[k].file, nrmse, nrmse * of.scale});
+    fit.motions.push_back({values.empty() ? std::vector<double>{} : std::move(motion)});
   }
   return fit;
 }

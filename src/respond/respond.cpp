@@ -46,7 +46,8 @@ class System {
     for (const Part* effect : oscillator.model.effects) {
       add(*effect);
     }
-    constant_ = oscillator.parameters(excitation.drive ? excitation.drive->value(excitation.time.front()) : 0.0);
+    conditions_.resize(excitation.conditions.size());
+    set_parameters(excitation.time.front());
     probe();
   }
 
@@ -54,8 +55,8 @@ class System {
 
   // y: displacement and velocity relative to the base, the model's states. Sets force and acceleration too.
   void rates(double t, const std::vector<double>& y, std::vector<double>& result) {
-    if (excitation_.drive) {
-      constant_ = oscillator_.parameters(excitation_.drive->value(t));
+    if (excitation_.drive || !conditions_.empty()) {
+      set_parameters(t);
     }
     Input<double> in{};
     in.x = y[0];
@@ -104,6 +105,13 @@ class System {
     std::size_t parameter;
     std::size_t state;
   };
+
+  void set_parameters(double t) {
+    for (std::size_t c = 0; c < conditions_.size(); ++c) {
+      conditions_[c] = excitation_.conditions[c].value(t);
+    }
+    constant_ = oscillator_.parameters(excitation_.drive ? excitation_.drive->value(t) : 0.0, conditions_);
+  }
 
   // Force of the links [0, top), and their rates unless null; series elements as in simulate/assembly.hpp.
   double evaluate(std::size_t top, const double* s, const Input<double>& in, double* rates) const {
@@ -172,6 +180,7 @@ class System {
   std::size_t parameters_ = 0;
   std::size_t states_ = 0;
   bool needs_acceleration_ = false;
+  std::vector<double> conditions_;
   std::vector<double> constant_;
 };
 
@@ -282,6 +291,32 @@ class Integrator {
 };
 
 }  // namespace
+
+void require_response(const CompositeModel& model, const std::vector<double>& p, bool follows_varying_drive) {
+  for (const Part* effect : model.effects) {
+    if (follows_varying_drive && (effect->on_double.excite != nullptr || effect->on_double.recall != nullptr)) {
+      throw InputError("respond: " + std::string(effect->id) +
+                       " acts on a drive that varies, which is not offered yet; expected a constant drive");
+    }
+  }
+  Oscillator oscillator;
+  oscillator.model = model;
+  oscillator.parameters = [&](double, std::span<const double>) { return p; };
+  Excitation excitation;
+  excitation.time = {0.0};
+  const System probed(oscillator, excitation);
+}
+
+std::vector<Signal> condition_signals(const Recording& recording, bool periodic) {
+  std::vector<Signal> result;
+  for (const ConditionChannel& condition : recording.conditions) {
+    result.emplace_back(
+        recording.time,
+        condition.values.size() > 1 ? condition.values : std::vector<double>(recording.size(), condition.values[0]),
+        Interpolation::linear, periodic);
+  }
+  return result;
+}
 
 MassMotion respond(const Oscillator& oscillator, const Excitation& excitation, const RespondOptions& options) {
   System system(oscillator, excitation);

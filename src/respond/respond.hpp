@@ -8,6 +8,7 @@
 
 #include <functional>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "fit/layout.hpp"
@@ -17,8 +18,8 @@ namespace hysteron {
 
 struct Oscillator {
   CompositeModel model;
-  // Parameters of the model at a drive (A or V).
-  std::function<std::vector<double>(double drive)> parameters;
+  // Parameters of the model at a drive (A or V) and at values of the conditions.
+  std::function<std::vector<double>(double drive, std::span<const double> conditions)> parameters;
   double mass = 1.0;       // kg
   double stiffness = 0.0;  // N/m
   double damping = 0.0;    // N s/m
@@ -36,7 +37,11 @@ struct Excitation {
   std::optional<Signal> force;  // N
   std::optional<Signal> base;   // m
   std::optional<Signal> drive;  // A or V
+  std::vector<Signal> conditions = {};
 };
+
+// Conditions of a recording along its time.
+std::vector<Signal> condition_signals(const Recording& recording, bool periodic);
 
 // One entry a time.
 struct MassMotion {
@@ -45,6 +50,11 @@ struct MassMotion {
   std::vector<double> acceleration;  // m/s^2
   std::vector<double> force;         // N, of the model
 };
+
+// Throws InputError for a model whose motion cannot be told: its force needs the jerk, which belongs to the channels of
+// a recording, or an effect acts on a drive that varies and that parameters follow. `p` are parameters off all neutral
+// values.
+void require_response(const CompositeModel& model, const std::vector<double>& p, bool follows_varying_drive);
 
 // Throws WorkError where the motion runs away or cannot be followed, InputError for a model that needs what a motion to
 // come does not tell.

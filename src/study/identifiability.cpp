@@ -77,7 +77,7 @@ std::string name_of(const Layout& layout, std::size_t c) {
   const Coordinate& coordinate = layout.coordinates()[c];
   std::string name = layout.names()[coordinate.parameter];
   for (const ParameterLaw& law : layout.laws()) {
-    if (law.parameter == coordinate.parameter && law.drive_nodes.size() * law.frequency_nodes.size() > 1) {
+    if (law.parameter == coordinate.parameter && law.count() > 1) {
       return name + "[" + std::to_string(coordinate.node + 1) + "]";
     }
   }

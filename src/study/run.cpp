@@ -115,8 +115,7 @@ std::optional<RunRecord> do_run(const Plan& plan, const PlannedRun& run, const O
     record.best = result.best;
     const std::vector<Term> terms = problem.layout.terms(result.best);
     for (const Term& term : terms) {
-      parameters[term_name(problem.layout.names()[term.parameter], term.drive_power, term.frequency_power)] =
-          term.value;
+      parameters[term_name(problem.layout.names()[term.parameter], term, problem.layout.conditions())] = term.value;
     }
     if (!problem.heldout.empty()) {
       const double heldout = heldout_nrmse(problem, terms, options_of(plan, 1.0));

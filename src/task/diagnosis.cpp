@@ -9,6 +9,7 @@
 #include "fit/usable.hpp"
 #include "fit/weighting.hpp"
 #include "report/terminal.hpp"
+#include "task/laws.hpp"
 #include "task/model_file.hpp"
 #include "task/page.hpp"
 #include "task/words.hpp"
@@ -84,8 +85,7 @@ json curves_json(const Diagnosis& diagnosis, const Campaign& campaign, const Obj
 void check_diagnosis(const Campaign& campaign, DiagnoseOptions& options) {
   require_usable(campaign.recordings);
   if (options.model.empty()) options.model = campaign.model.empty() ? "bouc-wen" : campaign.model;
-  if (options.layout.by_current.empty()) options.layout.by_current = campaign.by_current;
-  if (options.layout.by_frequency.empty()) options.layout.by_frequency = campaign.by_frequency;
+  add_laws_of(campaign, options.layout);
   refuse_repeats("--laws", options.laws);
   for (const std::string& law : options.laws) {
     make_model(law, {});

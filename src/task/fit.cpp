@@ -11,8 +11,10 @@
 #include "fit/weighting.hpp"
 #include "report/terminal.hpp"
 #include "task/finite.hpp"
+#include "task/laws.hpp"
 #include "task/model_file.hpp"
 #include "task/page.hpp"
+#include "task/rate.hpp"
 #include "task/stages.hpp"
 #include "task/track.hpp"
 #include "task/words.hpp"
@@ -69,6 +71,7 @@ json response_json(const ResponseFit& fit, const Rig& rig) {
   return {{"mass_kg", rig.mass},
           {"stiffness_n_per_m", rig.stiffness},
           {"damping_n_s_per_m", rig.damping},
+          {"excitation", rig.base ? "base" : "force"},
           {"interpolation", word_of(rig.interpolation)},
           {"nrmse_of_equation_of_motion", finite(fit.before)},
           {"nrmse", finite(fit.cost)},
@@ -101,13 +104,13 @@ json summary_json(const FitResult& fit, const Names& names) {
   if (fit.response) {
     summary.push_back({{"label", "NRMSE, displacement of the mass"},
                        {"value", format_number(fit.response->cost, 3)},
-                       {"note",
-                        "simulated motion; forces on this page are of the equation of motion, with the "
-                        "noise of its acceleration"}});
+                       {"note", "of the fitted recordings, over the largest displacement of each"}});
   }
-  summary.push_back({{"label", fit.response ? "NRMSE, force of the equation of motion" : "NRMSE, fitted recordings"},
-                     {"value", format_number(result.cost, 3)},
-                     {"note", "root mean square over recordings, normalised by " + names.normalisation}});
+  summary.push_back(
+      {{"label", fit.response ? "NRMSE, force of the equation of motion" : "NRMSE, fitted recordings"},
+       {"value", format_number(result.cost, 3)},
+       {"note", fit.response ? "of the damper's force by m x'', with all noise of the acceleration; not plotted"
+                             : "root mean square over recordings, normalised by " + names.normalisation}});
   if (result.nrmse_heldout) {
     summary.push_back({{"label", "NRMSE, held-out recordings"},
                        {"value", format_number(*result.nrmse_heldout, 3)},
@@ -116,12 +119,35 @@ json summary_json(const FitResult& fit, const Names& names) {
   const RunResult& chosen = result.solvers[result.chosen].run;
   summary.push_back(
       {{"label", "Evaluations"},
-       {"value", std::to_string(chosen.evaluations)},
+       {"value", std::to_string(chosen.evaluations + (fit.response ? fit.response->run.evaluations : 0))},
        {"note", chosen.solver + ": " + chosen.stopped +
+                    (fit.response ? fmt::format("; of these {} of the motion by lm: {}", fit.response->run.evaluations,
+                                                fit.response->run.stopped)
+                                  : "") +
                     (result.final_run ? fmt::format("; and {} in the {} by {}", result.final_run->evaluations,
                                                     result.final_stage, result.final_run->solver)
                                       : "")}});
   return summary;
+}
+
+double deviation_of(const std::vector<double>& values) {
+  double sum = 0.0;
+  double square = 0.0;
+  for (const double value : values) {
+    sum += value - values.front();
+    square += (value - values.front()) * (value - values.front());
+  }
+  const auto count = static_cast<double>(values.size());
+  return std::sqrt(std::max(square / count - sum * sum / (count * count), 0.0));
+}
+
+// The errors of a recording's row are of the motion.
+void show_motion(json& row, const ResponseScore& score, const std::vector<double>& displacement) {
+  const auto finite_or_null = [](double value) { return std::isfinite(value) ? json(value) : json(); };
+  const double spread = deviation_of(displacement);
+  row["nrmse"] = finite_or_null(score.nrmse);
+  row["rmse_mm"] = finite_or_null(1e3 * score.rmse);
+  row["fit_percent"] = finite_or_null(spread > 0.0 ? 100.0 * (1.0 - score.rmse / spread) : std::nan(""));
 }
 
 json page_json(const FitResult& fit, const FitData& data, const FitRequest& request, const std::string& command,
@@ -142,7 +168,8 @@ json page_json(const FitResult& fit, const FitData& data, const FitRequest& requ
   page["notes"] = {
       "Standard errors come from the curvature at the optimum with the effective sample size of the "
       "correlated residual; they do not cover what the model leaves out.",
-      "Fit [%] = 100 (1 - RMSE / standard deviation of the measured force).",
+      fit.response ? "Fit [%] = 100 (1 - RMSE / standard deviation of the measured displacement)."
+                   : "Fit [%] = 100 (1 - RMSE / standard deviation of the measured force).",
       "A derivative evaluation is charged as 1 + number of free parameters evaluations."};
   if (std::ranges::any_of(result.solvers, [](const SolverOutcome& outcome) { return !outcome.run.track.empty(); })) {
     page["notes"].push_back(
@@ -196,11 +223,53 @@ json fit_json(const FitResult& fit, const FitData& data, const FitRequest& reque
 
 }  // namespace
 
+namespace {
+
+// Whether the mass stands on a base that moves; its recordings then have no force on it.
+bool on_base(Excites excitation, std::vector<Recording>& responses) {
+  const auto has = [&](const auto& channel) {
+    return std::ranges::any_of(responses, [&](const Recording& recording) { return !channel(recording).empty(); });
+  };
+  const bool base = has([](const Recording& r) -> const std::vector<double>& { return r.base; });
+  const bool force = has([](const Recording& r) -> const std::vector<double>& { return r.force; });
+  const bool recorded = excitation == Excites::what_is_recorded;
+  if (recorded && base && force) {
+    throw InputError(responses.front().file + ": a force and a base, expected --excitation force or base");
+  }
+  const bool result = recorded ? base : excitation == Excites::base;
+  for (Recording& recording : responses) {
+    if (result) recording.force.clear();
+    if (excitation == Excites::force && recording.force.empty()) {
+      throw InputError(recording.file + ": no force column, expected one for --excitation force");
+    }
+  }
+  return result;
+}
+
+// What is wrong with the model on these recordings.
+void check_before(const Layout& layout, const FitData& data, const FitRequest& request) {
+  if (request.rig) {
+    refuse_if_not_responding(layout, data.responses, *request.rig);
+  }
+  std::vector<bool> may_act;
+  for (const double held : layout.held()) may_act.push_back(held != 0.0);
+  bool follows_frequency = false;
+  for (const ParameterLaw& law : layout.laws()) {
+    may_act[law.parameter] = true;
+    follows_frequency = follows_frequency || law.frequency_nodes.size() > 1;
+  }
+  require_no_rate(layout.model(), may_act, follows_frequency, data.campaign.recordings,
+                  "--fix PARAMETER=0, a law without it, or recordings with time");
+}
+
+}  // namespace
+
 FitData fit_data(Campaign campaign, FitRequest& request) {
   require_usable(campaign.recordings, request.rig ? ForceOf::excitation : ForceOf::damper);
   FitData data{std::move(campaign), {}, {}};
   if (request.rig) {
     data.responses = std::move(data.campaign.recordings);
+    request.rig->base = on_base(request.excitation, data.responses);
     data.campaign.recordings = damper_recordings(data.responses, *request.rig);
   }
   data.model = request.model.empty() ? data.campaign.model : request.model;
@@ -211,9 +280,8 @@ FitData fit_data(Campaign campaign, FitRequest& request) {
   refuse_repeats("--solver", identify_with.solvers);
   refuse_repeats("--effects", identify_with.effects);
   LayoutOptions& layout = identify_with.layout;
-  if (layout.by_current.empty()) layout.by_current = data.campaign.by_current;
-  if (layout.by_frequency.empty()) layout.by_frequency = data.campaign.by_frequency;
-  make_model(data.model, identify_with.effects);
+  add_laws_of(data.campaign, layout);
+  const CompositeModel model = make_model(data.model, identify_with.effects);
   normaliser(data.campaign.recordings.front(), identify_with.objective.normalisation);
   if (request.two_stages && layout.by_current.empty() && layout.by_frequency.empty()) {
     throw InputError("--stages two: no parameter has a law, expected --by-current or --by-frequency");
@@ -221,6 +289,7 @@ FitData fit_data(Campaign campaign, FitRequest& request) {
   if (request.two_stages && request.rig) {
     throw InputError("--stages two: values of conditions are not fitted to a response, expected one stage");
   }
+  check_before(Layout(model, scale_of(data.campaign.recordings), layout), data, request);
   return data;
 }
 
@@ -273,7 +342,13 @@ FitResult fit_campaign(const FitData& data, const FitRequest& request, const std
       fit.diverged += fmt::format("{}{} from {:g} s on", fit.diverged.empty() ? "" : ", ", recording.file, *time);
     }
     const std::string shown_role = !fit.held_out[k] ? "fit" : result.roles_given ? "validate" : "checked";
+    if (fit.response) {
+      prediction.motion = fit.response->motions[k].displacement;
+    }
     page_recordings.push_back(recording_json(recording, prediction, shown_role, campaign.recordings.size()));
+    if (fit.response) {
+      show_motion(page_recordings.back(), fit.response->scores[k], recording.displacement);
+    }
     fit.scores.push_back(prediction.score);
   }
 

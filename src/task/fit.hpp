@@ -13,11 +13,15 @@
 
 namespace hysteron {
 
+// What moves the mass of a response.
+enum class Excites { what_is_recorded, force, base };
+
 struct FitRequest {
   std::string model;         // empty: the campaign's
   IdentifyOptions identify;  // once objective.stopped says so, the fit ends with what it has
   bool two_stages = false;   // also the laws through the values of conditions fitted freely
-  std::optional<Rig> rig;    // given: the recordings are of a mass on the damper
+  std::optional<Rig> rig;    // given: the recordings are of a mass on the damper; whether on a base is found out
+  Excites excitation = Excites::what_is_recorded;  // of that mass
 };
 
 // A campaign that can be fitted as asked.
@@ -27,7 +31,8 @@ struct FitData {
   std::string model;
 };
 // Throws InputError for what cannot be fitted, before any work: unusable recordings, wrong names, laws that
-// two stages need. Parameter laws that the request does not give are the campaign's, which it is given.
+// two stages need, a model that cannot respond or depends on a rate that is not recorded. Parameter laws that the
+// request does not give are the campaign's, which it is given.
 FitData fit_data(Campaign campaign, FitRequest& request);
 
 struct FitResult {

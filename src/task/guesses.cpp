@@ -34,13 +34,14 @@ struct Farthest {
     by = out;
   }
 
-  void tell(const std::pair<double, double>& range, const std::string& path, const char* what, const char* unit,
-            std::vector<std::string>& remarks) const {
+  void tell(const std::pair<double, double>& range, const std::string& path, const std::string& what,
+            const std::string& unit, std::vector<std::string>& remarks) const {
     if (count == 0) return;
+    const std::string behind = unit.empty() ? "" : " " + unit;
     remarks.push_back(
-        fmt::format("{}: a {} of {:.3g} {}, and the laws of {} were fitted from {:.3g} to {:.3g} {}: what they say "
+        fmt::format("{}: a {} of {:.3g}{}, and the laws of {} were fitted from {:.3g} to {:.3g}{}: what they say "
                     "beyond is a guess{}",
-                    file, what, value, unit, path, range.first, range.second, unit, alike(count)));
+                    file, what, value, behind, path, range.first, range.second, behind, alike(count)));
   }
 };
 
@@ -73,6 +74,17 @@ std::vector<std::string> guesses_of(const StoredModel& stored, const std::string
   }
   if (stored.drive_range) drive.tell(*stored.drive_range, path, drive_word, voltage ? "V" : "A", remarks);
   if (stored.frequency_range) frequency.tell(*stored.frequency_range, path, "frequency", "Hz", remarks);
+  for (std::size_t c = 0; c < stored.conditions.size(); ++c) {
+    const ConditionRange& condition = stored.conditions[c];
+    if (!(condition.high > condition.low)) continue;  // another model's
+    const std::pair range(condition.low, condition.high);
+    Farthest farthest;
+    for (const Recording& recording : recordings) {
+      const auto [low, high] = std::ranges::minmax(recording.conditions[c].values);
+      farthest.look(range, recording.file, low, high);
+    }
+    farthest.tell(range, path, condition.name, condition.unit, remarks);
+  }
   return remarks;
 }
 

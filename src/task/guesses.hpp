@@ -8,9 +8,10 @@
 
 namespace hysteron {
 
-// Remarks where recordings lack the drive that the laws of a model follow, which counts as zero, and
-// where drive or frequency lie beyond what the laws were fitted over by more than a tenth of that: a polynomial says
-// nothing there. One line each for all recordings, of the one that is farthest out. `path` is the model's.
+// Remarks where recordings lack the drive that the laws of a model follow, which counts as zero, and where drive,
+// frequency or conditions (follow_conditions) lie beyond what the laws were fitted over by more than a tenth of that: a
+// polynomial says nothing there. One line each for all recordings, of the one that is farthest out. `path` is the
+// model's.
 std::vector<std::string> guesses_of(const StoredModel& stored, const std::string& path,
                                     const std::vector<Recording>& recordings);
 

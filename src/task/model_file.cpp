@@ -9,13 +9,45 @@
 #include "core/error.hpp"
 #include "core/suggest.hpp"
 #include "core/unit_text.hpp"
+#include "io/conditions.hpp"
 #include "io/file.hpp"
 #include "io/json_reader.hpp"
+#include "task/rate.hpp"
 #include "task/words.hpp"
 
 namespace hysteron {
 
 using nlohmann::json;
+
+namespace {
+
+// What laws follow beside drive and frequency: unit, the range fitted over, order of every parameter.
+json by_json(const Layout& layout) {
+  json result = json::object();
+  for (std::size_t c = 0; c < layout.conditions().size(); ++c) {
+    const ConditionRange& condition = layout.conditions()[c];
+    json orders = json::object();
+    for (const ParameterLaw& law : layout.laws()) {
+      const std::size_t nodes = law.condition_nodes[c].size();
+      if (nodes > 1) orders[layout.names()[law.parameter]] = nodes - 1;
+    }
+    if (!orders.empty()) {
+      result[condition.name] = {
+          {"unit", condition.unit}, {"from", condition.low}, {"to", condition.high}, {"parameters", orders}};
+    }
+  }
+  return result;
+}
+
+json powers_json(const Term& term, const Layout& layout) {
+  json result = json::object();
+  for (std::size_t c = 0; c < term.condition_powers.size(); ++c) {
+    if (term.condition_powers[c] > 0) result[layout.conditions()[c].name] = term.condition_powers[c];
+  }
+  return result;
+}
+
+}  // namespace
 
 json model_json(const Identification& result, const Campaign& campaign, const IdentifyOptions& options,
                 const std::string& command) {
@@ -30,6 +62,9 @@ json model_json(const Identification& result, const Campaign& campaign, const Id
                           {"std_error", estimate.std_error ? json(*estimate.std_error) : json(nullptr)},
                           {"at_bound", estimate.at_bound ? json(*estimate.at_bound) : json(nullptr)},
                           {"identifiable", estimate.identifiable}});
+    if (json powers = powers_json(estimate.term, result.layout); !powers.empty()) {
+      parameters.back()["condition_powers"] = std::move(powers);
+    }
   }
   for (std::size_t j = 0; j < result.layout.cards().size(); ++j) {
     const bool searched =
@@ -61,26 +96,32 @@ json model_json(const Identification& result, const Campaign& campaign, const Id
       range["frequency_hz"] = {law.frequency_nodes.front(), law.frequency_nodes.back()};
     }
   }
-  return {{"schema", "hysteron.model/1"},
-          {"model", result.layout.model().law->id},
-          {"effects", effects},
-          {"by_current", options.layout.by_current},
-          {"by_frequency", options.layout.by_frequency},
-          {"laws_fitted_over", range},
-          {"parameters", parameters},
-          {"fitted_on", fitted},
-          {"nrmse",
-           {{"normalisation", word_of(options.objective.normalisation)},
-            {"fit", result.cost},
-            {"heldout", result.nrmse_heldout ? json(*result.nrmse_heldout) : json(nullptr)}}},
-          {"provenance",
-           {{"program", "hysteron " HYSTERON_VERSION},
-            {"command", command},
-            {"seed", options.seed},
-            {"solver", result.solvers[result.chosen].run.solver}}}};
+  json file = {{"schema", "hysteron.model/1"},
+               {"model", result.layout.model().law->id},
+               {"effects", effects},
+               {"by_current", options.layout.by_current},
+               {"by_frequency", options.layout.by_frequency},
+               {"laws_fitted_over", range},
+               {"parameters", parameters},
+               {"fitted_on", fitted},
+               {"nrmse",
+                {{"normalisation", word_of(options.objective.normalisation)},
+                 {"fit", result.cost},
+                 {"heldout", result.nrmse_heldout ? json(*result.nrmse_heldout) : json(nullptr)}}},
+               {"provenance",
+                {{"program", "hysteron " HYSTERON_VERSION},
+                 {"command", command},
+                 {"seed", options.seed},
+                 {"solver", result.solvers[result.chosen].run.solver}}}};
+  if (json by = by_json(result.layout); !by.empty()) {
+    file["by"] = std::move(by);
+  }
+  return file;
 }
 
 namespace {
+
+constexpr std::size_t most_terms = 10000;  // of one law
 
 // A power of the drive or the frequency: a whole number from 0 to 9.
 int power_of(const json& entry, const char* key, const std::string& name) {
@@ -119,30 +160,103 @@ std::optional<int> stated_order(const json& root, const char* key, const std::st
 void check_terms(const json& root, const StoredModel& stored) {
   const std::vector<std::string> names = stored.model.parameter_names();
   for (std::size_t k = 0; k < names.size(); ++k) {
-    int drive = -1;
-    int frequency = -1;
-    std::size_t count = 0;
+    // Highest power in drive, frequency and every condition: as found, then as stated.
+    std::vector<int> highest(2 + stored.conditions.size(), -1);
+    const auto powers_of = [&](const Term& term) {
+      std::vector<int> powers{term.drive_power, term.frequency_power};
+      powers.insert(powers.end(), term.condition_powers.begin(), term.condition_powers.end());
+      powers.resize(highest.size(), 0);
+      return powers;
+    };
     for (const Term& term : stored.terms) {
       if (term.parameter != k) continue;
-      ++count;
-      drive = std::max(drive, term.drive_power);
-      frequency = std::max(frequency, term.frequency_power);
+      const std::vector<int> powers = powers_of(term);
+      for (std::size_t axis = 0; axis < highest.size(); ++axis) highest[axis] = std::max(highest[axis], powers[axis]);
     }
-    if (count == 0) throw InputError("parameter '" + names[k] + "' is missing");
-    const int by_drive = stated_order(root, "by_current", names[k]).value_or(drive);
-    const int by_frequency = stated_order(root, "by_frequency", names[k]).value_or(frequency);
-    if (drive > by_drive || frequency > by_frequency) {
-      throw InputError("parameter '" + names[k] + "' has more terms than its law in by_current or by_frequency");
+    if (highest[0] < 0) throw InputError("parameter '" + names[k] + "' is missing");
+    std::vector<int> stated{stated_order(root, "by_current", names[k]).value_or(highest[0]),
+                            stated_order(root, "by_frequency", names[k]).value_or(highest[1])};
+    for (const ConditionRange& condition : stored.conditions) {
+      const json& orders = root.at("by").at(condition.name).at("parameters");
+      stated.push_back(orders.contains(names[k]) ? orders.at(names[k]).get<int>() : 0);
     }
-    for (int p = 0; p <= by_drive; ++p) {
-      for (int q = 0; q <= by_frequency; ++q) {
-        const bool there = std::ranges::any_of(stored.terms, [&](const Term& term) {
-          return term.parameter == k && term.drive_power == p && term.frequency_power == q;
-        });
-        if (!there) throw InputError("parameter '" + term_name(names[k], p, q) + "' is missing");
+    std::size_t count = 1;
+    for (std::size_t axis = 0; axis < highest.size(); ++axis) {
+      if (highest[axis] > stated[axis]) {
+        throw InputError("parameter '" + names[k] + "' has more terms than its law in by_current, by_frequency or by");
       }
+      count *= static_cast<std::size_t>(stated[axis] + 1);
+      if (count > most_terms) throw InputError("parameter '" + names[k] + "' has a law of too many terms");
+    }
+    for (std::size_t n = 0; n < count; ++n) {
+      Term wanted{k, 0, 0, 0.0, {}};
+      std::size_t rest = n;
+      for (std::size_t axis = 0; axis < stated.size(); ++axis) {
+        const auto size = static_cast<std::size_t>(stated[axis] + 1);
+        const int power = static_cast<int>(rest % size);
+        rest /= size;
+        if (axis == 0) {
+          wanted.drive_power = power;
+        } else if (axis == 1) {
+          wanted.frequency_power = power;
+        } else {
+          wanted.condition_powers.push_back(power);
+        }
+      }
+      const bool there = std::ranges::any_of(
+          stored.terms, [&](const Term& term) { return term.parameter == k && term.same_powers(wanted); });
+      if (!there) throw InputError("parameter '" + term_name(names[k], wanted, stored.conditions) + "' is missing");
     }
   }
+}
+
+// The member `by`: what it does not know it refuses, since the force would be another.
+std::vector<ConditionRange> conditions_in(const json& root, const std::vector<std::string>& names) {
+  std::vector<ConditionRange> result;
+  if (!root.contains("by")) return result;
+  for (const auto& [name, law] : root.at("by").items()) {
+    if (name.empty() || name != condition_name(name, "by")) {
+      throw InputError("by: '" + name + "' is not the name of a condition, expected lower case, e.g. pressure");
+    }
+    for (const auto& [key, value] : law.items()) {
+      if (key != "unit" && key != "from" && key != "to" && key != "parameters") {
+        throw InputError("by." + name + " has an unknown member '" + key + "', expected unit, from, to, parameters");
+      }
+    }
+    for (const auto& [parameter, order] : law.at("parameters").items()) {
+      if (std::ranges::find(names, parameter) == names.end()) {
+        throw InputError("by." + name + ": the model has no parameter '" + parameter + "'" +
+                         suggestion(parameter, names));
+      }
+      if (!order.is_number_integer() || order < 0 || order > 9) {
+        throw InputError("by." + name + " of '" + parameter + "' is " + order.dump() +
+                         ", expected a whole number from 0 to 9");
+      }
+    }
+    const ConditionRange range{name, law.at("unit").get<std::string>(), law.at("from").get<double>(),
+                               law.at("to").get<double>()};
+    if (!std::isfinite(range.low) || !std::isfinite(range.high)) {
+      throw InputError("by." + name + " has a range that is not finite");
+    }
+    result.push_back(range);
+  }
+  return result;
+}
+
+// Powers of the conditions in a parameter's entry.
+std::vector<int> condition_powers_of(const json& entry, const std::vector<ConditionRange>& conditions,
+                                     const std::string& name) {
+  std::vector<int> result(conditions.size(), 0);
+  if (!entry.contains("condition_powers")) return result;
+  for (const auto& [key, value] : entry.at("condition_powers").items()) {
+    const auto at = std::ranges::find(conditions, key, &ConditionRange::name);
+    if (at == conditions.end()) {
+      throw InputError("parameter '" + name + "' follows '" + key + "', which is not in by");
+    }
+    result[static_cast<std::size_t>(at - conditions.begin())] =
+        power_of(entry.at("condition_powers"), key.c_str(), name);
+  }
+  return result;
 }
 
 }  // namespace
@@ -168,6 +282,7 @@ StoredModel parse_model(std::string_view text, const std::string& path) {
     for (const Parameter& card : cards) {
       result.held.push_back(card.initial);
     }
+    result.conditions = conditions_in(root, names);
     for (const json& entry : root.at("parameters")) {
       const auto name = entry.value("parameter", entry.at("name").get<std::string>());
       const auto found = std::ranges::find(names, name);
@@ -182,23 +297,21 @@ StoredModel parse_model(std::string_view text, const std::string& path) {
       }
       const int drive_power = power_of(entry, "drive_power", name);
       const int frequency_power = power_of(entry, "frequency_power", name);
-      if (std::ranges::any_of(result.terms, [&](const Term& term) {
-            return term.parameter == index && term.drive_power == drive_power &&
-                   term.frequency_power == frequency_power;
-          })) {
-        throw InputError("parameter '" + term_name(name, drive_power, frequency_power) + "' is given twice");
+      const Term read{index, drive_power, frequency_power, value, condition_powers_of(entry, result.conditions, name)};
+      if (std::ranges::any_of(result.terms,
+                              [&](const Term& term) { return term.parameter == index && term.same_powers(read); })) {
+        throw InputError("parameter '" + term_name(name, read, result.conditions) + "' is given twice");
       }
-      const std::string unit =
-          entry.value("unit", term_unit(cards[index].unit, drive_power, frequency_power, result.drive));
+      const std::string unit = entry.value("unit", term_unit(cards[index].unit, read, result.conditions, result.drive));
       if (drive_power > 0 && result.drive == DriveKind::none) {
         result.drive = unit.find("/V") == std::string::npos ? DriveKind::current : DriveKind::voltage;
       }
-      const std::string expected = term_unit(cards[index].unit, drive_power, frequency_power, result.drive);
+      const std::string expected = term_unit(cards[index].unit, read, result.conditions, result.drive);
       if (unit != expected) {
-        throw InputError("parameter '" + term_name(name, drive_power, frequency_power) + "' has the unit '" + unit +
+        throw InputError("parameter '" + term_name(name, read, result.conditions) + "' has the unit '" + unit +
                          "', expected '" + expected + "'");
       }
-      result.terms.push_back({index, drive_power, frequency_power, value});
+      result.terms.push_back(read);
       result.searched += entry.value("fixed", false) ? 0 : 1;
     }
     for (const json& entry : root.value("fitted_on", json::array())) {
@@ -215,6 +328,109 @@ StoredModel parse_model(std::string_view text, const std::string& path) {
     throw wrong(error.what());
   }
   return result;
+}
+
+std::vector<std::string> conditions_of(const std::vector<const StoredModel*>& models) {
+  std::set<std::string> result;
+  for (const StoredModel* model : models) {
+    for (const ConditionRange& condition : model->conditions) result.insert(condition.name);
+  }
+  return {result.begin(), result.end()};
+}
+
+namespace {
+
+// Terms that followed `from` and now follow `to`, which holds them all.
+void reorder(StoredModel& stored, const std::vector<ConditionRange>& to) {
+  for (Term& term : stored.terms) {
+    std::vector<int> powers(to.size(), 0);
+    for (std::size_t c = 0; c < term.condition_powers.size(); ++c) {
+      const auto at = std::ranges::find(to, stored.conditions[c].name, &ConditionRange::name);
+      powers[static_cast<std::size_t>(at - to.begin())] = term.condition_powers[c];
+    }
+    term.condition_powers = std::move(powers);
+  }
+  stored.conditions = to;
+}
+
+void refuse_other_unit(const ConditionRange& condition, const std::string& unit, const std::string& where) {
+  if (!unit.empty() && !condition.unit.empty() && unit != condition.unit) {
+    throw InputError(where + ": the " + condition.name + " is in '" + unit + "', expected '" + condition.unit +
+                     "' as the model has it");
+  }
+}
+
+}  // namespace
+
+void follow_conditions(StoredModel& stored, const std::vector<Recording>& recordings) {
+  if (recordings.empty()) return;
+  const std::vector<ConditionChannel>& first = recordings.front().conditions;
+  for (const Recording& recording : recordings) {
+    for (const ConditionRange& condition : stored.conditions) {
+      const auto here = std::ranges::find(recording.conditions, condition.name, &ConditionChannel::name);
+      if (here == recording.conditions.end()) {
+        throw InputError(recording.file + ": read without the " + condition.name +
+                         ", which parameters of the model follow, expected a column or a number for it");
+      }
+      refuse_other_unit(condition, here->unit, recording.file);
+    }
+    if (!std::ranges::equal(recording.conditions, first, {}, &ConditionChannel::name, &ConditionChannel::name)) {
+      throw InputError(recording.file + ": other conditions than " + recordings.front().file +
+                       ", expected the same in all recordings");
+    }
+  }
+  std::vector<ConditionRange> all;
+  for (const ConditionChannel& channel : first) {
+    const auto own = std::ranges::find(stored.conditions, channel.name, &ConditionRange::name);
+    all.push_back(own == stored.conditions.end() ? ConditionRange{channel.name, channel.unit, 0.0, 0.0} : *own);
+  }
+  reorder(stored, all);
+}
+
+void hold_conditions(StoredModel& stored, const std::map<std::string, ConditionNumber>& values,
+                     const std::string& command) {
+  std::vector<double> at;
+  for (const ConditionRange& condition : stored.conditions) {
+    const auto found = values.find(condition.name);
+    if (found == values.end()) {
+      throw InputError(command + ": parameters follow the " + condition.name + ", expected its value by --at \"" +
+                       condition.name + "=NUMBER" + (condition.unit.empty() ? "" : " " + condition.unit) + "\"");
+    }
+    refuse_other_unit(condition, found->second.unit, "--at");
+    at.push_back(found->second.value);
+  }
+  for (const auto& [name, number] : values) {
+    if (std::ranges::find(stored.conditions, name, &ConditionRange::name) == stored.conditions.end()) {
+      throw InputError("--at: no parameter of the model follows '" + name + "'");
+    }
+  }
+  if (stored.conditions.empty()) return;
+  std::vector<Term> held;
+  for (Term& term : stored.terms) {
+    for (std::size_t c = 0; c < term.condition_powers.size(); ++c) {
+      for (int k = 0; k < term.condition_powers[c]; ++k) term.value *= at[c];
+    }
+    term.condition_powers.clear();
+    const auto same = std::ranges::find_if(
+        held, [&](const Term& other) { return other.parameter == term.parameter && other.same_powers(term); });
+    if (same == held.end()) {
+      held.push_back(std::move(term));
+    } else {
+      same->value += term.value;
+    }
+  }
+  stored.terms = std::move(held);
+  stored.conditions.clear();
+}
+
+void check_rate(const StoredModel& stored, const std::vector<Recording>& recordings) {
+  std::vector<bool> may_act(stored.held.size(), false);
+  bool follows_frequency = false;
+  for (const Term& term : stored.terms) {
+    may_act[term.parameter] = may_act[term.parameter] || term.value != 0.0;
+    follows_frequency = follows_frequency || term.frequency_power > 0;
+  }
+  require_no_rate(stored.model, may_act, follows_frequency, recordings, "a recording with time");
 }
 
 void check_drive(const StoredModel& stored, const std::string& path, const Recording& recording) {

@@ -1,6 +1,7 @@
 // model.json: everything needed to simulate an identified model on any machine.
 #pragma once
 
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include "fit/identify.hpp"
+#include "io/channels.hpp"
 
 namespace hysteron {
 
@@ -17,9 +19,10 @@ struct StoredModel {
   CompositeModel model;
   std::vector<double> held;
   std::vector<Term> terms;
-  DriveKind drive = DriveKind::none;  // what the laws follow, by their units; none without laws in the drive
-  std::size_t searched = 0;           // terms that were fitted, not held
-  std::set<std::string> fitted_on;    // sha256 of the recordings
+  DriveKind drive = DriveKind::none;       // what the laws follow, by their units; none without laws in the drive
+  std::vector<ConditionRange> conditions;  // that laws follow, with the range they were fitted over
+  std::size_t searched = 0;                // terms that were fitted, not held
+  std::set<std::string> fitted_on;         // sha256 of the recordings
   // Where the laws were fitted, lowest and highest; none of files without laws and of those that do not say it.
   std::optional<std::pair<double, double>> drive_range;      // A or V
   std::optional<std::pair<double, double>> frequency_range;  // Hz
@@ -34,6 +37,19 @@ nlohmann::json model_json(const Identification& result, const Campaign& campaign
 StoredModel read_model(const std::string& path);
 // The same of the text of a file; `path` opens the messages.
 StoredModel parse_model(std::string_view text, const std::string& path);
+
+// Names of the conditions that the laws of models follow, to be read with recordings.
+std::vector<std::string> conditions_of(const std::vector<const StoredModel*>& models);
+// The terms follow the conditions of the recordings, in their order. Throws InputError where a recording lacks one of
+// the model, has it in another unit, or has others than the first.
+void follow_conditions(StoredModel& stored, const std::vector<Recording>& recordings);
+// Terms at constant values of all conditions, which they then no longer follow. Throws InputError for a condition
+// without a value, or with one in another unit. `command` opens the message.
+void hold_conditions(StoredModel& stored, const std::map<std::string, ConditionNumber>& values,
+                     const std::string& command);
+
+// Throws InputError where a recording has no time and the force depends on the rate (task/rate.hpp).
+void check_rate(const StoredModel& stored, const std::vector<Recording>& recordings);
 
 // Throws InputError where laws in a current would be given a voltage or the other way round. `path` is the model's.
 void check_drive(const StoredModel& stored, const std::string& path, const Recording& recording);

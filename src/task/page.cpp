@@ -76,6 +76,9 @@ json recording_json(const Recording& recording, const Prediction& prediction, co
     row["velocity_mm_s"].push_back(1e3 * recording.velocity[n]);
     row["force_n"].push_back(recording.force[n]);
     row["predicted_n"].push_back(prediction.force[n]);
+    if (!prediction.motion.empty()) {
+      row["simulated_mm"].push_back(1e3 * prediction.motion[n]);
+    }
     if (!baseline.empty()) {
       row["baseline_n"].push_back(baseline[n]);
     }
@@ -104,7 +107,7 @@ json data_json(const Campaign& campaign) {
 
 json estimate_json(const Estimate& estimate, const Layout& layout) {
   const Parameter& card = layout.cards()[estimate.term.parameter];
-  const bool constant = estimate.term.drive_power + estimate.term.frequency_power == 0;
+  const bool constant = estimate.term.constant();
   json row = {{"name", estimate.name},
               {"symbol", card.symbol},
               {"unit", estimate.unit},

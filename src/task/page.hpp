@@ -12,6 +12,7 @@ namespace hysteron {
 struct Prediction {
   std::vector<double> force;  // N
   Score score;
+  std::vector<double> motion = {};  // m, of a mass on the damper
 };
 
 // A recording with its prediction, thinned to what a page of this many recordings can show, or that part of it which

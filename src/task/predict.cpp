@@ -18,7 +18,7 @@ std::vector<double> force_on(const StoredModel& stored, const std::string& path,
 
 }  // namespace
 
-std::vector<double> simulated_force(const StoredModel& stored, const std::string& path, const Recording& recording,
+std::vector<double> simulated_force(StoredModel stored, const std::string& path, const Recording& recording,
                                     double tolerance, std::vector<std::string>& remarks) {
   Recording motion = recording;
   // Of the force only how it begins: in its cycle, or from nothing.
@@ -26,14 +26,17 @@ std::vector<double> simulated_force(const StoredModel& stored, const std::string
   motion.force.clear();
   ObjectiveOptions objective;
   objective.tolerance = tolerance;
+  check_rate(stored, {motion});
+  follow_conditions(stored, {motion});
   remarks = guesses_of(stored, path, {motion});
   return force_on(stored, path, motion, objective);
 }
 
-CampaignScore score_campaign(const StoredModel& stored, const std::string& path,
-                             const std::vector<Recording>& recordings, const ObjectiveOptions& objective,
-                             std::vector<std::string>& remarks) {
+CampaignScore score_campaign(StoredModel stored, const std::string& path, const std::vector<Recording>& recordings,
+                             const ObjectiveOptions& objective, std::vector<std::string>& remarks) {
   CampaignScore result;
+  check_rate(stored, recordings);
+  follow_conditions(stored, recordings);
   remarks = guesses_of(stored, path, recordings);
   for (const Recording& recording : recordings) {
     const std::vector<double> force = force_on(stored, path, recording, objective);

@@ -12,8 +12,9 @@ namespace hysteron {
 
 // Force in N on the motion of a recording, of whose own force only how it begins is looked at; it may be missing.
 // `path` is the model's in messages; `remarks` are of guesses_of. Throws InputError where the laws follow
-// another drive, WorkError where the simulation does not stay finite.
-std::vector<double> simulated_force(const StoredModel& stored, const std::string& path, const Recording& recording,
+// another drive or a condition that the recording does not hold, or the force a rate that it does not know, WorkError
+// where the simulation does not stay finite.
+std::vector<double> simulated_force(StoredModel stored, const std::string& path, const Recording& recording,
                                     double tolerance, std::vector<std::string>& remarks);
 
 struct CampaignScore {
@@ -21,9 +22,8 @@ struct CampaignScore {
   double overall = 0.0;           // NRMSE
 };
 // Throws as simulated_force does.
-CampaignScore score_campaign(const StoredModel& stored, const std::string& path,
-                             const std::vector<Recording>& recordings, const ObjectiveOptions& objective,
-                             std::vector<std::string>& remarks);
+CampaignScore score_campaign(StoredModel stored, const std::string& path, const std::vector<Recording>& recordings,
+                             const ObjectiveOptions& objective, std::vector<std::string>& remarks);
 // As `hysteron score --json` writes it.
 nlohmann::json score_json(const CampaignScore& score, const std::vector<Recording>& recordings,
                           Normalisation normalisation);

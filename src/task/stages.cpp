@@ -82,8 +82,8 @@ json stages_json(const TwoStage& two, const Identification& joint, const Campaig
       const double drive = by_frequency ? mean_drive : x;
       const double frequency = by_frequency ? x : mean_frequency;
       at.push_back(x);
-      two_curve.push_back(parameters_at(layout.held(), two_terms, drive, frequency)[law.parameter]);
-      joint_curve.push_back(parameters_at(layout.held(), joint_terms, drive, frequency)[law.parameter]);
+      two_curve.push_back(parameters_at(layout.held(), two_terms, drive, frequency, {})[law.parameter]);
+      joint_curve.push_back(parameters_at(layout.held(), joint_terms, drive, frequency, {})[law.parameter]);
     }
     row["curve"] = {{"at", at}, {"two_stages", two_curve}, {"joint", joint_curve}};
     parameters.push_back(std::move(row));

@@ -35,7 +35,7 @@ const Allowed& allowed() {
       {"src/challenge", {"core", "io"}},
       {"src/report", {"core"}},
       {"src/compare", {"core"}},
-      {"src/respond", {"core", "fit"}},
+      {"src/respond", {"core", "fit", "io"}},
       {"src/export", {"core", "fit", "io", "scalar", "simulate"}},
       {"src/plugin", {"core", "fit", "simulate"}},
       {"presets", {"presets/support"}},

@@ -20,6 +20,8 @@ TEST(UnitText, NewtonsPerAmpereAreNotNotAvailable) {
   EXPECT_EQ(unit_text("1/m/A/Hz"), "m^-1 A^-1 Hz^-1");
   EXPECT_EQ(unit_text("m/(N s)/A"), "m/(N s) A^-1");
   EXPECT_EQ(unit_text("1/A^2/A"), "A^-3");
+  EXPECT_EQ(unit_text("N s/m/degC/degC"), "N s m^-1 degC^-2");
+  for (const char* stays : {"N/Pa", "N/(l/min)"}) EXPECT_EQ(unit_text(stays), stays);
   for (const char* stays : {"N/m^x/A", "N/m^/A", "N/m^-2/A", "N/m^99999999999/A"}) EXPECT_EQ(unit_text(stays), stays);
 }
 

@@ -24,7 +24,7 @@ constexpr std::uint64_t seed = 8040;
 LayoutOptions laws(const std::map<std::string, int>& by_current, const std::map<std::string, int>& by_frequency = {},
                    const std::map<std::string, double>& fix = {},
                    const std::map<std::string, std::pair<double, double>>& bounds = {}) {
-  return {by_current, by_frequency, fix, bounds};
+  return {by_current, by_frequency, {}, fix, bounds};
 }
 
 Layout layout_of(const std::string& model, const std::vector<Recording>& recordings, const LayoutOptions& options = {},
@@ -255,8 +255,8 @@ TEST_F(TwinObjective, DerivativesByNodesAreThoseByTheParameterOfAConstantDrive) 
   const std::vector<double> u = random_points(Stream(seed).child("nodes"), 1, laws.dimension(), 0.25);
   const Objective by_parameter(laws, {constant}, {});
   const Objective by_node(laws, {stepped}, {});
-  ASSERT_FALSE(by_parameter.targets()[0].drive_varies);
-  ASSERT_TRUE(by_node.targets()[0].drive_varies);
+  ASSERT_FALSE(by_parameter.targets()[0].inputs_vary);
+  ASSERT_TRUE(by_node.targets()[0].inputs_vary);
   const Linearised one = by_parameter.linearised(u)[0];
   const Linearised other = by_node.linearised(u)[0];
   const std::size_t d = laws.dimension();
@@ -511,7 +511,7 @@ TEST(Layout, TermsReproduceNodeValuesAndNodeInterpolation) {
   for (const ParameterLaw& law : layout.laws()) {
     for (std::size_t b = 0; b < law.frequency_nodes.size(); ++b) {
       for (std::size_t a = 0; a < law.drive_nodes.size(); ++a) {
-        const auto at = parameters_at(layout.held(), terms, law.drive_nodes[a], law.frequency_nodes[b]);
+        const auto at = parameters_at(layout.held(), terms, law.drive_nodes[a], law.frequency_nodes[b], {});
         const std::size_t c = law.first + b * law.drive_nodes.size() + a;
         EXPECT_EQ(layout.coordinates()[c].parameter, law.parameter);
         EXPECT_NEAR(at[law.parameter], layout.physical(c, u[c]), 1e-9 * (1.0 + std::fabs(layout.physical(c, u[c]))));
@@ -520,7 +520,7 @@ TEST(Layout, TermsReproduceNodeValuesAndNodeInterpolation) {
     // Between nodes: weights of the nodes and the polynomial agree, and the weights sum to one.
     const double drive = 0.53;
     const double frequency = 1.71;
-    const std::vector<double> weights = Layout::weights(law, drive, frequency);
+    const std::vector<double> weights = Layout::weights(law, drive, frequency, {});
     double value = 0.0;
     double sum = 0.0;
     double size = 1.0;
@@ -530,9 +530,9 @@ TEST(Layout, TermsReproduceNodeValuesAndNodeInterpolation) {
       sum += weights[k];
     }
     EXPECT_NEAR(sum, 1.0, 1e-12);
-    EXPECT_NEAR(parameters_at(layout.held(), terms, drive, frequency)[law.parameter], value, 1e-10 * size);
+    EXPECT_NEAR(parameters_at(layout.held(), terms, drive, frequency, {})[law.parameter], value, 1e-10 * size);
   }
-  EXPECT_EQ(parameters_at(layout.held(), terms, 0.5, 1.0)[6], 2.0);
+  EXPECT_EQ(parameters_at(layout.held(), terms, 0.5, 1.0, {})[6], 2.0);
 }
 
 TEST(Layout, TermMatrixIsTheSlopeOfTheTerms) {
@@ -617,9 +617,9 @@ TEST(Layout, FrequencyAndScaleOfARecording) {
 }
 
 TEST(Layout, TermNames) {
-  EXPECT_EQ(term_name("alpha", 0, 0), "alpha");
-  EXPECT_EQ(term_name("alpha", 1, 0), "alpha*i");
-  EXPECT_EQ(term_name("alpha", 2, 1), "alpha*i^2*f");
+  EXPECT_EQ(term_name("alpha", Term{0, 0, 0, 1.0}, {}), "alpha");
+  EXPECT_EQ(term_name("alpha", Term{0, 1, 0, 1.0}, {}), "alpha*i");
+  EXPECT_EQ(term_name("alpha", Term{0, 2, 1, 1.0}, {}), "alpha*i^2*f");
 }
 
 // A drive that steps in mid-recording acts as the constant drives it is made of.
@@ -640,8 +640,8 @@ TEST(Drive, PiecesOfATimeVaryingDriveActAsConstantDrives) {
   for (std::size_t n = at; n < stepped.size(); ++n) stepped.drive[n] = 1.1;
   const Target of_low = make_target(low, {});
   const Target of_step = make_target(stepped, {});
-  ASSERT_TRUE(of_step.drive_varies);
-  ASSERT_FALSE(of_low.drive_varies);
+  ASSERT_TRUE(of_step.inputs_vary);
+  ASSERT_FALSE(of_low.inputs_vary);
   const auto force_low = predict(layout.model(), layout.held(), terms, of_low);
   const auto force_step = predict(layout.model(), layout.held(), terms, of_step);
   for (std::size_t n = 0; n < at; ++n) ASSERT_NEAR(force_step[n], force_low[n], 1e-9 * 900.0) << "sample " << n;

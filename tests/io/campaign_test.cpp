@@ -80,7 +80,7 @@ TEST(Campaign, WrongTomlIsOneClearLine) {
        ":1: unknown schema 'hysteron.campaign/2', expected 'hysteron.campaign/1'"},
       {"schema type", "schema = 1\n", ":1: 'schema' is not text, expected a string in double quotes"},
       {"unknown key", schema + "\nmodle = \"x\"\n",
-       ":3: unknown key 'modle' (did you mean 'model'?), expected one of schema, model, by_current, by_frequency, "
+       ":3: unknown key 'modle' (did you mean 'model'?), expected one of schema, model, by_current, by_frequency, by, "
        "recording"},
       {"model type", schema + "model = 3\n", ":2: 'model' is not text, expected a string in double quotes"},
       {"empty model", schema + "model = \"\"\n", ":2: 'model' is empty, expected the name of a model"},
@@ -93,7 +93,9 @@ TEST(Campaign, WrongTomlIsOneClearLine) {
       {"no file", schema + "[[recording]]\nrole = \"fit\"\n",
        ":2: [[recording]] without 'file', expected file = \"NAME.csv\""},
       {"unknown recording key", schema + "[[recording]]\nfile = \"r1.csv\"\nrol = \"fit\"\n",
-       ":4: unknown key 'rol' in [[recording]] (did you mean 'role'?), expected one of file, role"},
+       ":4: unknown key 'rol' in [[recording]] (did you mean 'role'?), expected file, role, start, or a number of the "
+       "recording such as pressure = 2.1e5 or \"2.1 "
+       "bar\""},
       {"unknown role", schema + "[[recording]]\nfile = \"r1.csv\"\nrole = \"test\"\n",
        ":4: unknown role 'test', expected 'fit' or 'validate'"},
       {"missing file", schema + "[[recording]]\nfile = \"r9.csv\"\n",

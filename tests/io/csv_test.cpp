@@ -266,7 +266,7 @@ TEST(Csv, WrongInputsAreOneClearLine) {
         (void)parse_csv(good, "a.csv", mapped({{"torque", "CH1"}}));
       }),
       "--column torque=CH1: unknown channel 'torque', expected one of time, displacement, velocity, acceleration, "
-      "force, current, voltage, temperature");
+      "force, current, voltage, temperature, base");
 }
 
 // No prefix of a good file and no single damaged byte may do anything but succeed or throw InputError.

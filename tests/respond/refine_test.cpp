@@ -57,8 +57,9 @@ Recording shaken(double amplitude, double noise, std::uint64_t seed) {
   Excitation excitation;
   excitation.time = recording.time;
   excitation.force = Signal(recording.time, force, Interpolation::cubic, false);
-  const MassMotion motion = respond(
-      {model, [&](double) { return parameters_of(model); }, rig.mass, rig.stiffness, rig.damping}, excitation, with);
+  const MassMotion motion = respond({model, [&](double, std::span<const double>) { return parameters_of(model); },
+                                     rig.mass, rig.stiffness, rig.damping},
+                                    excitation, with);
   recording.displacement = motion.displacement;
   for (std::size_t n = 0; n < count; ++n) {
     recording.displacement[n] += noise * stream.normal(1000 + n);
@@ -96,8 +97,9 @@ TEST(DamperRecordings, HoldTheForceOfTheEquationOfMotion) {
   excitation.time = response.time;
   excitation.force = Signal(response.time, response.force, Interpolation::cubic, false);
   const std::vector<double> force =
-      respond({model, [&](double) { return parameters_of(model); }, rig.mass, rig.stiffness, rig.damping}, excitation,
-              with)
+      respond({model, [&](double, std::span<const double>) { return parameters_of(model); }, rig.mass, rig.stiffness,
+               rig.damping},
+              excitation, with)
           .force;
   const std::vector<Recording> damper = damper_recordings({response}, rig);
   for (std::size_t n = 0; n < force.size(); ++n) {

@@ -46,7 +46,7 @@ Oscillator oscillator_of(const std::string& law, const std::vector<std::string>&
     EXPECT_NE(at, names.end()) << name;
     p[static_cast<std::size_t>(at - names.begin())] = value;
   }
-  result.parameters = [p](double) { return p; };
+  result.parameters = [p](double, std::span<const double>) { return p; };
   result.mass = mass;
   return result;
 }

@@ -12,6 +12,10 @@ void add_recording(ByteWriter& key, const Recording& recording) {
         &recording.derived_acceleration, &recording.drive, &recording.temperature}) {
     key.numbers(*channel);
   }
+  for (const ConditionChannel& condition : recording.conditions) {
+    key.text(condition.name);
+    key.numbers(condition.values);
+  }
   key.whole(static_cast<std::uint64_t>(recording.drive_kind));
   key.whole(recording.velocity_measured ? 1 : 0);
   key.whole(static_cast<std::uint64_t>(recording.start));
@@ -53,6 +57,9 @@ void add_layout(ByteWriter& key, const Layout& layout) {
   for (const ParameterLaw& law : layout.laws()) {
     key.numbers(law.drive_nodes);
     key.numbers(law.frequency_nodes);
+    for (const std::vector<double>& nodes : law.condition_nodes) {
+      key.numbers(nodes);
+    }
   }
 }
 

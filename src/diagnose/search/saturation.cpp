@@ -31,8 +31,8 @@ bool saturates(const Fit& base, const Fit& augmented, const std::string& paramet
   std::array<double, 5> values{};
   for (std::size_t k = 0; k < values.size(); ++k) {
     const double drive = low + (high - low) * static_cast<double>(k) / static_cast<double>(values.size() - 1);
-    values[k] =
-        parameters_at(augmented.layout->held(), augmented.terms, drive, law->frequency_nodes.front())[law->parameter];
+    values[k] = parameters_at(augmented.layout->held(), augmented.terms, drive, law->frequency_nodes.front(),
+                              middle_of(augmented.layout->conditions()))[law->parameter];
   }
   for (std::size_t k = 1; k + 1 < values.size(); ++k) {
     if (values[k + 1] - values[k] > values[k] - values[k - 1] || values[k + 1] < values[k]) {

@@ -53,7 +53,7 @@ std::vector<std::size_t> size_of(const Fit& fit, const std::string& effect) {
   std::vector<std::size_t> coordinates;
   for (const ParameterLaw& law : fit.layout->laws()) {
     if (fit.layout->names()[law.parameter].starts_with(effect + ".")) {
-      for (std::size_t k = 0; k < law.drive_nodes.size() * law.frequency_nodes.size(); ++k) {
+      for (std::size_t k = 0; k < law.count(); ++k) {
         coordinates.push_back(law.first + k);
       }
       break;

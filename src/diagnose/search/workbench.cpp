@@ -22,9 +22,6 @@ constexpr double law_push = 0.03;
 // comparison of hypotheses can tell.
 constexpr double arrived = 1e-4;
 
-std::size_t node_drive(const ParameterLaw& law, std::size_t node) { return node % law.drive_nodes.size(); }
-std::size_t node_frequency(const ParameterLaw& law, std::size_t node) { return node / law.drive_nodes.size(); }
-
 // Values of a fit at the nodes of another layout, in unit coordinates; what the fit does not know stays as in `point`.
 // Returns which coordinates are new.
 std::vector<bool> take_over(const Fit& from, const Layout& to, std::vector<double>& point) {
@@ -36,11 +33,10 @@ std::vector<bool> take_over(const Fit& from, const Layout& to, std::vector<doubl
       continue;
     }
     const auto index = static_cast<std::size_t>(found - known.begin());
-    const std::size_t count = law.drive_nodes.size() * law.frequency_nodes.size();
-    for (std::size_t k = 0; k < count; ++k) {
+    for (std::size_t k = 0; k < law.count(); ++k) {
+      const ParameterLaw::Node node = law.node(k);
       const std::vector<double> values =
-          parameters_at(from.layout->held(), from.terms, law.drive_nodes[node_drive(law, k)],
-                        law.frequency_nodes[node_frequency(law, k)]);
+          parameters_at(from.layout->held(), from.terms, node.drive, node.frequency, node.conditions);
       point[law.first + k] = std::clamp(to.unit(law.first + k, values[index]), 0.0, 1.0);
       fresh[law.first + k] = false;
     }
@@ -63,10 +59,10 @@ bool take_over_kindred(const Fit& from, const Layout& to, std::vector<double>& p
       if (found == known.end()) {
         continue;
       }
-      const double value = parameters_at(from.layout->held(), from.terms, law.drive_nodes.front(),
-                                         law.frequency_nodes.front())[static_cast<std::size_t>(found - known.begin())];
-      const std::size_t count = law.drive_nodes.size() * law.frequency_nodes.size();
-      for (std::size_t k = 0; k < count; ++k) {
+      const double value =
+          parameters_at(from.layout->held(), from.terms, law.drive_nodes.front(), law.frequency_nodes.front(),
+                        middle_of(to.conditions()))[static_cast<std::size_t>(found - known.begin())];
+      for (std::size_t k = 0; k < law.count(); ++k) {
         point[law.first + k] = std::clamp(to.unit(law.first + k, row.factor * value), 0.0, 1.0);
       }
       any = true;
@@ -140,6 +136,9 @@ Layout Workbench::layout(const Hypothesis& what) const {
   }
   std::erase_if(options.by_frequency,
                 [&](const auto& law) { return std::ranges::find(names, law.first) == names.end(); });
+  for (auto& [condition, orders] : options.by) {
+    std::erase_if(orders, [&](const auto& law) { return std::ranges::find(names, law.first) == names.end(); });
+  }
   std::erase_if(options.fix, [&](const auto& law) { return std::ranges::find(names, law.first) == names.end(); });
   std::erase_if(options.bounds, [&](const auto& law) { return std::ranges::find(names, law.first) == names.end(); });
   // A damping that an effect takes away or adds follows the drive as the law's own does.
@@ -367,7 +366,7 @@ Starts Workbench::starts(const Hypothesis& what, const Fit& warm, const Fit* als
     for (const ParameterLaw& law : layout.laws()) {
       const std::string& name = layout.names()[law.parameter];
       const bool richer = std::ranges::count(what.richer, name) > std::ranges::count(warm.what.richer, name);
-      for (std::size_t k = 0; richer && k < law.drive_nodes.size() * law.frequency_nodes.size(); ++k) {
+      for (std::size_t k = 0; richer && k < law.count(); ++k) {
         starts.push_back(known);
         double& node = starts.back()[law.first + k];
         node += node > 0.5 ? -law_push : law_push;
