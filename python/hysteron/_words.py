@@ -89,6 +89,21 @@ def orders(name, value):
     return table(name, value, lambda of, order: whole(of, order, 0, _hysteron.highest_order))
 
 
+def laws(value):
+    """Orders of parameter laws by what they follow, {"pressure": {"alpha": 1}}."""
+    result = {}
+    for key, of in table("by", value, lambda _, given: given).items():
+        name = _hysteron.condition_name(key, "by")
+        if name in ("current", "frequency"):
+            raise InputError(f"by: {name} has an argument of its own, expected by_{name}")
+        if name in result:
+            raise InputError(f"by: laws in the {name} are given twice, expected them together")
+        result[name] = orders(f"by {name}", of) or {}
+        if not result[name]:
+            raise InputError(f"by: {name} names no parameter, expected for example {{{name!r}: {{'c0': 1}}}}")
+    return result
+
+
 def interval(name, value):
     try:
         lower, upper = value
@@ -131,9 +146,11 @@ class Command:
     def add_table(self, option, values, write):
         self.add_list(option, [write(key, value) for key, value in (values or {}).items()])
 
-    def add_laws(self, by_current, by_frequency):
+    def add_laws(self, by_current, by_frequency, by):
         self.add_table("--by-current", by_current, lambda key, order: f"{key}:{order}")
         self.add_table("--by-frequency", by_frequency, lambda key, order: f"{key}:{order}")
+        for name, of in by.items():
+            self.words += ["--by", name + "=" + ",".join(f"{key}:{order}" for key, order in of.items())]
 
     def add_common(self, seed, options):
         self.add("--seed", seed, 1)

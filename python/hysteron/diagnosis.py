@@ -3,7 +3,7 @@
 import json
 
 from . import _hysteron, _table, _words
-from .model import Model, as_typed, save_files, warnings_of, with_campaign
+from .model import Model, as_typed, refuse_numbers, save_files, warnings_of, with_campaign
 from .recordings import as_recordings
 
 
@@ -44,18 +44,21 @@ class Diagnosis:
         save_files(self._files, folder)
 
 
-def diagnose(recordings, model=None, *, by_current=None, by_frequency=None, effects=(), laws=None, most_effects=5,
+def diagnose(recordings, model=None, *, by_current=None, by_frequency=None, by=None, effects=(), laws=None, most_effects=5,
              seed=1, normalisation="max-abs", weighting="per-recording", tolerance=1e-4, threads=0, progress=None):
     """Finds where recordings and simulation differ, names what physics is left out, models it and refits.
 
     model: base damper law, default the campaign's, else bouc-wen; effects: those to consider, default all; laws: damper
     laws that the base law is set against, [] takes it for right, default those that list themselves; most_effects: that
     the augmented model may have. The rest as in fit. Ctrl-C ends it; nothing is kept of an unfinished diagnosis."""
-    recordings = as_recordings(recordings, need_force=True)
+    by = _words.laws(by)
+    recordings = as_recordings(recordings, need_force=True, conditions=by)
+    refuse_numbers(recordings, "diagnose")
     options = {
         "model": "" if model is None else str(model),
         "by_current": _words.orders("by_current", by_current),
         "by_frequency": _words.orders("by_frequency", by_frequency),
+        "by": by,
         "effects": _words.names("effects", effects),
         "laws": None if laws is None else _words.names("laws", laws),
         "most_effects": _words.whole("most_effects", most_effects, 1, 7),
@@ -65,7 +68,7 @@ def diagnose(recordings, model=None, *, by_current=None, by_frequency=None, effe
     typed = as_typed(recordings, options)
     command = _words.Command("diagnose", *recordings.command_words())
     command.add("--model", typed["model"], "")
-    command.add_laws(typed["by_current"], typed["by_frequency"])
+    command.add_laws(typed["by_current"], typed["by_frequency"], typed["by"])
     command.add_list("--effects", options["effects"])
     command.add_list("--laws", ["none"] if options["laws"] == [] else options["laws"])
     command.add("--most-effects", options["most_effects"], 5)

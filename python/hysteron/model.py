@@ -67,7 +67,7 @@ class Model:
     def simulate(self, recording, out=None, tolerance=1e-4):
         """Force in N on the motion of a recording, an array with a value per sample; `out`: a CSV file for it."""
         if not isinstance(recording, Recording):
-            recordings = as_recordings(recording)
+            recordings = as_recordings(recording, conditions=self.json.get("by", ()))
             if len(recordings) != 1:
                 raise InputError(f"simulate: {len(recordings)} recordings given, expected one")
             recording = recordings[0]
@@ -82,7 +82,8 @@ class Model:
     def score(self, recordings, normalisation="max-abs", weighting="per-recording", tolerance=1e-4):
         """Errors on recordings that the model need not have seen."""
         options = _words.common(normalisation, weighting, tolerance, 0)
-        text, remarks = _hysteron.score(self._stored, self._path, as_recordings(recordings, need_force=True).core(), options)
+        text, remarks = _hysteron.score(self._stored, self._path, as_recordings(
+            recordings, need_force=True, conditions=self.json.get("by", ())).core(), options)
         _words.warn(remarks)
         result = json.loads(text)
         return Score(result["overall"]["nrmse"], _table.of_rows(result["recordings"], "file"))
@@ -122,23 +123,26 @@ def load_model(path):
     return Model(text, path)
 
 
-def fit(recordings, model=None, *, by_current=None, by_frequency=None, effects=(), solver="multistart-lm",
+def fit(recordings, model=None, *, by_current=None, by_frequency=None, by=None, effects=(), solver="multistart-lm",
         budget=20000, seed=1, fix=None, bounds=None, settings=None, two_stages=False, response=None,
         normalisation="max-abs", weighting="per-recording", tolerance=1e-4, threads=0, progress=None):
     """Identifies one parameter set over all recordings.
 
     model: a damper law, see list("models"), default the campaign's; by_current, by_frequency: parameters that are
-    polynomials, {"alpha": 1}; effects: put behind the law; solver: one name or several to compare; budget: evaluations
+    polynomials, {"alpha": 1}; by: likewise in conditions of the recordings, {"pressure": {"alpha": 1}}; effects: put behind the law; solver: one name or several to compare; budget: evaluations
     each may use; fix: {"k0": 0.0} held, bounds: {"c0": (0, 5000)}, in SI units; settings: of the solver; two_stages:
     also the laws through values of conditions fitted freely; response: {"mass": 250, "stiffness": 2e4, "damping": 0,
-    "interpolation": "cubic"}, the recordings are of a mass on the damper; threads: 0 takes OMP_NUM_THREADS or all cores;
+    "interpolation": "cubic", "excitation": "auto"}, the recordings are of a mass on the damper; threads: 0 takes OMP_NUM_THREADS or all cores;
     progress: a function that is called with a Progress now and then. Ctrl-C, or an exception of `progress`, ends it."""
-    recordings = as_recordings(recordings, need_force=response is None)
+    by = _words.laws(by)
+    recordings = as_recordings(recordings, need_force=response is None, conditions=by)
+    refuse_numbers(recordings, "fit")
     if response is not None:
-        response = {"stiffness": 0.0, "damping": 0.0, "interpolation": "cubic", **response}
-        unknown = set(response) - {"mass", "stiffness", "damping", "interpolation"}
+        defaults = {"stiffness": 0.0, "damping": 0.0, "interpolation": "cubic", "excitation": "auto"}
+        unknown = set(response) - {"mass", *defaults}
+        response = {**defaults, **response}
         if unknown or "mass" not in response:
-            raise InputError("response: expected mass, and stiffness, damping, interpolation where they are not 0, 0, 'cubic'")
+            raise InputError("response: expected mass, and stiffness, damping, interpolation, excitation where they are not 0, 0, 'cubic', 'auto'")
         response["mass"] = _words.real("mass", response["mass"], 1e-9, 1e12)
         for key in ("stiffness", "damping"):
             response[key] = _words.real(key, response[key], -1e15, 1e15)
@@ -147,6 +151,7 @@ def fit(recordings, model=None, *, by_current=None, by_frequency=None, effects=(
         "model": "" if model is None else str(model),
         "by_current": _words.orders("by_current", by_current),
         "by_frequency": _words.orders("by_frequency", by_frequency),
+        "by": by,
         "effects": _words.names("effects", effects),
         "solver": solvers,
         "budget": _words.whole("budget", budget, 1, 1000000000),
@@ -164,7 +169,7 @@ def fit(recordings, model=None, *, by_current=None, by_frequency=None, effects=(
     command.add_list("--effects", options["effects"])
     command.add("--solver", ",".join(solvers), "multistart-lm")
     command.add("--budget", options["budget"], 20000)
-    command.add_laws(typed["by_current"], typed["by_frequency"])
+    command.add_laws(typed["by_current"], typed["by_frequency"], typed["by"])
     command.add("--stages", "two" if two_stages else "one", "one")
     command.add_table("--fix", options["fix"], lambda key, value: f"{key}={value!r}")
     command.add_table("--bounds", options["bounds"], lambda key, value: f"{key}={value[0]!r}:{value[1]!r}")
@@ -174,6 +179,7 @@ def fit(recordings, model=None, *, by_current=None, by_frequency=None, effects=(
         command.add("--mass", response["mass"])
         command.add("--stiffness", response["stiffness"], 0.0)
         command.add("--damping", response["damping"], 0.0)
+        command.add("--excitation", response["excitation"], "auto")
         command.add("--interpolation", response["interpolation"], "cubic")
     command.add_common(options["seed"], options)
     warnings = warnings_of(recordings)
@@ -191,7 +197,15 @@ def with_campaign(recordings, options):
         "model": options["model"] or recordings.model,
         "by_current": options["by_current"] or recordings.by_current,
         "by_frequency": options["by_frequency"] or recordings.by_frequency,
+        "by": {**recordings.by, **options["by"]},
     }
+
+
+def refuse_numbers(recordings, what):
+    """Numbers of load(..., at=...), which no command line can say to a fit or a diagnosis."""
+    if recordings.at:
+        raise InputError(f"{what}: recordings were loaded with at={recordings.at!r}, which is for simulate and score; "
+                         "expected a number of each recording in campaign.toml")
 
 
 def as_typed(recordings, options):

@@ -8,14 +8,15 @@ import numpy
 from . import _hysteron, _table, _words
 from ._hysteron import InputError
 
-CHANNELS = ("time", "displacement", "velocity", "acceleration", "force", "current", "voltage", "temperature")
-SI_UNITS = ("s", "m", "m/s", "m/s^2", "N", "A", "V", "degC")
+CHANNELS = ("time", "displacement", "velocity", "acceleration", "force", "current", "voltage", "temperature", "base")
+SI_UNITS = ("s", "m", "m/s", "m/s^2", "N", "A", "V", "degC", "m")
 
 
 class Recording:
     """One test of one damper. Channels are read-only numpy arrays in SI units (temperature in degC) of equal length:
     time, displacement, velocity (recorded, or derived from the displacement), force, and where recorded acceleration,
-    current or voltage, temperature; None where there is no such channel. `file` names it in results, `sha256` is of the
+    current or voltage, temperature, base; None where there is no such channel. `conditions` are what laws may follow
+    beside them, by name: values in SI units (one where it does not vary) and their unit. `file` names it in results, `sha256` is of the
     file's bytes."""
 
     def __init__(self, core, role="", given=None):
@@ -34,6 +35,9 @@ class Recording:
     current = property(lambda self: self._core.current)
     voltage = property(lambda self: self._core.voltage)
     temperature = property(lambda self: self._core.temperature)
+    base = property(lambda self: self._core.base, doc="displacement of what the mass of a response stands on")
+    conditions = property(lambda self: self._core.conditions)
+    timed = property(lambda self: self._core.timed, doc="whether the time was recorded")
 
     def __len__(self):
         return len(self._core)
@@ -68,18 +72,25 @@ class Recording:
                 there.pop("velocity", None)
             names = [f"{name} [{unit}]" for name, unit in there.items()]
             arrays = [getattr(self, name) for name in there]
+            for name, (values, unit) in self.conditions.items():
+                if name not in there:
+                    names.append(f"{name} [{unit}]" if unit else name)
+                    arrays.append(numpy.broadcast_to(values, len(self)))
         _hysteron.write_file(_words.path(path), _hysteron.csv_text(names, arrays))
 
 
 class Recordings(collections.abc.Sequence):
-    """Recordings that belong together. `model`, `by_current` and `by_frequency` are what campaign.toml says,
+    """Recordings that belong together. `model`, `by_current`, `by_frequency` and `by` are what campaign.toml says,
     `warnings` what the reader remarked."""
 
-    def __init__(self, recordings, model="", by_current=None, by_frequency=None, warnings=(), paths=None, options=()):
+    def __init__(self, recordings, model="", by_current=None, by_frequency=None, by=None, warnings=(), paths=None,
+                 options=(), at=None):
         self._recordings = tuple(recordings)
         self.model = model
         self.by_current = dict(by_current or {})
         self.by_frequency = dict(by_frequency or {})
+        self.by = dict(by or {})
+        self.at = dict(at or {})
         self.warnings = tuple(warnings)
         self._paths = paths  # of a command line that reads the same; None: the files by name
         self._options = list(options)  # likewise
@@ -111,33 +122,37 @@ class Recordings(collections.abc.Sequence):
 
     def _part(self, chosen):
         return Recordings(
-            chosen, self.model, self.by_current, self.by_frequency, self.warnings, options=self._options)
+            chosen, self.model, self.by_current, self.by_frequency, self.by, self.warnings, options=self._options,
+            at=self.at)
 
     from_paths = property(lambda self: self._paths is not None)
 
     def command_words(self):
         paths = self._paths if self._paths is not None else [one.file for one in self._recordings]
-        return [*paths, *self._options]
+        words = [*paths, *self._options]
+        if "--without-time" not in words and not all(one.timed for one in self._recordings):
+            words.append("--without-time")
+        return words
 
     def core(self):
         return [(one._core, one.role) for one in self._recordings]
 
 
-def as_recordings(value, need_force=False):
-    """Of whatever a function is given: recordings, one or several, or paths of them."""
+def as_recordings(value, need_force=False, conditions=()):
+    """Of whatever a function is given: recordings, one or several, or paths of them, read with the conditions."""
     if isinstance(value, Recordings):
         result = value
     elif isinstance(value, Recording):
         result = Recordings([value])
     elif isinstance(value, (str, os.PathLike)):
-        result = load(value)
+        result = load(value, conditions=conditions)
     else:
         try:
             items = list(value)
         except TypeError:
             items = [value]
         if items and all(isinstance(one, (str, os.PathLike)) for one in items):
-            result = load(*items)
+            result = load(*items, conditions=conditions)
         else:
             for one in items:
                 if not isinstance(one, Recording):
@@ -155,18 +170,23 @@ def as_recordings(value, need_force=False):
     return result
 
 
-def load(*data, columns=None, group="", skip=0, keep_samples=_hysteron.default_keep_samples, motion_only=False):
+def load(*data, columns=None, group="", skip=0, keep_samples=_hysteron.default_keep_samples, motion_only=False,
+         conditions=(), at=None, without_time=False):
     """Reads CSV, MAT, TDMS, MDF 4, RPC III and xlsx files and folders of them, with an optional campaign.toml.
 
     columns: {"force": "CH1 [kgf]"} maps channels to columns of other names or units; group: of TDMS and MDF files, or
     sheet of workbooks, that is read alone; skip: lines at the head of every CSV file that are not read; keep_samples: of all recordings together, of more several in a row are averaged to one;
-    motion_only=True: the force may be missing, for simulation. Returns Recordings."""
+    motion_only=True: the force may be missing, for simulation; conditions: columns that laws are to follow (`by` of fit),
+    ["pressure"]; at: {"pressure": "2.1 bar"} of what the laws of a model follow and no column holds, to simulate and
+    score; without_time=True: the time may be missing, for laws that do not depend on the rate. Returns Recordings."""
     paths = [_words.path(one) for one in data]
     columns = {str(key): str(value) for key, value in (columns or {}).items()}
     skip = _words.whole("skip", skip, 0, 100000)
     keep_samples = _words.whole("keep_samples", keep_samples, 0, 1000000000)
-    cores, roles, model, by_current, by_frequency, remarks = _hysteron.load(
-        paths, columns, group, skip, keep_samples, motion_only)
+    at = {str(key): str(value) for key, value in (at or {}).items()}
+    cores, roles, model, by_current, by_frequency, by, remarks = _hysteron.load(
+        paths, columns, group, skip, keep_samples, motion_only,
+        [*_words.names("conditions", conditions), *at], at, bool(without_time))
     _words.warn(text for text, _ in remarks)
     command = _words.Command()
     for channel in sorted(columns):
@@ -174,20 +194,24 @@ def load(*data, columns=None, group="", skip=0, keep_samples=_hysteron.default_k
     command.add("--group", group, "")
     command.add("--skip", skip, 0)
     command.add("--keep-samples", keep_samples, _hysteron.default_keep_samples)
+    if without_time:
+        command.words.append("--without-time")
     return Recordings(
         (Recording(core, role) for core, role in zip(cores, roles)),
-        model, by_current, by_frequency, [warning for _, warning in remarks], paths, command.words,
+        model, by_current, by_frequency, by, [warning for _, warning in remarks], paths, command.words, at,
     )
 
 
 def recording(data=None, *, name="recording.csv", units=None, columns=None, role="",
-              keep_samples=_hysteron.default_keep_samples, motion_only=False, **channels):
+              keep_samples=_hysteron.default_keep_samples, motion_only=False, conditions=(), without_time=False,
+              **channels):
     """A recording of arrays: what the CSV file that holds them would be read as.
 
     Either channels by keyword (time=, displacement=, force=, and velocity=, acceleration=, current=, voltage=,
-    temperature=), or `data`, a DataFrame or dictionary with columns named as in a file ("time", "disp [mm]", ...).
+    temperature=, base=), or `data`, a DataFrame or dictionary with columns named as in a file ("time", "disp [mm]", ...).
     units: {"displacement": "mm"} by the name of the column, SI without; columns: as in load; name: in results; role: ""
-    or "fit" or "validate"; motion_only=True: the force may be missing, for simulation."""
+    or "fit" or "validate"; motion_only=True: the force may be missing, for simulation; conditions, without_time: as in
+    load."""
     if (data is None) == (not channels):
         raise InputError("recording: expected either data or channels by keyword, e.g. time=..., displacement=..., force=...")
     if data is None:
@@ -225,7 +249,8 @@ def recording(data=None, *, name="recording.csv", units=None, columns=None, role
     if not arrays:
         raise InputError(f"{file}: no columns of numbers, expected at least time, displacement and force")
     columns = {str(key): str(value) for key, value in (columns or {}).items()}
-    core, remarks = _hysteron.recording(headers, arrays, file, columns, _words.whole("keep_samples", keep_samples, 0, 1000000000), motion_only)
+    core, remarks = _hysteron.recording(headers, arrays, file, columns, _words.whole("keep_samples", keep_samples, 0, 1000000000), motion_only,
+        _words.names("conditions", conditions), bool(without_time))
     _words.warn(text for text, _ in remarks)
     result = Recording(core, role, (headers, arrays))
     result.warnings = tuple(warning for _, warning in remarks)
@@ -234,6 +259,6 @@ def recording(data=None, *, name="recording.csv", units=None, columns=None, role
 
 def dataset(name, only="", seed=1):
     """A dataset that ships, see list("datasets"): what `hysteron generate NAME --only TEXT` writes, as Recordings."""
-    cores, roles, model, by_current, by_frequency, _ = _hysteron.dataset(
+    cores, roles, model, by_current, by_frequency, by, _ = _hysteron.dataset(
         name, only, _words.whole("seed", seed, 0, 2**64 - 1))
-    return Recordings((Recording(core, role) for core, role in zip(cores, roles)), model, by_current, by_frequency)
+    return Recordings((Recording(core, role) for core, role in zip(cores, roles)), model, by_current, by_frequency, by)

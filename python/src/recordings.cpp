@@ -3,7 +3,10 @@
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <map>
+#include <optional>
+#include <set>
 #include <span>
 
 #include "core/error.hpp"
@@ -11,6 +14,7 @@
 #include "datasets/dataset.hpp"
 #include "datasets/support/shipped.hpp"
 #include "io/block_means.hpp"
+#include "io/conditions.hpp"
 #include "io/csv.hpp"
 #include "io/csv_text.hpp"
 #include "io/plausible.hpp"
@@ -42,7 +46,7 @@ Role role_of(const std::string& word) {
   throw InputError("unknown role '" + word + "', expected 'fit' or 'validate'");
 }
 
-// Recordings, roles, model, laws by current and by frequency, remarks.
+// Recordings, roles, model, laws by current, by frequency and by conditions, remarks.
 py::tuple tuple_of(Loaded loaded) {
   py::list recordings;
   py::list roles;
@@ -51,12 +55,38 @@ py::tuple tuple_of(Loaded loaded) {
     roles.append(word_of(loaded.campaign.roles[k]));
   }
   return py::make_tuple(recordings, roles, loaded.campaign.model, loaded.campaign.by_current,
-                        loaded.campaign.by_frequency, remarks_of(once_each(loaded.remarks)));
+                        loaded.campaign.by_frequency, loaded.campaign.by, remarks_of(once_each(loaded.remarks)));
+}
+
+// Names of conditions as readers take them, each once.
+std::vector<std::string> conditions_named(const std::vector<std::string>& names) {
+  std::set<std::string> result;
+  for (const std::string& name : names) result.insert(condition_name(name, "conditions"));
+  return {result.begin(), result.end()};
+}
+
+std::map<std::string, ConditionNumber> numbers_of(const std::map<std::string, std::string>& at) {
+  std::map<std::string, ConditionNumber> result;
+  for (const auto& [word, text] : at) {
+    std::optional<ConditionNumber> number = condition_number(text);
+    if (!number) {
+      throw InputError("at: '" + text + "' of " + word +
+                       " is not a number with a unit, expected e.g. 2.1e5 or '2.1 bar'");
+    }
+    number->file = "at";
+    result.insert_or_assign(condition_name(word, "at"), *number);
+  }
+  return result;
 }
 
 py::tuple load(const std::vector<std::string>& data, const std::map<std::string, std::string>& columns,
-               const std::string& group, int skip, std::size_t keep_samples, bool motion_only) {
+               const std::string& group, int skip, std::size_t keep_samples, bool motion_only,
+               const std::vector<std::string>& conditions, const std::map<std::string, std::string>& at,
+               bool without_time) {
   ReadOptions options;
+  options.conditions = conditions_named(conditions);
+  options.numbers = numbers_of(at);
+  options.without_time = without_time;
   options.columns = columns;
   options.group = group;
   options.skip = skip;
@@ -85,7 +115,8 @@ std::string csv_text(const std::vector<std::string>& names, const std::vector<Nu
 }
 
 py::tuple recording(const std::vector<std::string>& names, const std::vector<Numbers>& arrays, const std::string& file,
-                    const std::map<std::string, std::string>& columns, std::size_t keep_samples, bool motion_only) {
+                    const std::map<std::string, std::string>& columns, std::size_t keep_samples, bool motion_only,
+                    const std::vector<std::string>& conditions, bool without_time) {
   const std::string text = csv_text(names, arrays);
   RecordingPointer result;
   std::vector<Remark> remarks;
@@ -95,6 +126,8 @@ py::tuple recording(const std::vector<std::string>& names, const std::vector<Num
     options.columns = columns;
     options.keep_samples = keep_samples;
     options.force_required = !motion_only;
+    options.conditions = conditions_named(conditions);
+    options.without_time = without_time;
     options.remark = [&](const Remark& remark) { remarks.push_back(remark); };
     result = std::make_shared<Recording>(recording_of_text(text, file, options));
   }
@@ -115,6 +148,7 @@ py::tuple dataset(const std::string& id, const std::string& only, std::uint64_t 
     loaded.campaign.model = campaign.model;
     loaded.campaign.by_current = campaign.by_current;
     loaded.campaign.by_frequency = campaign.by_frequency;
+    loaded.campaign.by = campaign.by;
     for (std::size_t k = 0; k < campaign.recordings.size(); ++k) {
       Recording& one = campaign.recordings[k];
       if (one.file.find(only) == std::string::npos) continue;
@@ -140,6 +174,15 @@ py::object channel_of(const py::object& self) {
   return view(self, self.cast<const Recording&>().*channel);
 }
 
+// Of every condition its values, one where it does not vary, and its unit.
+py::dict conditions_of(const py::object& self) {
+  py::dict result;
+  for (const ConditionChannel& condition : self.cast<const Recording&>().conditions) {
+    result[py::str(condition.name)] = py::make_tuple(view(self, condition.values), condition.unit);
+  }
+  return result;
+}
+
 template <DriveKind kind>
 py::object drive_of(const py::object& self) {
   const auto& recording = self.cast<const Recording&>();
@@ -154,6 +197,12 @@ Campaign campaign_of(const std::vector<std::pair<RecordingPointer, std::string>>
     campaign.recordings.push_back(*recording);
     campaign.roles.push_back(role_of(role));
   }
+  // Others are refused where they are used.
+  const auto same = [&](const Recording& one) {
+    return std::ranges::equal(one.conditions, campaign.recordings.front().conditions, {}, &ConditionChannel::name,
+                              &ConditionChannel::name);
+  };
+  if (std::ranges::all_of(campaign.recordings, same)) agree_on_units(campaign.recordings);
   return campaign;
 }
 
@@ -169,6 +218,9 @@ void add_recordings(py::module_& module) {
       .def_property_readonly("acceleration", &channel_of<&Recording::acceleration>)
       .def_property_readonly("force", &channel_of<&Recording::force>)
       .def_property_readonly("temperature", &channel_of<&Recording::temperature>)
+      .def_property_readonly("base", &channel_of<&Recording::base>)
+      .def_property_readonly("conditions", &conditions_of)
+      .def_readonly("timed", &Recording::timed)
       .def_property_readonly("current", &drive_of<DriveKind::current>)
       .def_property_readonly("voltage", &drive_of<DriveKind::voltage>);
   module.attr("default_keep_samples") = default_keep_samples;
@@ -178,6 +230,7 @@ void add_recordings(py::module_& module) {
   module.def("csv_text", [](const std::vector<std::string>& names, const std::vector<Numbers>& columns) {
     return py::bytes(csv_text(names, columns));
   });
+  module.def("condition_name", &condition_name);
   module.def("look_beside", [](const std::string& folder) { look_beside(folder); });
 }
 

@@ -35,7 +35,6 @@ namespace py = pybind11;
 namespace {
 
 using WithRoles = std::vector<std::pair<RecordingPointer, std::string>>;
-using Orders = std::map<std::string, int>;
 
 // Options by name, all of them given.
 class Options {
@@ -62,9 +61,17 @@ ObjectiveOptions objective_of(const Options& options) {
 
 LayoutOptions laws_of(const Options& options, const Campaign& campaign) {
   LayoutOptions layout;
-  layout.by_current = options.given("by_current") ? options.get<Orders>("by_current") : campaign.by_current;
-  layout.by_frequency = options.given("by_frequency") ? options.get<Orders>("by_frequency") : campaign.by_frequency;
+  layout.by_current = options.given("by_current") ? options.get<LawOrders>("by_current") : campaign.by_current;
+  layout.by_frequency = options.given("by_frequency") ? options.get<LawOrders>("by_frequency") : campaign.by_frequency;
+  layout.by = options.get<std::map<std::string, LawOrders>>("by");
   return layout;
+}
+
+Excites excites_of(const std::string& word) {
+  if (word == "auto") return Excites::what_is_recorded;
+  if (word == "force") return Excites::force;
+  if (word == "base") return Excites::base;
+  throw InputError("excitation: '" + word + "' is not known, expected auto, force or base");
 }
 
 FitRequest fit_request(const Options& options, const Campaign& campaign) {
@@ -75,6 +82,7 @@ FitRequest fit_request(const Options& options, const Campaign& campaign) {
     const auto rig = options.get<py::dict>("response");
     request.rig = Rig{rig["mass"].cast<double>(), rig["stiffness"].cast<double>(), rig["damping"].cast<double>(),
                       interpolation_of(rig["interpolation"].cast<std::string>())};
+    request.excitation = excites_of(rig["excitation"].cast<std::string>());
   }
   IdentifyOptions& identify = request.identify;
   identify.solvers = options.get<std::vector<std::string>>("solver");
