@@ -134,6 +134,15 @@ std::string sentence_of(const Diagnosis& diagnosis, const Named& named,
                         100.0 * std::clamp(rival->share, 0.0, 1.0));
   }
   if (!named.in_place_of) {
+    const InItsPlace others =
+        in_its_place(candidate_of(named, diagnosis.evidence), evidence_for(named, diagnosis.evidence));
+    if (others.leave_the_contrast > 0) {
+      text += fmt::format(
+          ". Its signature contrast is gone with it and stays behind {} of {} effects and laws tried in its place",
+          others.leave_the_contrast, others.tried);
+    }
+  }
+  if (!named.in_place_of) {
     text += fmt::format(
         ". To explain it away, unmodelled physics would have to explain {:.0f} % of what stays and share {:.0f} % of "
         "its shape",

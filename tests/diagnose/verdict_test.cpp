@@ -219,6 +219,8 @@ TEST(AsGood, NotWhatLeavesTheContrastOfTheCandidate) {
   ASSERT_EQ(as_good(candidate, evidence).size(), 1U) << "recordings left out do not tell the two apart";
   evidence.contrasts_left = {{"inertia", "", false, 0.5}, {"inertia", "quadratic-damping", false, 4.0}};
   EXPECT_TRUE(as_good(candidate, evidence).empty()) << "force with acceleration stays where it takes the place";
+  EXPECT_EQ(in_its_place(candidate, evidence).tried, 1U);
+  EXPECT_EQ(in_its_place(candidate, evidence).leave_the_contrast, 1U);
   evidence.contrasts_left[1].z = 2.5;
   EXPECT_EQ(as_good(candidate, evidence).size(), 1U) << "less than three standard errors of it stay";
   evidence.contrasts_left[1].z = 4.0;

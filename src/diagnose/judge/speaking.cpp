@@ -59,4 +59,18 @@ bool leaves_the_contrast(const Candidate& candidate, const std::string& instead,
   return augmented && other && *augmented < surely && *other >= loud;
 }
 
+InItsPlace in_its_place(const Candidate& candidate, const Evidence& evidence) {
+  InItsPlace result;
+  for (const ContrastLeft& row : evidence.contrasts_left) {
+    const bool has_it = row.law && std::ranges::any_of(evidence.other_laws, [&](const OtherLaw& law) {
+                          return law.model == row.instead && std::ranges::find(law.has, candidate.id) != law.has.end();
+                        });
+    if (row.effect == candidate.id && !row.instead.empty() && !has_it) {
+      ++result.tried;
+      result.leave_the_contrast += leaves_the_contrast(candidate, row.instead, row.law, evidence) ? 1 : 0;
+    }
+  }
+  return result;
+}
+
 }  // namespace hysteron

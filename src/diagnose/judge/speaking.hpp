@@ -32,4 +32,11 @@ bool speaks(const Speaking& speaking);
 // takes the candidate's place (ContrastLeft): it explains the squares, not what the candidate does.
 bool leaves_the_contrast(const Candidate& candidate, const std::string& instead, bool law, const Evidence& evidence);
 
+// Of the effects and laws that were set in the candidate's place, laws that have it as a part of their own apart.
+struct InItsPlace {
+  std::size_t tried = 0;
+  std::size_t leave_the_contrast = 0;
+};
+InItsPlace in_its_place(const Candidate& candidate, const Evidence& evidence);
+
 }  // namespace hysteron
