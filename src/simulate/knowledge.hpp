@@ -40,7 +40,7 @@ struct Limit {
   std::string_view parameter;
 };
 
-// With `parameter` at one end of its box an effect is `other`.
+// With `parameter` at one end of its box an effect is `other`, or a plain form of itself.
 enum class BoxEnd { lower, upper };
 struct BoxLimit {
   std::string_view other;
