@@ -174,7 +174,10 @@ std::vector<ConditionChannel> make_conditions(const std::vector<ConditionSource>
 }
 
 void take_numbers(Recording& recording, const ReadOptions& options) {
-  for (const auto& [name, number] : options.numbers) {
+  for (const auto& given : options.numbers) {
+    // References: clang 14 does not capture structured bindings.
+    const auto& name = given.first;
+    const auto& number = given.second;
     if (std::ranges::find(options.conditions, name) != options.conditions.end()) continue;
     const auto refuse_unit = [&](std::string_view unit) {
       if (!number.unit.empty() && number.unit != unit) {
