@@ -196,7 +196,7 @@ std::string mat5_of(const MatValue::Fields& variables) {
   bytes.resize(116, ' ');
   bytes += std::string(8, '\0') + std::string("\x00\x01IM", 4);
   const std::vector<std::string> names = distinct_names(variables);
-  for (std::size_t k = 0; k < variables.size(); ++k) bytes += matrix_of(variables[k].second, names[k]);
+  for (std::size_t k = 0; k < variables.size(); ++k) bytes += matrix_of(variables[k].value, names[k]);
   return bytes;
 }
 
@@ -207,9 +207,9 @@ std::string mat5_of_columns(std::string_view csv) {
   for (auto& [name, value] : columns) {
     const Column column = split_column(name);
     name = column.name;
-    if (!column.unit.empty()) units.emplace_back(column.name, MatValue{column.unit});
+    if (!column.unit.empty()) units.push_back({column.name, MatValue{column.unit}});
   }
-  if (!units.empty()) columns.emplace_back("units", MatValue{std::move(units)});
+  if (!units.empty()) columns.push_back({"units", MatValue{std::move(units)}});
   return mat5_of(columns);
 }
 
@@ -222,7 +222,7 @@ MatValue mat_table(std::string_view csv) {
     for (std::size_t k = 0; k < names.size(); ++k) columns[k].push_back(std::move(fields[k]));
   }
   MatValue::Fields fields;
-  for (std::size_t k = 0; k < names.size(); ++k) fields.emplace_back(names[k], column_of(std::move(columns[k])));
+  for (std::size_t k = 0; k < names.size(); ++k) fields.push_back({names[k], column_of(std::move(columns[k]))});
   return {std::move(fields)};
 }
 

@@ -11,9 +11,14 @@
 namespace hysteron {
 
 // A column of numbers; a text; a column of texts, a cell array; a struct of further values.
+struct MatField;
 struct MatValue {
-  using Fields = std::vector<std::pair<std::string, MatValue>>;
+  using Fields = std::vector<MatField>;
   std::variant<std::vector<double>, std::string, std::vector<std::string>, Fields> value;
+};
+struct MatField {
+  std::string name;
+  MatValue value;
 };
 
 // The bytes of a file with these variables, the same for the same values: it says no date. Names are made what MATLAB

@@ -74,12 +74,12 @@ TEST(Mat5Writer, ATableKeepsNumbersAndTextsApart) {
   const MatValue table = mat_table("name,value,none,mixed\n\"a, \"\"b\"\"\",1e-3,,1\nc,,,x\n");
   const auto& fields = std::get<MatValue::Fields>(table.value);
   ASSERT_EQ(fields.size(), 4U);
-  EXPECT_EQ(std::get<std::vector<std::string>>(fields[0].second.value), (std::vector<std::string>{"a, \"b\"", "c"}));
-  const auto& values = std::get<std::vector<double>>(fields[1].second.value);
+  EXPECT_EQ(std::get<std::vector<std::string>>(fields[0].value.value), (std::vector<std::string>{"a, \"b\"", "c"}));
+  const auto& values = std::get<std::vector<double>>(fields[1].value.value);
   EXPECT_EQ(values[0], 1e-3);
   EXPECT_TRUE(std::isnan(values[1]));
-  EXPECT_EQ(std::get<std::vector<std::string>>(fields[2].second.value), (std::vector<std::string>{"", ""}));
-  EXPECT_EQ(std::get<std::vector<std::string>>(fields[3].second.value), (std::vector<std::string>{"1", "x"}));
+  EXPECT_EQ(std::get<std::vector<std::string>>(fields[2].value.value), (std::vector<std::string>{"", ""}));
+  EXPECT_EQ(std::get<std::vector<std::string>>(fields[3].value.value), (std::vector<std::string>{"1", "x"}));
 }
 
 // The program's own reader takes columns, with their units, for what they are.
