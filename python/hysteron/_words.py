@@ -33,6 +33,17 @@ def observer(progress):
     return lambda *values: progress(Progress(*values))
 
 
+def hypothesis(model, by_current, by_frequency, by, effects):
+    """What is fitted: the law, what its parameters follow, and the effects. `by` has gone through laws() before."""
+    return {
+        "model": "" if model is None else str(model),
+        "by_current": orders("by_current", by_current),
+        "by_frequency": orders("by_frequency", by_frequency),
+        "by": by,
+        "effects": names("effects", effects),
+    }
+
+
 def warn(texts):
     for text in texts:
         warnings.warn(text, HysteronWarning, stacklevel=3)

@@ -55,11 +55,7 @@ def diagnose(recordings, model=None, *, by_current=None, by_frequency=None, by=N
     recordings = as_recordings(recordings, need_force=True, conditions=by)
     refuse_numbers(recordings, "diagnose")
     options = {
-        "model": "" if model is None else str(model),
-        "by_current": _words.orders("by_current", by_current),
-        "by_frequency": _words.orders("by_frequency", by_frequency),
-        "by": by,
-        "effects": _words.names("effects", effects),
+        **_words.hypothesis(model, by_current, by_frequency, by, effects),
         "laws": None if laws is None else _words.names("laws", laws),
         "most_effects": _words.whole("most_effects", most_effects, 1, 7),
         "seed": _words.whole("seed", seed, 0, 2**64 - 1),

@@ -148,11 +148,7 @@ def fit(recordings, model=None, *, by_current=None, by_frequency=None, by=None, 
             response[key] = _words.real(key, response[key], -1e15, 1e15)
     solvers = _words.names("solver", solver) or ["multistart-lm"]
     options = {
-        "model": "" if model is None else str(model),
-        "by_current": _words.orders("by_current", by_current),
-        "by_frequency": _words.orders("by_frequency", by_frequency),
-        "by": by,
-        "effects": _words.names("effects", effects),
+        **_words.hypothesis(model, by_current, by_frequency, by, effects),
         "solver": solvers,
         "budget": _words.whole("budget", budget, 1, 1000000000),
         "seed": _words.whole("seed", seed, 0, 2**64 - 1),

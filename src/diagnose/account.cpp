@@ -141,8 +141,6 @@ std::string sentence_of(const Diagnosis& diagnosis, const Named& named,
           ". Its signature contrast is gone with it and stays behind {} of {} effects and laws tried in its place",
           others.leave_the_contrast, others.tried);
     }
-  }
-  if (!named.in_place_of) {
     text += fmt::format(
         ". To explain it away, unmodelled physics would have to explain {:.0f} % of what stays and share {:.0f} % of "
         "its shape",

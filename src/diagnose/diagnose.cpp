@@ -296,7 +296,7 @@ Judgement judged(Search found, const Workbench& bench, const Workbench& fine, co
   result.estimates.emplace(fine);
   result.search = std::move(found);
   // Of every sample: what relaxes after a stop, or lags, is over within what a thinned recording leaves out.
-  result.contrasts = contrasts(bench.split().fit, bench.residuals(result.search.base).of);
+  result.contrasts = contrasts(bench.split().fit, bench.plain_residuals(result.search.base));
   const Circumstances known = {
       [&](const Fit& fit, const std::string& effect) { return intervals_of(result.estimates->of(fit), effect); },
       velocity_channel_lag(bench.split().fit), result.contrasts,

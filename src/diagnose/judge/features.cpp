@@ -46,18 +46,6 @@ double contrast_elsewhere(const Evidence& evidence) {
   return largest;
 }
 
-// What it takes off alone behind the base model. An effect that a richer law in the drive shows has no parameters of
-// its own: it is what such a law takes off.
-double gain_alone(const Candidate& candidate, const Evidence& evidence) {
-  double result = candidate.gain_alone;
-  for (const FirstLook& row : evidence.first_stage) {
-    if (candidate.parameters == 0 && row.id.starts_with("law:")) {
-      result = std::max(result, row.gain);
-    }
-  }
-  return result;
-}
-
 double chance(double value, double by_chance) { return std::max(0.0, value - std::max(by_chance, 0.0)); }
 
 }  // namespace
@@ -127,7 +115,7 @@ NameFeatures features_of(const Candidate& candidate, const Evidence& evidence) {
                                   evidence.augmented.squares)),
           1.0 - static_cast<double>(candidate.on_bound) / std::max(candidate.parameters, 1),
           contrast ? unit(contrast->z / std::max(contrast->z, elsewhere)) : unknown_contrast,
-          unit(gain_alone(candidate, evidence) / gain),
+          unit(candidate.gain_alone / gain),
           unit(1.0 - candidate.gain_of_relative / (candidate.gain_of_relative + gain))};
 }
 

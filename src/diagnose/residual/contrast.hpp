@@ -79,10 +79,11 @@ std::span<const std::string_view> speaks_for(ContrastKind kind);
 // The sign that its value has where that effect acts: 1, -1, or 0 where both occur or it does not speak for it.
 int sign_for(ContrastKind kind, std::string_view effect);
 
+enum class Placebos { none, all };
+
 // In the order of ContrastKind; kinds whose motion no recording holds are absent. `residuals` holds simulated -
 // measured force of the fitted base on each recording. Every number is finite. Deterministic. Placebos take nearly all
 // of the time: without them `placebo_quantile` is 0.
-enum class Placebos { none, all };
 std::vector<Contrast> contrasts(std::span<const Recording> recordings, std::span<const Residual> residuals,
                                 Placebos placebos = Placebos::all);
 

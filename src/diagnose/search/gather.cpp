@@ -262,7 +262,8 @@ Evidence evidence_of(const Search& search, const Workbench& fine, const Circumst
     one.score = comparison(augmented, without, noise);
     one.gain_alone = found.alone;
     for (const Tried& tried : search.first_stage) {
-      if (tried.part == found.part) {
+      // An effect that a richer law in the drive shows was tried as such a law.
+      if (found.by_law ? tried.part.is_law() : tried.part == found.part) {
         one.gain_alone = std::max(one.gain_alone, tried.gain);
       }
     }
