@@ -123,11 +123,15 @@ std::vector<ConditionSource> assign_conditions(const std::vector<Column>& column
       source.number = number->second;
     } else if (!recorded) {
       std::string list;
-      for (const Column& column : columns) list += (list.empty() ? "" : ", ") + in_quotes(column.text);
+      std::string likely = "NAME";  // a column of which the name is a part, as "oil temperature" of a temperature
+      for (const Column& column : columns) {
+        list += (list.empty() ? "" : ", ") + in_quotes(column.text);
+        if (lower_case(column.name).find(name) != std::string::npos) likely = in_quotes(column.name);
+      }
       throw InputError(
           file, line,
-          "no column " + in_quotes(name) + ", which parameters follow; expected one, --column " + name +
-              "=NAME, or a number for it in campaign.toml (for a model already fitted also by --at); the columns are " +
+          "no column " + in_quotes(name) + ", which parameters follow; expected one, --column " + name + "=" + likely +
+              ", or a number for it in campaign.toml (for a model already fitted also by --at); the columns are " +
               list);
     }
     result.push_back(std::move(source));

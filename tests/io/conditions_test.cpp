@@ -98,6 +98,9 @@ TEST(Conditions, WhatIsMissingOrTwiceIsRefusedInOneLine) {
   };
   EXPECT_NE(reads(plain(), following({"pressure"})).find("r.csv:1: no column 'pressure', which parameters follow"),
             std::string::npos);
+  const std::string oil = with_column("Oil pressure [bar]", [](int) { return std::string("1"); });
+  EXPECT_NE(reads(oil, following({"pressure"})).find("--column pressure='Oil pressure'"), std::string::npos)
+      << "a column that is likely meant is offered";
   ReadOptions both = following({"pressure"});
   both.numbers["pressure"] = {1.0, "Pa", "campaign.toml", 7};
   const std::string column = with_column("pressure [Pa]", [](int) { return std::string("1"); });
