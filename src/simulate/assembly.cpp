@@ -49,7 +49,6 @@ class Assembly {
     });
     values_.resize(parameters_);
     still_.resize(links_.size());
-    moving_.resize(links_.size());
     slack_.resize(links_.size());
   }
 
@@ -64,7 +63,6 @@ class Assembly {
       const Link& link = links_[i];
       if (link.values->stiffness != nullptr) {
         still_[i] = link.values->stiffness(values_.data() + link.parameter, 0.0);
-        moving_[i] = link.values->stiffness(values_.data() + link.parameter, 1.0) - still_[i];
         if (link.values->settles >= 0) slack_[i] = link.values->slack(values_.data() + link.parameter);
       }
     }
@@ -309,7 +307,7 @@ class Assembly {
         continue;
       }
       if (link.states > 0 && link.values->stiffness != nullptr) {
-        const Value whole = fma(max(abs(in.v), Value(speed)), moving_[i], still_[i]);
+        const Value whole = detail::stiffness_beyond(*link.values, p + link.parameter, still_[i], speed, abs(in.v));
         result.stiffness = result.stiffness + whole;
         const int settles = link.values->settles;
         result.at_rest = result.at_rest +
@@ -357,9 +355,8 @@ class Assembly {
   int states_;
   const T* p_ = nullptr;
   std::vector<Value> values_;
-  std::vector<Value> still_;  // stiffness bound of a link = still + moving |v|
-  std::vector<Value> moving_;
-  std::vector<Value> slack_;  // in place of both while the link's state rests at its bound
+  std::vector<Value> still_;  // stiffness bound of a link at rest
+  std::vector<Value> slack_;  // in place of it and what speed adds while the link's state rests at its bound
 };
 
 // Room for one step, made once: clearing it would cost as much as the step.

@@ -163,6 +163,19 @@ template <class V>
   return abs(rate) < V(1e-300);
 }
 
+// Bound of a part's stiffness at speeds that lanes have of their own, `slowest` (m/s) at least; `still` is that at
+// rest. It is linear in the speed or rises ever less (part.hpp): beyond `slowest` it stays below the line from rest to
+// there.
+template <class T>
+[[gnu::always_inline]] inline value_t<T> stiffness_beyond(const PartOperations<T>& part, const T* own,
+                                                          const value_t<T>& still, double slowest,
+                                                          const value_t<T>& speed) {
+  using Value = value_t<T>;
+  const double known = std::max(slowest, 1e-9);
+  const Value moving = part.stiffness(own, known);
+  return fma((moving - still) * Value(1.0 / known), max(speed - Value(known), Value(0.0)), moving);
+}
+
 inline double coarseness(const Motion& motion, double length) {
   return 1.0 + motion.finer_when_long * std::min(1.0, length / 5e-3);
 }

@@ -15,7 +15,9 @@
 // A part with states has besides
 //   rate(p, s, in) -> array<T, states>         their time derivatives, or, where they depend on the force below,
 //   loaded_rate(p, s, in, below) -> array<T, states>
-//   stiffness(p, speed) -> T           bound of |d rate / d state| in 1/s at |velocity| <= speed
+//   stiffness(p, speed) -> T           bound of |d rate / d state| in 1/s at |velocity| <= speed; linear in the speed
+//   or
+//                                      rising ever less
 // A part with a state that |state| = 1 bounds and holds, as a hysteresis that has yielded, while what drives it keeps
 // its sign, has besides, so that steps need not resolve it then,
 //   settles                            which state
@@ -118,7 +120,7 @@ struct Part {
   // Parts of the first parameter's range, off its neutral value, to start a search from: eight of them, for effects
   // that do nothing below a threshold. Empty for the usual ones.
   std::span<const double> starts;
-  bool bends = false;  // the force is not affine in the force below, so that parameters below are not linear
+  bool bends = false;        // the force is not affine in the force below, so that parameters below are not linear
   bool alternative = false;  // a damper law that `diagnose` tries in place of the one asked for
   const Knowledge* knowledge = nullptr;  // of an effect that says something of itself
   PartOperations<double> on_double;

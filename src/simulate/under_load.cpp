@@ -136,7 +136,7 @@ class LoadedChain {
       }
     }
   }
-  // Stiffness grows with the speed in proportion; behind the elements the links move faster by theirs.
+  // Behind the elements the links move faster by theirs.
   template <class Which>
   Value bound(const T* p, double speed, const Which& which) const {
     Value result(0.0);
@@ -144,8 +144,8 @@ class LoadedChain {
       if (link.operations->stiffness == nullptr) continue;
       const T* own = p + link.parameter;
       const Value still = link.operations->stiffness(own, 0.0);
-      const Value slope = link.operations->stiffness(own, 1.0) - still;
-      result = result + which(link, fma(slope, Value(speed) + moving_, still));
+      result =
+          result + which(link, detail::stiffness_beyond(*link.operations, own, still, speed, Value(speed) + moving_));
     }
     return result;
   }

@@ -181,6 +181,30 @@ TEST_P(Contract, StepIsSmallEnough) {
   }
 }
 
+// What marches that do not know the speed beforehand take for granted (simulate/march.hpp).
+TEST_P(Contract, StiffnessIsLinearInTheSpeedOrRisesEverLess) {
+  const CompositeModel& model = GetParam().model;
+  for (std::uint64_t seed = 300; seed < 320; ++seed) {
+    const Vector p = draw(model, seed, 0.0, false);
+    model.for_links([&](const Link& link) {
+      const PartOperations<double>& part = link.part->on<double>();
+      if (part.stiffness == nullptr) {
+        return;
+      }
+      const double* own = p.data() + link.parameter;
+      const double still = part.stiffness(own, 0.0);
+      for (double slow = 1e-4; slow < 1.0; slow *= 4.0) {
+        const double known = part.stiffness(own, slow);
+        for (double fast = 2.0 * slow; fast < 10.0; fast *= 3.0) {
+          const double line = known + (fast - slow) / slow * (known - still);
+          ASSERT_LE(part.stiffness(own, fast), line * (1.0 + 1e-12))
+              << link.part->id << " from " << slow << " to " << fast;
+        }
+      }
+    });
+  }
+}
+
 TEST_P(Contract, LanesAgreeWithDoubles) {
   const CompositeModel& model = GetParam().model;
   const Motion motion = sine(2.0, 0.025, 200.0, 0.3).motion();
@@ -661,6 +685,30 @@ TEST(Effects, ForcesInClosedForm) {
       EXPECT_NEAR(seal[n], (60.0 + 25.0 * std::exp(-v * v / 0.09)) * std::copysign(1.0, v), 1e-5);
     }
     EXPECT_NEAR(drift[n], 7.0 * motion.time[n], 1e-9);
+  }
+}
+
+// Behind a part whose state the force drives, steps follow the state: they must be as fine as without it, at speeds at
+// which a contact bends within a fraction of a sample too.
+TEST(Effects, AHeatThatWeakensNothingLeavesEveryForceAsItIs) {
+  for (const Part* effect : effect_catalogue()) {
+    if (effect->id == "self-heating") {
+      continue;
+    }
+    const CompositeModel model = make_model("bouc-wen", {std::string(effect->id)});
+    const CompositeModel warm = make_model("bouc-wen", {std::string(effect->id), "self-heating"});
+    for (const double amplitude : {2e-4, 5e-3}) {
+      const Motion motion = sine(1.0, amplitude, 200.0, 1.0).motion();
+      for (std::uint64_t seed = 400; seed < 406; ++seed) {
+        Vector p = draw(model, seed, 0.0, false);
+        const Vector force = simulate(model, motion, p);
+        for (const Parameter& card : find_effect("self-heating")->parameters) {
+          p.push_back(card.initial);
+        }
+        EXPECT_LT(rms_distance(simulate(warm, motion, p), force), 1e-3 * largest(force))
+            << effect->id << " seed " << seed << " amplitude " << amplitude;
+      }
+    }
   }
 }
 

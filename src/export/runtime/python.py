@@ -278,16 +278,15 @@ class Relief:
 
 
 class Bounds:
-    """A parameter set with the bounds of its links' stiffness: still + moving |v|, slack while a state rests."""
+    """A parameter set with the bounds of its links' stiffness: still at rest, slack while a state rests at its bound."""
 
     def __init__(self, p):
         self.p = p
-        self.still, self.moving, self.slack = [0.0] * len(LINKS), [0.0] * len(LINKS), [0.0] * len(LINKS)
+        self.still, self.slack = [0.0] * len(LINKS), [0.0] * len(LINKS)
         for i, link in enumerate(LINKS):
             if link.stiffness:
                 own = p[link.parameter:]
                 self.still[i] = link.stiffness(own, 0.0)
-                self.moving[i] = link.stiffness(own, 1.0) - self.still[i]
                 if link.settles >= 0:
                     self.slack[i] = link.slack(own)
 
@@ -411,7 +410,10 @@ def survey(bounds, s, seen, rates, speed, acceleration, relief):
             elements += min(rate, ELEMENT_RATE_LIMIT) + passing + gain * abs(bend * u) * resistance
             continue
         if link.stiffness:
-            whole = max(abs(seen.v), speed) * bounds.moving[i] + bounds.still[i]
+            # Linear in the speed or rising ever less: beyond a speed it stays below the line from rest to there.
+            known = max(speed, 1e-9)
+            moving = link.stiffness(bounds.p[link.parameter:], known)
+            whole = (moving - bounds.still[i]) * (1.0 / known) * max(abs(seen.v) - known, 0.0) + moving
             stiffness += whole
             at_rest += bounds.slack[i] if link.settles >= 0 and rests(rates[link.state + link.settles]) else whole
         if link.drive:

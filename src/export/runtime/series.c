@@ -7,10 +7,10 @@
 #define ELEMENT_MARGIN 1.25
 #define LEAST_PROGRESS 1e-15
 
-/* A parameter set with the bounds of its links' stiffness: still + moving |v|, slack while a state rests. */
+/* A parameter set with the bounds of its links' stiffness: still at rest, slack while a state rests at its bound. */
 typedef struct {
   const double *p;
-  double still[LINKS], moving[LINKS], slack[LINKS];
+  double still[LINKS], slack[LINKS];
 } assembly;
 
 /* What a step holds of its series links: a factor on the gain, dF/dv of the links below, and their speed. */
@@ -31,10 +31,9 @@ static void assemble(assembly *of, const double *p) {
   of->p = p;
   for (int i = 0; i < LINKS; ++i) {
     const link *here = &links[i];
-    of->still[i] = of->moving[i] = of->slack[i] = 0.0;
+    of->still[i] = of->slack[i] = 0.0;
     if (!here->stiffness) continue;
     of->still[i] = here->stiffness(p + here->parameter, 0.0);
-    of->moving[i] = here->stiffness(p + here->parameter, 1.0) - of->still[i];
     if (here->settles >= 0) of->slack[i] = here->slack(p + here->parameter);
   }
 }
@@ -182,7 +181,10 @@ static void survey(const assembly *of, const double *s, motion_point in, double 
       continue;
     }
     if (here->stiffness) {
-      const double whole = fmax(fabs(in.v), speed) * of->moving[i] + of->still[i];
+      /* Linear in the speed or rising ever less: beyond a speed it stays below the line from rest to there. */
+      const double known = fmax(speed, 1e-9);
+      const double moving = here->stiffness(of->p + here->parameter, known);
+      const double whole = (moving - of->still[i]) * (1.0 / known) * fmax(fabs(in.v) - known, 0.0) + moving;
       const int rested = here->settles >= 0 && rests(result->rates[here->state + here->settles]);
       result->stiffness += whole;
       result->at_rest += rested ? of->slack[i] : whole;
