@@ -14,7 +14,7 @@ struct Inertia {
   static constexpr std::string_view equations[] = {"F <- F + m a"};
   static constexpr int states = 0;
   static constexpr Parameter parameters[] = {
-      {.name = "m", .unit = "kg", .meaning = "effective mass", .box = {0, 100}, .initial = 0, .linear = true, .role = PhysicalRole::mass},
+      {.name = "m", .unit = "kg", .meaning = "effective mass", .box = {0, 500}, .initial = 0, .linear = true, .role = PhysicalRole::mass},
   };
   static constexpr std::string_view kin[] = {"sensor-delay", "velocity-lag"};
   static constexpr Knowledge knowledge = {

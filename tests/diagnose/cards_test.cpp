@@ -173,7 +173,7 @@ TEST(Cards, RelativesInTheOrderTheyAreTried) {
       {"cavitation", {"asymmetry"}},
       {"clearance", {"compliance", "entrapped-gas"}},
       {"coil-lag", {"magnetic-remanence", "magnetic-saturation"}},
-      {"compliance", {"clearance", "entrapped-gas", "series-dashpot"}},
+      {"compliance", {"clearance", "entrapped-gas", "series-dashpot", "sensor-delay"}},
       {"coulomb-friction", {"seal-friction", "pre-yield-hysteresis", "shear-thinning"}},
       {"cubic-stiffness", {"linear-stiffness", "gas-spring", "end-stop", "pinching"}},
       {"degradation", {"self-heating", "stiction"}},
@@ -191,7 +191,7 @@ TEST(Cards, RelativesInTheOrderTheyAreTried) {
       {"quadratic-damping", {"viscous-damping", "shear-thinning"}},
       {"seal-friction", {"coulomb-friction", "pre-yield-hysteresis"}},
       {"self-heating", {"degradation", "stiction"}},
-      {"sensor-delay", {"inertia", "velocity-lag"}},
+      {"sensor-delay", {"inertia", "velocity-lag", "compliance"}},
       {"series-dashpot", {"compliance"}},
       {"shear-thinning", {"viscous-damping", "quadratic-damping", "coulomb-friction"}},
       {"stiction", {"self-heating", "degradation"}},
@@ -360,6 +360,25 @@ TEST(Cards, RolesOfEffectsAndOfSpringsAndOffsetsOfLaws) {
 }
 
 // Where two rows lead to one parameter, the later counts.
+// Of the reference device (simulate/parameter.hpp): what an effect does alone, it may do with all of the force.
+TEST(Cards, BoxesOfEffectsHoldWhatMakesTheWholeForce) {
+  constexpr double force = 1000.0;  // N
+  constexpr double length = 0.025;  // m
+  constexpr double speed = 0.3;     // m/s
+  const std::map<PhysicalRole, double> made = {{PhysicalRole::mass, speed * speed / length},
+                                               {PhysicalRole::damping, speed},
+                                               {PhysicalRole::stiffness, length},
+                                               {PhysicalRole::yield_force, 1.0},
+                                               {PhysicalRole::offset_force, 1.0}};
+  for (const Part* effect : effect_catalogue()) {
+    for (const Parameter& card : effect->parameters) {
+      if (card.linear && card.role != PhysicalRole::none) {
+        EXPECT_GE(card.box.upper * made.at(card.role), force) << effect->id << "." << card.name;
+      }
+    }
+  }
+}
+
 TEST(Cards, KindredParameters) {
   std::map<std::string, std::vector<std::pair<std::string, double>>> to;
   for (const Kindred& row : kindred()) {
