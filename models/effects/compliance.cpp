@@ -17,7 +17,7 @@ struct Compliance {
       {.name = "C", .symbol = "1/k_s", .unit = "m/N", .meaning = "compliance of the series spring", .box = {0, 1e-5}, .initial = 0},
       {.name = "tau", .unit = "s", .meaning = "relaxation time of the spring's own damping", .box = {2e-4, 5e-3}, .initial = 5e-4, .scale = Scale::logarithmic, .fixed = true},
   };
-  static constexpr std::string_view kin[] = {"clearance", "entrapped-gas", "series-dashpot"};
+  static constexpr std::string_view kin[] = {"clearance", "entrapped-gas", "series-dashpot", "sensor-delay"};
   static constexpr KindredParameter kindred[] = {{"C", "clearance", "C_c", 1.0}, {"C", "entrapped-gas", "C_c", 1.0}};
   static constexpr Knowledge knowledge = {
       .family = families::series,

@@ -19,7 +19,7 @@ struct SensorDelay {
   static constexpr Parameter parameters[] = {
       {.name = "lag", .unit = "s", .meaning = "delay of the force channel", .box = {-0.02, 0.02}, .initial = 0},
   };
-  static constexpr std::string_view kin[] = {"inertia", "velocity-lag"};
+  static constexpr std::string_view kin[] = {"inertia", "velocity-lag", "compliance"};
   static constexpr Knowledge knowledge = {
       .family = families::phase,
       .in_words = "a delay between the motion and force channels",
