@@ -136,9 +136,9 @@ std::vector<Tried> stage(const Workbench& bench, const Fit& before, const std::v
   const Workbench single = bench.single_threaded();
   // Descents of one thread each, so that their order matters to nobody.
   const auto refitted = [&](std::size_t k) {
-    Starts starts = scores[k].starts;
-    starts.points.resize(std::min(starts.points.size(), Workbench::starts_of_a_pack(starts.layout->dimension())));
-    return single.from_starts(with(before.what, scores[k].part), starts, screening_rounds);
+    const Starts& starts = scores[k].starts;
+    return single.from_starts(with(before.what, scores[k].part), starts, screening_rounds,
+                              Workbench::starts_of_a_pack(starts.layout->dimension()));
   };
   parallel_for(scores.size(), bench.options().threads, [&](std::size_t k) {
     if (refit[k]) {

@@ -14,6 +14,8 @@ namespace hysteron {
 namespace {
 
 constexpr std::size_t start_count = 8;  // sizes that a refit starts from
+// Times that the size of a start is halved, to a sixteenth.
+constexpr int most_halvings = 4;
 // Rounds after which only the best starts go on.
 constexpr int race_rounds = 2;
 // Of a node of a richer law, part of its box.
@@ -401,7 +403,68 @@ std::vector<double> Workbench::under_measured_force(const Starts& starts, int ro
   return ByteReader(bytes).numbers();
 }
 
-Fit Workbench::from_starts(const Hypothesis& what, const Starts& starts, int rounds) const {
+// The size of what is new is known to first order at best, and far too large a one is no place to descend from: it is
+// halved until the start is no worse than nothing new, a few times.
+std::vector<std::vector<double>> Workbench::eased(const Starts& starts) const {
+  ByteWriter key;
+  key.text("eased starts");
+  add_layout(key, *starts.layout);
+  key.numbers(starts.neutral);
+  for (const std::vector<double>& start : starts.points) {
+    key.numbers(start);
+  }
+  const std::string bytes = piece(key, [&] {
+    const Objective objective(*starts.layout, split_.fit, options_);
+    const double nothing = objective.evaluate({starts.neutral, false}).cost[0];
+    std::vector<std::vector<double>> points = starts.points;
+    std::vector<double> costs(points.size(), diverged_cost);
+    for (int k = 0; k <= most_halvings; ++k) {
+      Request request;
+      std::vector<std::size_t> asked;
+      for (std::size_t i = 0; i < points.size(); ++i) {
+        if (k == 0 || costs[i] > nothing) {
+          asked.push_back(i);
+          for (const std::size_t c : k == 0 ? std::vector<std::size_t>{} : starts.sizes) {
+            points[i][c] = 0.5 * (points[i][c] + starts.neutral[c]);
+          }
+          request.points.insert(request.points.end(), points[i].begin(), points[i].end());
+        }
+      }
+      if (asked.empty()) {
+        break;
+      }
+      const Response answer = objective.evaluate(request);
+      for (std::size_t i = 0; i < asked.size(); ++i) {
+        costs[asked[i]] = answer.cost[i];
+      }
+    }
+    ByteWriter result;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      result.numbers(points[i]);
+      result.number(costs[i]);
+    }
+    return result.bytes();
+  });
+  ByteReader read(bytes);
+  std::vector<std::pair<double, std::vector<double>>> sorted;
+  for (std::size_t i = 0; i < starts.points.size(); ++i) {
+    std::vector<double> point = read.numbers();
+    sorted.emplace_back(read.number(), std::move(point));
+  }
+  std::ranges::stable_sort(sorted, {}, &std::pair<double, std::vector<double>>::first);
+  std::vector<std::vector<double>> result;
+  for (auto& [cost, point] : sorted) {
+    result.push_back(std::move(point));
+  }
+  return result;
+}
+
+Fit Workbench::from_starts(const Hypothesis& what, const Starts& given, int rounds, std::size_t most) const {
+  Starts starts = given;
+  if (!starts.sizes.empty()) {
+    starts.points = eased(given);
+  }
+  starts.points.resize(std::min(starts.points.size(), most));
   const bool balances = std::ranges::any_of(what.effects, [](const std::string& id) { return find_effect(id)->bends; });
   if (!balances || starts.points.size() < 2) {
     return descended(what, *starts.layout, starts.points, rounds);
@@ -417,9 +480,7 @@ Fit Workbench::from_starts(const Hypothesis& what, const Starts& starts, int rou
 }
 
 Fit Workbench::from_fit(const Hypothesis& what, const Fit& warm, int rounds, const Fit* also) const {
-  Starts all = starts(what, warm, also);
-  all.points.resize(std::min(all.points.size(), start_count));
-  return from_starts(what, all, rounds);
+  return from_starts(what, starts(what, warm, also), rounds, start_count);
 }
 
 Fit Workbench::polished(const Fit& fit, int rounds) const {

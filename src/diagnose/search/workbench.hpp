@@ -53,10 +53,10 @@ class Workbench {
   // Descents from a fit of a smaller or equal hypothesis, half of them from `also` when given: its values, and a spread
   // of starts for what is new. `rounds` derivative evaluations of the best starts, fewer of the others.
   [[nodiscard]] Fit from_fit(const Hypothesis& what, const Fit& warm, int rounds, const Fit* also = nullptr) const;
-  // Points to descend from: those of from_fit, twice as many where what is new has shapes; and descents from given
-  // ones.
+  // Points to descend from: those of from_fit, twice as many where what is new has shapes; and descents from the best
+  // `most` of given ones.
   [[nodiscard]] Starts starts(const Hypothesis& what, const Fit& warm, const Fit* also = nullptr) const;
-  [[nodiscard]] Fit from_starts(const Hypothesis& what, const Starts& starts, int rounds) const;
+  [[nodiscard]] Fit from_starts(const Hypothesis& what, const Starts& starts, int rounds, std::size_t most) const;
   // As many descents as share one pack with all their derivatives.
   [[nodiscard]] static std::size_t starts_of_a_pack(std::size_t dimension);
   // Continues the best of a fit itself.
@@ -118,6 +118,8 @@ class Workbench {
   };
   [[nodiscard]] Reached reached(const Layout& layout, const Objective& objective,
                                 const std::vector<std::vector<double>>& starts, int rounds) const;
+  // The starts, best first.
+  [[nodiscard]] std::vector<std::vector<double>> eased(const Starts& starts) const;
   [[nodiscard]] std::vector<double> under_measured_force(const Starts& starts, int rounds) const;
 
   DataScale scale_;
