@@ -24,6 +24,8 @@ struct Clearance {
   };
   static constexpr std::string_view kin[] = {"compliance", "entrapped-gas"};
   static constexpr Limit holds[] = {{"compliance", "gap"}};
+  // A play whose contact is stiff.
+  static constexpr BoxLimit ends_as[] = {{id, "C_c", BoxEnd::lower}};
   static constexpr KindredParameter kindred[] = {{"gap", "entrapped-gas", "d_a", 0.5},
                                                  {"C_c", "entrapped-gas", "C_c", 1.0}};
   static constexpr Knowledge knowledge = {
@@ -35,6 +37,7 @@ struct Clearance {
           "width in mm, a compliance grows with the force",
       .kin = kin,
       .holds = holds,
+      .ends_as = ends_as,
       .kindred = kindred,
   };
 

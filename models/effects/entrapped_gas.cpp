@@ -24,8 +24,8 @@ struct EntrappedGas {
   };
   static constexpr std::string_view kin[] = {"compliance", "clearance"};
   static constexpr Limit holds[] = {{"compliance", "d_a"}};
-  // A gas that next to no force compresses is a play.
-  static constexpr BoxLimit ends_as[] = {{"clearance", "f_a", BoxEnd::lower}};
+  // A gas that next to no force compresses is a play; one in a stiff housing gives way by itself alone.
+  static constexpr BoxLimit ends_as[] = {{"clearance", "f_a", BoxEnd::lower}, {id, "C_c", BoxEnd::lower}};
   static constexpr Knowledge knowledge = {
       .family = families::free_travel,
       .in_words = "entrapped gas (a hardening spring in series)",

@@ -23,12 +23,18 @@ struct SelfHeating {
       {.name = "c_h", .unit = "N s/m", .meaning = "damping that thins", .box = {0, 2e4}, .initial = 0, .role = PhysicalRole::damping},
   };
   static constexpr std::string_view kin[] = {"degradation", "stiction"};
+  // No heat leaves during the test; yield force and viscosity fall alike, or one of them alone.
+  static constexpr BoxLimit ends_as[] = {{id, "tau", BoxEnd::upper},
+                                         {id, "y", BoxEnd::lower},
+                                         {id, "y", BoxEnd::upper},
+                                         {id, "c_h", BoxEnd::lower}};
   static constexpr Knowledge knowledge = {
       .family = families::slow_loss,
       .in_words = "self-heating",
       .shows = "the force falls as the damper warms up, its viscous part most, and comes back after a pause",
       .experiment = "a long run of constant severity, a pause, and the first recording again",
       .kin = kin,
+      .ends_as = ends_as,
   };
 
   template <class T>

@@ -242,7 +242,11 @@ TEST(Cards, PlainEnds) {
       {"coulomb-friction", "x_b", BoxEnd::lower}, {"coulomb-friction", "v_t", BoxEnd::lower},
       {"seal-friction", "x_b", BoxEnd::lower},    {"seal-friction", "v_t", BoxEnd::lower},
       {"end-stop", "p", BoxEnd::lower},           {"magnetic-remanence", "s", BoxEnd::lower},
-      {"magnetic-remanence", "s", BoxEnd::upper}};
+      {"magnetic-remanence", "s", BoxEnd::upper}, {"gas-spring", "kappa", BoxEnd::lower},
+      {"gas-spring", "kappa", BoxEnd::upper},     {"self-heating", "tau", BoxEnd::upper},
+      {"self-heating", "y", BoxEnd::lower},       {"self-heating", "y", BoxEnd::upper},
+      {"self-heating", "c_h", BoxEnd::lower},     {"clearance", "C_c", BoxEnd::lower},
+      {"entrapped-gas", "C_c", BoxEnd::lower}};
   for (const Part* effect : effect_catalogue()) {
     for (const Parameter& parameter : effect->parameters) {
       for (const BoxEnd end : {BoxEnd::lower, BoxEnd::upper}) {
