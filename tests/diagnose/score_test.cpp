@@ -62,6 +62,23 @@ TEST(LeftOut, IsTheRefitWithoutTheRecordingWhereTheLawIsLinear) {
   EXPECT_GT(worst, 1.05) << "what is not fitted is predicted worse";
 }
 
+TEST(Workbench, ADescentFromAFarTooLargeSizeEndsNoWorseThanWithoutTheEffect) {
+  const std::vector<Recording> all = recordings_with({"self-heating"}, {{"self-heating.b", 1e-5}}, 0.02);
+  const Workbench bench = bench_of(all, all);
+  const Fit base = bench.from_anywhere({"viscous", {}, {}}, 2000);
+  const Hypothesis warm = {"viscous", {"self-heating"}, {}};
+  Starts starts = bench.starts(warm, base);
+  for (std::vector<double>& point : starts.points) {
+    for (const std::size_t c : starts.sizes) {
+      point[c] = 1.0;
+    }
+  }
+  Fit as_given = bench.with_neutral(base, "self-heating");
+  as_given.point = starts.points.front();
+  ASSERT_GT(bench.scored(as_given).cost, 1.5 * base.cost) << "the start is no better than it should be";
+  EXPECT_LE(bench.from_starts(warm, starts, 1, 4).cost, base.cost);
+}
+
 TEST(Score, OfAnEffectThatIsLinearIsWhatARefitGains) {
   const std::vector<Recording> all = recordings_with({"inertia"}, {{"inertia.m", 6.0}}, 0.01);
   const Workbench bench = bench_of(all, all);
