@@ -20,6 +20,8 @@ struct DatasetEntry {
   Campaign (*generate)(const Stream& stream) = nullptr;
   // Of a measured device, empty for a simulated one; the text of the licence is a file of the folder.
   std::string_view licence = {};
+  // The force is that on a mass on the damper, not the damper's: for `fit --response`, not for a study.
+  bool response = false;
 };
 
 std::span<const DatasetEntry* const> dataset_catalogue();

@@ -300,6 +300,12 @@ class Parser : private TomlReader {
               fail(*dataset, "unknown dataset " + in_quotes(spec.dataset) + suggestion(spec.dataset, known) +
                                  ", see `hysteron list datasets`");
             }
+            if (find_dataset(spec.dataset)->response) {
+              fail(*dataset,
+                   "dataset " + in_quotes(spec.dataset) +
+                       " holds the force on a mass, not on a damper, expected another one; it is for `hysteron "
+                       "fit --response`");
+            }
           } else {
             for (const std::string& name : texts_of(*recordings, "recordings")) {
               const fs::path path(name);

@@ -75,6 +75,10 @@ INSTANTIATE_TEST_SUITE_P(
               head + "models = [\"viscous+gas\"]\nsolvers = [\"pso\"]\nbudgets = 1\nseeds = 1\n[[data]]\ndataset = "
                      "\"rd8040-twin\"\n",
               2, "unknown effect"},
+        Wrong{"force_on_a_mass",
+              head + "models = [\"viscous\"]\nsolvers = [\"pso\"]\nbudgets = 1\nseeds = 1\n[[data]]\ndataset = "
+                     "\"hysteretic-oscillator\"\n",
+              7, "force on a mass"},
         Wrong{"unknown_solver",
               head + "models = [\"viscous\"]\nsolvers = [\"psoo\"]\nbudgets = 1\nseeds = 1\n[[data]]\ndataset = "
                      "\"rd8040-twin\"\n",
