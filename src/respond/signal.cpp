@@ -152,22 +152,50 @@ Signal::Signal(std::vector<double> time, std::vector<double> values, Interpolati
   }
 }
 
-Signal::Point Signal::at(double time) const {
+double Signal::placed(double time) const {
   if (period_ > 0.0) {
-    const double turns = std::floor((time - time_.front()) / period_);
-    return within(time - turns * period_);
+    return time - std::floor((time - time_.front()) / period_) * period_;
   }
-  return within(std::clamp(time, time_.front(), time_.back()));
+  return std::clamp(time, time_.front(), time_.back());
+}
+
+Signal::Point Signal::at(double time) const { return within(placed(time)); }
+
+// Band-limited, which a simulated motion asks for at every stage of every step: Lagrange's weights without their
+// slopes.
+double Signal::value(double time) const {
+  if (interpolation_ != Interpolation::band_limited) {
+    return at(time).value;
+  }
+  const auto [first, u] = on_fine_grid(placed(time));
+  const std::array<double, 6> d = {u + 2.0, u + 1.0, u, u - 1.0, u - 2.0, u - 3.0};
+  constexpr std::array<double, 6> over = {-1.0 / 120.0, 1.0 / 24.0, -1.0 / 12.0, 1.0 / 12.0, -1.0 / 24.0, 1.0 / 120.0};
+  std::array<double, 7> behind{};  // products of all further factors
+  behind[6] = 1.0;
+  for (std::size_t i = 6; i-- > 0;) {
+    behind[i] = behind[i + 1] * d[i];
+  }
+  double before = 1.0;
+  double result = 0.0;
+  for (std::size_t i = 0; i < 6; ++i) {
+    result += over[i] * before * behind[i + 1] * fine_[first + i];
+    before *= d[i];
+  }
+  return result;
+}
+
+Signal::Place Signal::on_fine_grid(double time) const {
+  const double interval = (time_.back() - time_.front()) / static_cast<double>(time_.size() - 1) / finer;
+  const double place = (time - time_.front()) / interval + margin * finer;
+  const double base = std::floor(place);
+  return {static_cast<std::size_t>(base) - 2, place - base};
 }
 
 Signal::Point Signal::within(double time) const {
   if (interpolation_ == Interpolation::band_limited) {
     // The quintic through the six nearest points of the fine grid.
     const double interval = (time_.back() - time_.front()) / static_cast<double>(time_.size() - 1) / finer;
-    const double place = (time - time_.front()) / interval + margin * finer;
-    const double base = std::floor(place);
-    const double u = place - base;
-    const auto first = static_cast<std::size_t>(base) - 2;
+    const auto [first, u] = on_fine_grid(time);
     Point result{0.0, 0.0};
     for (int i = -2; i <= 3; ++i) {
       double weight = 1.0;

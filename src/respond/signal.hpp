@@ -26,7 +26,7 @@ class Signal {
   // Throws InputError where band-limited is asked of samples that are not uniform.
   Signal(std::vector<double> time, std::vector<double> values, Interpolation interpolation, bool periodic);
 
-  [[nodiscard]] double value(double time) const { return at(time).value; }
+  [[nodiscard]] double value(double time) const;
   [[nodiscard]] double slope(double time) const { return at(time).slope; }  // per s
   struct Point {
     double value;
@@ -35,7 +35,15 @@ class Signal {
   [[nodiscard]] Point at(double time) const;
 
  private:
+  // The time within the samples, or within the period.
+  [[nodiscard]] double placed(double time) const;
   [[nodiscard]] Point within(double time) const;
+  // Place on the fine grid: the first of the six points about it, and how far beyond the third of them.
+  struct Place {
+    std::size_t first;
+    double beyond;
+  };
+  [[nodiscard]] Place on_fine_grid(double time) const;
 
   std::vector<double> time_;
   std::vector<double> values_;
