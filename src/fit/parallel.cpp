@@ -55,7 +55,7 @@ struct Loop {
 }
 
 // Not watched are only the reads of the arguments the compiler passes to the threads behind the scenes.
-HYSTERON_NOT_WATCHED void run_team(std::size_t count, int threads, Loop& loop) {
+HYSTERON_NOT_WATCHED void run_team(std::size_t count, [[maybe_unused]] int threads, Loop& loop) {
   hand_over(&loop.begun);
 #pragma omp parallel num_threads(threads)
   {

@@ -130,13 +130,15 @@ struct Lanes {
 }
 [[gnu::always_inline]] inline bool any(bool mask) { return mask; }
 
-// a b + c with one rounding, in every lane.
+// a b + c with one rounding, in every lane; with two in WebAssembly, which has no such instruction.
 [[gnu::always_inline]] inline Lanes fma(Lanes a, const Lanes& b, const Lanes& c) {
   repeat<vectors_per_pack>([&](auto i) __attribute__((always_inline)) {
 #if defined(__AVX512F__)
     a.v[i] = _mm512_fmadd_pd(a.v[i], b.v[i], c.v[i]);
 #elif defined(__FMA__)
     a.v[i] = _mm256_fmadd_pd(a.v[i], b.v[i], c.v[i]);
+#elif defined(__wasm__)
+    a.v[i] = a.v[i] * b.v[i] + c.v[i];
 #else
     for (std::size_t k = 0; k < vector_bytes / sizeof(double); ++k) {
       a.v[i][k] = std::fma(a.v[i][k], b.v[i][k], c.v[i][k]);
@@ -145,7 +147,13 @@ struct Lanes {
   });
   return a;
 }
-[[gnu::always_inline]] inline double fma(double a, double b, double c) { return std::fma(a, b, c); }
+[[gnu::always_inline]] inline double fma(double a, double b, double c) {
+#ifdef __wasm__
+  return a * b + c;
+#else
+  return std::fma(a, b, c);
+#endif
+}
 
 // b < a ? b : a and a < b ? b : a, also for NaN and signed zeros: what the instructions do, operands swapped. The masks
 // leave no lane out: GCC 12 takes the unmasked forms for uses of an uninitialised variable (GCC bug 105593).
