@@ -1,3 +1,11 @@
+# Takes the files of HYSTERON_LEFT_OUT off a list, by their stems.
+function(hysteron_leave_out list)
+  foreach(stem IN LISTS HYSTERON_LEFT_OUT)
+    list(FILTER ${list} EXCLUDE REGEX "/${stem}\\.cpp$")
+  endforeach()
+  set(${list} "${${list}}" PARENT_SCOPE)
+endfunction()
+
 # The file is the registration: collects FOLDER/*.cpp and writes a source with the catalogue of the symbols
 # PREFIX_<stem> they define. A file whose symbol does not match its name fails to link, naming the symbol.
 # Further arguments are folders whose files belong to the catalogue too (optional components).
@@ -7,6 +15,7 @@ function(hysteron_catalogue folder prefix type header accessor out_sources)
     list(APPEND patterns "${PROJECT_SOURCE_DIR}/${more}/*.cpp")
   endforeach()
   file(GLOB files CONFIGURE_DEPENDS ${patterns})
+  hysteron_leave_out(files)
   list(SORT files)
   set(declarations "")
   set(rows "")

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds everything and runs all tests; words given go to ctest. Reports are also looked at in
-# headless Chromium where it is installed; screenshots are then in out/pages.
+# headless Chromium where it is installed, and so is the page of scripts/browser.sh where it was made; screenshots are then in
+# out/pages.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 # With Open MPI and the Python package, so that their tests run too.
@@ -11,3 +12,4 @@ cmake --build --preset release
 ctest --preset release --no-tests=error "$@"
 # 77: no Chromium, which has been said.
 scripts/check_reports.py build/release/hysteron out/pages || [ $? -eq 77 ]
+scripts/check_browser.py build/release/hysteron build/browser/hysteron.html out/pages || [ $? -eq 77 ]
