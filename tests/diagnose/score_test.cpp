@@ -93,7 +93,7 @@ TEST(Score, OfAnEffectThatIsLinearIsWhatARefitGains) {
   EXPECT_NEAR(scores[0].gain, gained, 0.02 * gained);
   // The best start is already where the refit ends.
   const Fit start = bench.from_starts({"viscous", {"inertia"}, {}},
-                                      {scores[0].starts.layout, {scores[0].starts.points[0]}, {}, {}}, 2);
+                                      {scores[0].starts.layout, {scores[0].starts.points[0]}, {}, {}}, 2, 1);
   EXPECT_LT(squared(start.cost) - squared(refitted.cost), 0.02 * gained);
 }
 
