@@ -49,7 +49,8 @@ struct HystereticSpring {
   template <class T>
   static T stiffness(const std::array<T, 6>& p, double speed) {
     const auto& [k_z, c0, k0, f0, on, off] = p;
-    return T(speed) * max(abs(on), off);
+    // Half as much again: the slope jumps where q passes zero.
+    return T(1.5) * T(speed) * max(abs(on), off);
   }
   template <class T>
   static T force(const std::array<T, 6>& p, const std::array<T, 1>& s, const Input<T>& in, const T& /*below*/) {

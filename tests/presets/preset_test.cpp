@@ -183,7 +183,7 @@ TEST(Presets, BoucWenSetsAsPrinted) {
 // The dataset is made from the same polynomials by its own conversion, plus noise of 1 % of the peak.
 TEST(Presets, PolynomialsOfTheTwin) {
   const Preset& preset = *find_preset("rd8040-1-pso");
-  const Campaign twin = dataset_catalogue().front()->generate(Stream(1));
+  const Campaign twin = find_dataset("rd8040-twin")->generate(Stream(1));
   const CompositeModel model = make_model(preset.model, {preset.effects.begin(), preset.effects.end()});
   for (const char* file : {"2.0Hz_1.0A.csv", "0.4Hz_0.0A.csv", "1.2Hz_0.5A.csv"}) {
     const auto recording = std::ranges::find(twin.recordings, file, &Recording::file);
