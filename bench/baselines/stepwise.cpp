@@ -59,11 +59,11 @@ std::vector<Fit> refits(const Workbench& bench, const Fit& before, const std::ve
   std::vector<Fit> result(effects.size());
   const Workbench single = bench.single_threaded();
   parallel_for(scores.size(), bench.options().threads, [&](std::size_t k) {
-    Starts starts = scores[k].starts;
-    starts.points.resize(std::min(starts.points.size(), Workbench::starts_of_a_pack(starts.layout->dimension())));
+    const Starts& starts = scores[k].starts;
     const auto at = std::ranges::find(effects, scores[k].part.effect) - effects.begin();
     result[static_cast<std::size_t>(at)] =
-        single.from_starts(with(before.what, scores[k].part), starts, screening_rounds);
+        single.from_starts(with(before.what, scores[k].part), starts, screening_rounds,
+                           Workbench::starts_of_a_pack(starts.layout->dimension()));
   });
   return result;
 }

@@ -103,7 +103,7 @@ TEST_F(Pieces, AreTakenBitByBitAndNotWorkedOutAgain) {
     expect_same(work(keeping), plain);
     kept = checkpoint.pieces();
   }
-  EXPECT_EQ(kept, 7U);
+  EXPECT_EQ(kept, 8U);
   Checkpoint checkpoint(path, "command");
   Workbench again = bench();
   again.keep_in(checkpoint);
