@@ -147,15 +147,10 @@ const DatasetEntry dataset_hysteretic_oscillator = {
     "Simulated mass on a spring and a hysteresis: the Bouc-Wen benchmark of nonlinear system identification",
     "Noel, Schoukens, Hysteretic benchmark with a dynamic nonlinearity, 2016, doi 10.4121/12967592; made anew from its "
     "equations",
-    "Force on the mass and its displacement, 750 samples a second, from rest. training.csv: five periods of a "
-    "multisine, "
-    "5 to\n"
-    "150 Hz, 50 N RMS, white noise of 8e-6 m from the seed; multisine.csv and sweep.csv (40 N, from 20 Hz up, 10 Hz a "
-    "minute):\n"
-    "tests without noise. Truth: mass 2 kg, hysteretic-spring with c0 = 10 N s/m, k0 = k_z = 5e4 N/m, on = -300 /m, "
-    "off = "
-    "1900 /m.\n"
-    "For `fit --response --mass 2 --interpolation band-limited`.",
+    "Force on the mass and its displacement, 750 samples a second, from rest. training.csv: five periods of a\n"
+    "multisine, 5 to 150 Hz, 50 N RMS, white noise of 8e-6 m from the seed; multisine.csv and sweep.csv (40 N,\n"
+    "from 20 Hz up, 10 Hz a minute): tests without noise. Truth: mass 2 kg, hysteretic-spring with c0 = 10 N s/m,\n"
+    "k0 = k_z = 5e4 N/m, on = -300 /m, off = 1900 /m. For `fit --response --mass 2 --interpolation band-limited`.",
     &generate,
     {},
     true};

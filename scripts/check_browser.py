@@ -85,7 +85,7 @@ def far(here, there):
 
 
 def differences(here, there):
-    """What two model.json differ in: parameters against their standard errors' scale, and errors."""
+    """What two model.json differ in by more than the tolerance: parameters, errors, recordings."""
     if [p["name"] for p in here["parameters"]] != [p["name"] for p in there["parameters"]]:
         yield "other parameters"
         return

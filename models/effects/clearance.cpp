@@ -24,7 +24,7 @@ struct Clearance {
   };
   static constexpr std::string_view kin[] = {"compliance", "entrapped-gas"};
   static constexpr Limit holds[] = {{"compliance", "gap"}};
-  // A play whose contact is stiff.
+  // A play with a rigid contact.
   static constexpr BoxLimit ends_as[] = {{id, "C_c", BoxEnd::lower}};
   static constexpr KindredParameter kindred[] = {{"gap", "entrapped-gas", "d_a", 0.5},
                                                  {"C_c", "entrapped-gas", "C_c", 1.0}};

@@ -24,7 +24,7 @@ struct EntrappedGas {
   };
   static constexpr std::string_view kin[] = {"compliance", "clearance"};
   static constexpr Limit holds[] = {{"compliance", "d_a"}};
-  // A gas that next to no force compresses is a play; one in a stiff housing gives way by itself alone.
+  // A gas that next to no force compresses is a play; where nothing but the gas gives way, C_c is zero.
   static constexpr BoxLimit ends_as[] = {{"clearance", "f_a", BoxEnd::lower}, {id, "C_c", BoxEnd::lower}};
   static constexpr Knowledge knowledge = {
       .family = families::free_travel,

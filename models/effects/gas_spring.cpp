@@ -21,7 +21,7 @@ struct GasSpring {
       {.name = "kappa", .unit = "1", .meaning = "polytropic exponent", .box = {1, 1.67}, .initial = 1.2},
   };
   static constexpr std::string_view kin[] = {"offset-force", "linear-stiffness", "cubic-stiffness", "end-stop"};
-  // Compressed so slowly that it stays as warm as the wall, or so fast that no heat leaves a gas of single atoms.
+  // Isothermal, and adiabatic for a monatomic gas.
   static constexpr BoxLimit ends_as[] = {{id, "kappa", BoxEnd::lower}, {id, "kappa", BoxEnd::upper}};
   // A large gas force with hardly any gas swept is a spring.
   static constexpr Limit holds[] = {{"offset-force", "g"}, {"linear-stiffness", ""}};

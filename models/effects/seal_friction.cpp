@@ -26,8 +26,8 @@ struct SealFriction {
   };
   static constexpr std::string_view kin[] = {"coulomb-friction", "pre-yield-hysteresis"};
   static constexpr Limit holds[] = {{"coulomb-friction", "fb"}};
-  // A friction that turns over as slowly as it can is a damping that thins out; one that turns at once is the curve of
-  // Stribeck.
+  // A friction that turns over as slowly as it can is a damping that thins out; one that turns at once is the
+  // Stribeck curve.
   static constexpr BoxLimit ends_as[] = {{"shear-thinning", "v_t", BoxEnd::upper},
                                          {id, "v_t", BoxEnd::lower},
                                          {id, "x_b", BoxEnd::lower}};

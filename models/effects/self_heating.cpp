@@ -23,7 +23,7 @@ struct SelfHeating {
       {.name = "c_h", .unit = "N s/m", .meaning = "damping that thins", .box = {0, 2e4}, .initial = 0, .role = PhysicalRole::damping},
   };
   static constexpr std::string_view kin[] = {"degradation", "stiction"};
-  // No heat leaves during the test; yield force and viscosity fall alike, or one of them alone.
+  // No heat is lost during the test; yield force and viscosity fall alike, or only one of them falls.
   static constexpr BoxLimit ends_as[] = {{id, "tau", BoxEnd::upper},
                                          {id, "y", BoxEnd::lower},
                                          {id, "y", BoxEnd::upper},

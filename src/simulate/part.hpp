@@ -15,9 +15,9 @@
 // A part with states has besides
 //   rate(p, s, in) -> array<T, states>         their time derivatives, or, where they depend on the force below,
 //   loaded_rate(p, s, in, below) -> array<T, states>
-//   stiffness(p, speed) -> T           bound of |d rate / d state| in 1/s at |velocity| <= speed; linear in the speed
-//   or
-//                                      rising ever less
+//   stiffness(p, speed) -> T           bound of |d rate / d state| in 1/s at |velocity| <= speed: linear in the speed,
+//                                      or rising ever less with it, which marches build on
+//                                      (simulate/march.hpp)
 // A part with a state that |state| = 1 bounds and holds, as a hysteresis that has yielded, while what drives it keeps
 // its sign, has besides, so that steps need not resolve it then,
 //   settles                            which state
