@@ -122,7 +122,6 @@ void read(const std::filesystem::path& folder, Rows& rows) {
       row.features = listed(hysteron::features_of(candidate, of));
       row.right = truth.contains(candidate.id);
       rows.names.push_back(row);
-      row.features = listed(hysteron::set_features_of(candidate, of));
       for (const hysteron::Contender* other : hysteron::as_good(candidate, of)) {
         row.right = row.right || truth.contains(other->id);
       }

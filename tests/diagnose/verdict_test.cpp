@@ -230,18 +230,6 @@ TEST(AsGood, NotWhatLeavesTheContrastOfTheCandidate) {
   EXPECT_EQ(as_good(candidate, evidence).size(), 1U) << "that is of a law of this name";
 }
 
-TEST(Features, TheEndAtWhichACandidateIsAnotherIsNoSignAgainstTheirSet) {
-  Evidence evidence = plain();
-  Candidate& candidate = evidence.candidates[0];
-  candidate.parameters = 2;
-  candidate.on_bound = 2;
-  candidate.contenders = {contender("sensor-delay", 0.9, 9.0, true)};
-  candidate.contenders[0].ended_as = true;
-  const auto at = std::ranges::find(name_features, "inside", &Feature::name) - name_features.begin();
-  EXPECT_EQ(features_of(candidate, evidence)[at], 0.0);
-  EXPECT_EQ(set_features_of(candidate, evidence)[at], 0.5);
-}
-
 TEST(Features, ALawThatLeavesTheContrastIsNoExplanation) {
   Evidence evidence = plain();
   evidence.other_laws = {{"lugre", 2.0 * floor_squares, false, {}}};

@@ -91,9 +91,7 @@ std::vector<std::size_t> parts_of_the_law(const Evidence& evidence) {
   return result;
 }
 
-namespace {
-
-NameFeatures features_with(const Candidate& candidate, const Evidence& evidence, int on_bound) {
+NameFeatures features_of(const Candidate& candidate, const Evidence& evidence) {
   const double gain = std::max(candidate.gain, 1e-300);
   double law = 0.0;
   const double all = std::max(evidence.base_compared - evidence.augmented_compared, 1e-300);
@@ -115,21 +113,10 @@ NameFeatures features_with(const Candidate& candidate, const Evidence& evidence,
           unit(1.0 - law),
           unit(gain / (gain + chance(evidence.augmented.recurring, evidence.augmented.recurring_by_chance) *
                                   evidence.augmented.squares)),
-          1.0 - static_cast<double>(on_bound) / std::max(candidate.parameters, 1),
+          1.0 - static_cast<double>(candidate.on_bound) / std::max(candidate.parameters, 1),
           contrast ? unit(contrast->z / std::max(contrast->z, elsewhere)) : unknown_contrast,
           unit(candidate.gain_alone / gain),
           unit(1.0 - candidate.gain_of_relative / (candidate.gain_of_relative + gain))};
-}
-
-}  // namespace
-
-NameFeatures features_of(const Candidate& candidate, const Evidence& evidence) {
-  return features_with(candidate, evidence, candidate.on_bound);
-}
-
-NameFeatures set_features_of(const Candidate& candidate, const Evidence& evidence) {
-  const auto ends = static_cast<int>(std::ranges::count_if(candidate.contenders, &Contender::ended_as));
-  return features_with(candidate, evidence, std::max(candidate.on_bound - ends, 0));
 }
 
 MissingFeatures features_of(const Evidence& evidence) {

@@ -37,9 +37,6 @@ inline constexpr std::array<Feature, 8> name_features = {{
 }};
 using NameFeatures = std::array<double, name_features.size()>;
 NameFeatures features_of(const Candidate& candidate, const Evidence& evidence);
-// Of a set: a parameter on the end of its box at which the candidate is another member is no sign against that it is
-// one of them.
-NameFeatures set_features_of(const Candidate& candidate, const Evidence& evidence);
 
 // Of something missing at all.
 inline constexpr std::array<Feature, 6> missing_features = {{

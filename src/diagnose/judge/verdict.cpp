@@ -29,6 +29,7 @@ bool is_told_by_channels(const Candidate& candidate, const Evidence& evidence) {
 // The candidate with its probabilities, and the others of its set in order of their share.
 std::vector<Named> named(std::size_t index, const Evidence& evidence) {
   const Candidate& candidate = evidence.candidates[index];
+  const NameFeatures features = features_of(candidate, evidence);
   std::vector<const Contender*> others = as_good(candidate, evidence);
   // The channels tell a lag of one of them from a delay of the force.
   if (candidate.as_channels) {
@@ -37,13 +38,11 @@ std::vector<Named> named(std::size_t index, const Evidence& evidence) {
   Named first;
   first.id = candidate.id;
   first.candidate = index;
-  first.alone = name_table().probability(features_of(candidate, evidence));
+  first.alone = name_table().probability(features);
   if (is_told_by_channels(candidate, evidence)) {
     first.alone = std::max(first.alone, channel_probability());
   }
-  first.confidence = others.empty()
-                         ? first.alone
-                         : std::max(first.alone, set_table().probability(set_features_of(candidate, evidence)));
+  first.confidence = others.empty() ? first.alone : std::max(first.alone, set_table().probability(features));
   first.grade = grade_of(first.confidence);
   first.robustness = robustness_of(candidate, evidence);
   first.share_of_misfit = std::clamp(candidate.gain / std::max(evidence.base.excess(), 1e-300), 0.0, 1.0);
