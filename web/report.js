@@ -268,7 +268,7 @@ function recordingTable() {
     { title: `RMSE [${plotted.unit}]`, value: (r) => (ofMotion ? r.rmse_mm : r.rmse_n), num: true, digits: 3 },
     { title: "Fit [%]", value: (r) => r.fit_percent, num: true, digits: 3 },
     { title: "Role", value: roleOf },
-    { title: "Drive", value: (r) => r.drive || "–" },
+    ...(recordings.some((r) => r.drive) ? [{ title: "Drive", value: (r) => r.drive || "–" }] : []),
   ];
   const order = recordings.map((_, i) => i);
   let sorted = -1;

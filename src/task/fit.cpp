@@ -112,9 +112,10 @@ json summary_json(const FitResult& fit, const Names& names) {
        {"note", fit.response ? "of the damper's force by m x'', with all noise of the acceleration; not plotted"
                              : "root mean square over recordings, normalised by " + names.normalisation}});
   if (result.nrmse_heldout) {
-    summary.push_back({{"label", "NRMSE, held-out recordings"},
-                       {"value", format_number(*result.nrmse_heldout, 3)},
-                       {"note", "fitted without " + names.heldout}});
+    summary.push_back(
+        {{"label", fit.response ? "NRMSE, held-out force of the equation of motion" : "NRMSE, held-out recordings"},
+         {"value", format_number(*result.nrmse_heldout, 3)},
+         {"note", "fitted without " + names.heldout}});
   }
   const RunResult& chosen = result.solvers[result.chosen].run;
   summary.push_back(

@@ -55,7 +55,7 @@ json recording_json(const Recording& recording, const Prediction& prediction, co
   json row;
   row["file"] = recording.file;
   row["role"] = role;
-  row["drive"] = recording.drive.empty() ? std::string("-")
+  row["drive"] = recording.drive.empty() ? std::string()
                                          : fmt::format("{:.3g} {}", recording.drive[recording.size() / 2],
                                                        recording.drive_kind == DriveKind::voltage ? "V" : "A");
   row["nrmse"] = prediction.score.nrmse;
