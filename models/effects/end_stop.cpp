@@ -23,8 +23,8 @@ struct EndStop {
   };
   static constexpr std::string_view kin[] = {"linear-stiffness", "gas-spring", "cubic-stiffness"};
   static constexpr Limit holds[] = {{"cubic-stiffness", "x_up"}};
-  // A stop of constant stiffness.
-  static constexpr BoxLimit ends_as[] = {{id, "p", BoxEnd::lower}};
+  // A stop of constant stiffness; one that rises more steeply than is searched is a stop as well.
+  static constexpr BoxLimit ends_as[] = {{id, "p", BoxEnd::lower}, {id, "p", BoxEnd::upper}};
   static constexpr Knowledge knowledge = {
       .family = families::place,
       .in_words = "an end stop",

@@ -18,12 +18,15 @@ struct Stiction {
       {.name = "L", .unit = "m", .meaning = "distance over which it fades", .box = {1e-3, 1}, .initial = 0.05, .scale = Scale::logarithmic},
   };
   static constexpr std::string_view kin[] = {"self-heating", "degradation"};
+  // What has not faded over all of the travel is a loss for good.
+  static constexpr BoxLimit ends_as[] = {{"degradation", "L", BoxEnd::upper}};
   static constexpr Knowledge knowledge = {
       .family = families::slow_loss,
       .in_words = "first-travel stiction",
       .shows = "the first travel after a rest needs more force than the travel after it",
       .experiment = "the same run after rests of different length",
       .kin = kin,
+      .ends_as = ends_as,
   };
 
   template <class T>

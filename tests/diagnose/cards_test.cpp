@@ -222,7 +222,8 @@ TEST(Cards, Limits) {
       {{"entrapped-gas", "clearance"}, {"f_a", BoxEnd::lower}},
       {{"shear-thinning", "coulomb-friction"}, {"m", BoxEnd::lower}},
       {{"coulomb-friction", "shear-thinning"}, {"v_t", BoxEnd::upper}},
-      {{"seal-friction", "shear-thinning"}, {"v_t", BoxEnd::upper}}};
+      {{"seal-friction", "shear-thinning"}, {"v_t", BoxEnd::upper}},
+      {{"stiction", "degradation"}, {"L", BoxEnd::upper}}};
   for (const std::string& effect : ids_of(effect_catalogue())) {
     for (const std::string& other : ids_of(effect_catalogue())) {
       const auto at = meant.find({effect, other});
@@ -248,7 +249,7 @@ TEST(Cards, PlainEnds) {
       {"gas-spring", "kappa", BoxEnd::upper},     {"self-heating", "tau", BoxEnd::upper},
       {"self-heating", "y", BoxEnd::lower},       {"self-heating", "y", BoxEnd::upper},
       {"self-heating", "c_h", BoxEnd::lower},     {"clearance", "C_c", BoxEnd::lower},
-      {"entrapped-gas", "C_c", BoxEnd::lower}};
+      {"entrapped-gas", "C_c", BoxEnd::lower},    {"end-stop", "p", BoxEnd::upper}};
   for (const Part* effect : effect_catalogue()) {
     for (const Parameter& parameter : effect->parameters) {
       for (const BoxEnd end : {BoxEnd::lower, BoxEnd::upper}) {
