@@ -112,7 +112,7 @@ void read(const std::filesystem::path& folder, Rows& rows) {
         row.parts.insert(part_of(effect.value("form", id)));
       }
     }
-    const std::optional<hysteron::Speaking> channels = hysteron::speaking_for(channel_effect, evidence);
+    const std::optional<hysteron::Speaking> channels = hysteron::speaking_for(channel_effect, evidence.signatures);
     if (channels && hysteron::speaks(*channels)) {
       ++rows.told;
       rows.told_rightly += truth.contains(channel_effect) ? 1 : 0;

@@ -942,17 +942,19 @@ function effectBlock(e, d) {
     el("div", { class: "plots" }, lookPlot(e, c), c ? contrastPlot(c) : null));
 }
 
-// The force where the contrast acts: what was measured, the base model on the same motion, the augmented model.
+// The force where the contrast acts: what was measured, the base model on the same motion, what else the augmented model
+// holds without this effect, the augmented model.
 function lookPlot(e, c) {
   const curve = (report.curves || {})[e.id];
   if (!curve || list(curve.x).length < 2) return null;
-  const lines = [["force_n", "measured", "measured"], ["baseline_n", "baseline", "base model"], ["predicted_n", "simulated", `with ${e.id}`]];
+  const lines = [["force_n", "measured", "measured"], ["baseline_n", "baseline", "base model"], ["without_n", "without", "other effects alone"],
+    ["predicted_n", "simulated", `with ${e.id}`]].filter(([key]) => list(curve[key]).length);
   const shown = lines.map(([key, cls]) => ({ x: curve.x, y: list(curve[key]), cls }));
   const label = overWords[curve.over] || "";
   return el("figure", { class: "plot contrast" }, el("figcaption", {}, `${curve.recording}: force over ${curve.over}${c ? ", where the contrast acts" : ""}`),
-    svgNode(chart({ width: 360, height: 260, margin: [6, 10, 36, 58], title: `Force over ${curve.over} of ${curve.recording}: measured, base model, augmented model`,
+    svgNode(chart({ width: 360, height: 260, margin: [6, 10, 36, 58], title: `Force over ${curve.over} of ${curve.recording}: ${lines.map(([, , text]) => text).join(", ")}`,
       x: { label, range: curve.over === "time" ? extent([curve.x]) : padded(extent([curve.x])) }, y: { label: "Force [N]", range: padded(extent(shown.map((s) => s.y))) }, series: shown })),
-    el("ul", { class: "legend" }, lines.map(([, cls, text]) => el("li", {}, el("i", { style: `border-color:var(--${cls});border-top-style:${cls === "baseline" ? "dashed" : "solid"}` }), text))));
+    el("ul", { class: "legend" }, lines.map(([, cls, text]) => el("li", {}, el("i", { style: `border-color:var(--${cls});border-top-style:${{ baseline: "dashed", without: "dotted" }[cls] || "solid"}` }), text))));
 }
 
 // What the augmented model holds without a name.

@@ -52,11 +52,17 @@ std::string interval_text(const ParameterInterval& p) {
 }  // namespace
 
 const Contrast* contrast_of(const Diagnosis& diagnosis, const Named& named) {
-  const std::optional<Speaking> speaking = speaking_for(named.id, evidence_for(named, diagnosis.evidence));
+  const std::optional<Speaking> speaking = speaking_for(named, diagnosis.evidence);
   if (!speaking) {
     return nullptr;
   }
-  const std::vector<Contrast>& all = contrasts_of(diagnosis, named);
+  const std::string& found = candidate_of(named, diagnosis.evidence).id;
+  const std::vector<Found>& rows = search_of(diagnosis, named).found;
+  const auto of = std::ranges::find_if(rows, [&](const Found& row) { return row.part.effect == found; });
+  if (of == rows.end()) {
+    return nullptr;
+  }
+  const std::vector<Contrast>& all = of->contrasts;
   const auto at =
       std::ranges::find_if(all, [&](const Contrast& one) { return card_of(one.kind).id == speaking->signature->id; });
   return at == all.end() ? nullptr : &*at;

@@ -128,11 +128,7 @@ std::vector<Named> listed(const Verdict& verdict) {
 }
 
 const Search& search_of(const Diagnosis& diagnosis, const Named& named) {
-  return named.of_law && diagnosis.asked ? diagnosis.asked->search : diagnosis.search;
-}
-
-const std::vector<Contrast>& contrasts_of(const Diagnosis& diagnosis, const Named& named) {
-  return named.of_law && diagnosis.asked ? diagnosis.asked->contrasts : diagnosis.contrasts;
+  return named.of_law && diagnosis.asked ? *diagnosis.asked : diagnosis.search;
 }
 
 const Fit& fit_of(const Diagnosis& diagnosis, const Named& named) {
@@ -288,7 +284,7 @@ struct Judgement {
   Evidence evidence;
   Verdict verdict;
   std::optional<Estimates> estimates;
-  std::optional<BehindLaw> asked;  // of the law whose place this one takes
+  std::optional<Search> asked;  // behind the law whose place this one takes
 };
 
 Judgement judged(Search found, const Workbench& bench, const Workbench& fine, const std::string& doubt_of_data) {
@@ -297,6 +293,11 @@ Judgement judged(Search found, const Workbench& bench, const Workbench& fine, co
   result.search = std::move(found);
   // Of every sample: what relaxes after a stop, or lags, is over within what a thinned recording leaves out.
   result.contrasts = contrasts(bench.split().fit, bench.plain_residuals(result.search.base));
+  for (Found& one : result.search.found) {
+    one.contrasts = one.without.what == result.search.base.what
+                        ? result.contrasts
+                        : contrasts(bench.split().fit, bench.plain_residuals(one.without));
+  }
   const Circumstances known = {
       [&](const Fit& fit, const std::string& effect) { return intervals_of(result.estimates->of(fit), effect); },
       velocity_channel_lag(bench.split().fit), result.contrasts,
@@ -377,7 +378,7 @@ Judgement behind_asked_or_better(Searching searching, const std::string& asked, 
   }
   second.search.base = first.search.base;
   second.search.base_misfit = first.search.base_misfit;
-  second.asked = BehindLaw{std::move(first.search), std::move(first.contrasts)};
+  second.asked = std::move(first.search);
   notes.push_back(
       fmt::format("{} takes the place of {}, with which recordings left out are predicted worse: what is "
                   "named is missing behind {}",
@@ -523,7 +524,7 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const Split& split
   const std::vector<Named> names = listed(diagnosis.verdict);
   score_on_all(diagnosis.search, named_of(names, false), diagnosis.bench);
   if (diagnosis.asked) {
-    score_on_all(diagnosis.asked->search, named_of(names, true), diagnosis.bench);
+    score_on_all(*diagnosis.asked, named_of(names, true), diagnosis.bench);
   }
   estimate_noise_floor(diagnosis, options.objective.normalisation);
 
@@ -548,9 +549,9 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const Split& split
              ? " " + instead + ", which takes the place of " + options.model + ", has it as a part of its own."
              : " All this behind " + instead + ", which takes the place of " + options.model + "."));
   }
-  const std::vector<Residual> of_base = fine.plain_residuals(diagnosis.search.base);
   for (const Named& named : names) {
-    diagnosis.views.push_back(view_of(contrast_of(diagnosis, named), fine.split().fit, of_base));
+    diagnosis.views.push_back(
+        view_of(contrast_of(diagnosis, named), fine.split().fit, fine.plain_residuals(without_of(diagnosis, named))));
   }
   for (const Named& shape : diagnosis.verdict.doubtful) {
     diagnosis.shapes.push_back(intervals_of(judgement.estimates->of(diagnosis.search.augmented), shape.id));

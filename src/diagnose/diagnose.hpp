@@ -41,12 +41,6 @@ struct Rejected {
   std::string reason;
 };
 
-// What was found behind one damper law.
-struct BehindLaw {
-  Search search;
-  std::vector<Contrast> contrasts;  // of what its base model leaves of the fitted recordings, in their order
-};
-
 struct Diagnosis {
   Diagnosis(Workbench on, std::vector<std::string> said) : bench(std::move(on)), notes(std::move(said)) {}
 
@@ -54,7 +48,7 @@ struct Diagnosis {
   Search search;
   std::optional<Belonging> belonging;  // groups of the recordings, where some stand out
   std::optional<ColumnTold> column;    // that the parameters follow and no model uses
-  std::optional<BehindLaw> asked;      // behind the law asked for, where another took its place
+  std::optional<Search> asked;         // behind the law asked for, where another took its place
   Evidence evidence;
   Verdict verdict;
   double noise_floor = 0.0;          // of the force, NRMSE over the fitted recordings
@@ -84,9 +78,8 @@ struct Diagnosis {
 
 // The effects of the verdict, then its suggestions.
 std::vector<Named> listed(const Verdict& verdict);
-// The search that a name comes from, and the contrasts of what its base model leaves.
+// The search that a name comes from.
 const Search& search_of(const Diagnosis& diagnosis, const Named& named);
-const std::vector<Contrast>& contrasts_of(const Diagnosis& diagnosis, const Named& named);
 // The hypothesis that holds what is listed, and the same less it. References into the search that it comes from.
 const Fit& fit_of(const Diagnosis& diagnosis, const Named& named);
 const Fit& without_of(const Diagnosis& diagnosis, const Named& named);

@@ -57,7 +57,7 @@ json family_json(const std::string& effect) {
 
 // Null where none can be taken from these recordings.
 json contrast_json(const Diagnosis& diagnosis, const Named& named) {
-  const std::optional<Speaking> speaking = speaking_for(named.id, evidence_for(named, diagnosis.evidence));
+  const std::optional<Speaking> speaking = speaking_for(named, diagnosis.evidence);
   if (!speaking) {
     return nullptr;
   }

@@ -34,7 +34,7 @@ std::string with_sizes(const std::string& effect, const std::vector<ParameterInt
 std::string phrase_of(const Diagnosis& diagnosis, const Named& named, std::size_t index) {
   std::string text = with_sizes(named.id, diagnosis.parameters[index]);
   std::string shown = worded(knowledge_of(named.id).shows, diagnosis.drive);
-  const std::optional<Speaking> speaking = speaking_for(named.id, evidence_for(named, diagnosis.evidence));
+  const std::optional<Speaking> speaking = speaking_for(named, diagnosis.evidence);
   if (speaking && shows(*speaking)) {
     const Signature& row = *speaking->signature;
     shown += fmt::format("{}seen in {:.0f} of {} recordings", shown.empty() ? "" : "; ",

@@ -41,8 +41,9 @@ Identification identification_of(const Diagnosis& diagnosis, const Campaign& cam
   return result;
 }
 
-// What each name can be looked at by: the force in the stretch where its contrast acts, measured, of the base model and
-// of the augmented one, over what the view says; by id.
+// What each name can be looked at by: the force in the stretch where its contrast acts, measured, of the base model, of
+// the augmented one and, where that holds other effects, of what is refitted without this one, over what the view says;
+// by id.
 json curves_json(const Diagnosis& diagnosis, const Campaign& campaign, const ObjectiveOptions& objective) {
   constexpr std::size_t most_points = 500;
   const auto predicted = [](const Fit& fit, const Target& target) {
@@ -61,6 +62,9 @@ json curves_json(const Diagnosis& diagnosis, const Campaign& campaign, const Obj
     const std::vector<double> base = predicted(diagnosis.search.base, target);
     const std::vector<double> augmented =
         predicted(names[k].in_place_of ? fit_of(diagnosis, names[k]) : diagnosis.final, target);
+    const Fit& others = without_of(diagnosis, names[k]);
+    const std::vector<double> without =
+        others.what == diagnosis.search.base.what ? std::vector<double>{} : predicted(others, target);
     const auto first = std::ranges::lower_bound(recording.time, view.from) - recording.time.begin();
     const auto end = std::ranges::upper_bound(recording.time, view.to) - recording.time.begin();
     const std::ptrdiff_t stride = (end - first) / static_cast<std::ptrdiff_t>(most_points) + 1;
@@ -74,6 +78,9 @@ json curves_json(const Diagnosis& diagnosis, const Campaign& campaign, const Obj
       row["force_n"].push_back(recording.force[n]);
       row["baseline_n"].push_back(base[n]);
       row["predicted_n"].push_back(augmented[n]);
+      if (!without.empty()) {
+        row["without_n"].push_back(without[n]);
+      }
     }
     curves[names[k].id] = std::move(row);
   }

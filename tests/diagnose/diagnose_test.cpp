@@ -37,6 +37,23 @@ TEST(Diagnosis, NamesAndMeasuresAConcealedMass) {
   EXPECT_FALSE(diagnosis->verdict.remaining_structure);
 }
 
+// A mass beside a spring twenty times as strong: the contrast of what the bare law leaves is blurred by the spring,
+// that of what the law with the spring leaves is the mass.
+TEST(Diagnosis, TakesTheContrastOfAnEffectBehindTheOthers) {
+  const auto diagnosis =
+      diagnosis_of(campaign_with({"inertia", "gas-spring"},
+                                 {{"inertia.m", 8.0}, {"gas-spring.f_g", 300.0}, {"gas-spring.g", 20.0}}, 0.01),
+                   few);
+  const Evidence& evidence = diagnosis->evidence;
+  ASSERT_EQ(evidence.candidates.size(), 2U);
+  const auto z_behind = [](const std::vector<Signature>& signatures) {
+    return speaking_for("inertia", signatures)->signature->value;
+  };
+  const auto mass = std::ranges::find(evidence.candidates, "inertia", &Candidate::id);
+  ASSERT_NE(mass, evidence.candidates.end());
+  EXPECT_NEAR(z_behind(mass->signatures), 8.0, 0.8) << z_behind(evidence.signatures);
+}
+
 TEST(Diagnosis, NamesNothingWhereTheVelocityIsNotThatOfTheDisplacement) {
   Campaign campaign = campaign_with({"inertia"}, {{"inertia.m", 8.0}}, 0.01);
   for (Recording& recording : campaign.recordings) {

@@ -8,12 +8,12 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Left, squares, floor, white, structure, predi
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Comparison, mean, std_error, agreement, clusters)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Contender, id, law, kin, share, refitted, squares, behind, holds_the_candidate,
                                    held_by_the_candidate, apart, ended_as, follows_drive, as_channels)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Candidate, id, gain, score, gain_alone, gain_of_relative, contenders, kept,
-                                   parameters, on_bound, as_channels)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Signature, id, what, unit, value, std_error, z, consistency, placebo_quantile,
                                    recordings, speaks_for, sign)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Candidate, id, gain, score, gain_alone, gain_of_relative, contenders, kept,
+                                   parameters, on_bound, as_channels, signatures)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(OtherLaw, model, squares, has_what_was_found, has)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ContrastLeft, effect, instead, law, z)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ContrastLeft, effect, signature, instead, law, z)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FirstLook, id, gain, refitted)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Evidence, model, asked_for, recordings, base, augmented, first_stage, candidates,
                                    base_compared, augmented_compared, augmented_over_base, other_laws, signatures,
@@ -28,12 +28,29 @@ bool Comparison::surely_better() const {
 
 nlohmann::json evidence_json(const Evidence& evidence) { return evidence; }
 
+namespace {
+
+// Records of earlier programs hold none of these.
+void complete(nlohmann::json& evidence) {
+  evidence.emplace("signatures_left", nlohmann::json::array());
+  evidence.emplace("contrasts_left", nlohmann::json::array());
+  evidence.emplace("behind_asked", nlohmann::json::array());
+  for (nlohmann::json& candidate : evidence.at("candidates")) {
+    candidate.emplace("signatures", evidence.at("signatures"));
+  }
+  for (nlohmann::json& row : evidence.at("contrasts_left")) {
+    row.emplace("signature", "");
+  }
+  for (nlohmann::json& behind : evidence.at("behind_asked")) {
+    complete(behind);
+  }
+}
+
+}  // namespace
+
 Evidence evidence_from(const nlohmann::json& json) {
-  // Records of earlier programs hold none of these.
   nlohmann::json whole = json;
-  whole.emplace("signatures_left", nlohmann::json::array());
-  whole.emplace("contrasts_left", nlohmann::json::array());
-  whole.emplace("behind_asked", nlohmann::json::array());
+  complete(whole);
   return whole.get<Evidence>();
 }
 

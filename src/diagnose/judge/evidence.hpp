@@ -56,21 +56,7 @@ struct Contender {
   bool as_channels = false;    // a lag of the velocity channel, and the one that the channels show
 };
 
-// An effect of the augmented model.
-struct Candidate {
-  std::string id;
-  double gain = 0.0;                  // squares without less squares with, over the same samples
-  Comparison score;                   // with it over without it
-  double gain_alone = 0.0;            // alone behind the base
-  double gain_of_relative = 0.0;      // the largest of the related effects that the augmented model has too
-  std::vector<Contender> contenders;  // best first
-  std::vector<double> kept;           // share of its gain behind other laws
-  int parameters = 1;
-  int on_bound = 0;          // of these, at an end of their box
-  bool as_channels = false;  // told by the channels without a model, or a lag of one and as large as they show
-};
-
-// A signature contrast (residual/contrast.hpp) of what the base model leaves.
+// A signature contrast (residual/contrast.hpp) of what a fit leaves.
 struct Signature {
   std::string id;
   std::string what;
@@ -83,6 +69,22 @@ struct Signature {
   std::size_t recordings = 0;
   std::vector<std::string> speaks_for;  // effects, nearest first
   std::vector<int> sign;                // that the value has where each acts; 0: either
+};
+
+// An effect of the augmented model.
+struct Candidate {
+  std::string id;
+  double gain = 0.0;                  // squares without less squares with, over the same samples
+  Comparison score;                   // with it over without it
+  double gain_alone = 0.0;            // alone behind the base
+  double gain_of_relative = 0.0;      // the largest of the related effects that the augmented model has too
+  std::vector<Contender> contenders;  // best first
+  std::vector<double> kept;           // share of its gain behind other laws
+  int parameters = 1;
+  int on_bound = 0;          // of these, at an end of their box
+  bool as_channels = false;  // told by the channels without a model, or a lag of one and as large as they show
+  // Of what the model with everything but it leaves, refitted: other effects no longer cover what it does.
+  std::vector<Signature> signatures;
 };
 
 // Another damper law without effects.
@@ -103,8 +105,9 @@ struct FirstLook {
 // What is left of the contrast that speaks for a candidate where another part, or another law alone, explains the force
 // in its place: a contender that leaves it does not do what the candidate does.
 struct ContrastLeft {
-  std::string effect;   // the candidate
-  std::string instead;  // a contender or a law; empty: the augmented model as it is
+  std::string effect;     // the candidate
+  std::string signature;  // id of the contrast
+  std::string instead;    // a contender or a law; empty: the augmented model as it is
   bool law = false;
   double z = 0.0;  // of the contrast, in the sense that the candidate has
 };

@@ -106,7 +106,7 @@ NameFeatures features_of(const Candidate& candidate, const Evidence& evidence) {
   const double inside = best_share(candidate, [&](const Contender& row) {
     return row.kin && !(row.holds_the_candidate && !row.apart) && explains(row);
   });
-  const std::optional<Speaking> contrast = speaking_for(candidate.id, evidence);
+  const std::optional<Speaking> contrast = speaking_for(candidate);
   const double elsewhere = std::max(contrast_elsewhere(evidence), surely);
   return {std::log10(1.0 + std::clamp(candidate.score.mean, 0.0, 1.0) / least_prediction),
           unit(1.0 - inside),

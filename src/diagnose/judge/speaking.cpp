@@ -21,15 +21,19 @@ double z_for(const std::string& effect, const Signature& signature) {
   return 0.0;
 }
 
-std::optional<Speaking> speaking_for(const std::string& effect, const Evidence& evidence) {
+std::optional<Speaking> speaking_for(const std::string& effect, const std::vector<Signature>& signatures) {
   std::optional<Speaking> best;
-  for (const Signature& row : evidence.signatures) {
+  for (const Signature& row : signatures) {
     const double z = z_for(effect, row);
     if (std::ranges::find(row.speaks_for, effect) != row.speaks_for.end() && (!best || z > best->z)) {
       best = Speaking{&row, z};
     }
   }
   return best;
+}
+
+std::optional<Speaking> speaking_for(const Candidate& candidate) {
+  return speaking_for(candidate.id, candidate.signatures);
 }
 
 double loudness(const Signature& signature) {
@@ -48,9 +52,11 @@ bool shows(const Speaking& speaking) {
 bool speaks(const Speaking& speaking) { return shows(speaking) && speaking.z >= loud; }
 
 bool leaves_the_contrast(const Candidate& candidate, const std::string& instead, bool law, const Evidence& evidence) {
+  const std::optional<Speaking> speaking = speaking_for(candidate);
   const auto left = [&](const std::string& by, bool of_law) {
     const auto at = std::ranges::find_if(evidence.contrasts_left, [&](const ContrastLeft& row) {
-      return row.effect == candidate.id && row.instead == by && row.law == of_law;
+      const bool same = speaking && (row.signature.empty() || row.signature == speaking->signature->id);
+      return same && row.effect == candidate.id && row.instead == by && row.law == of_law;
     });
     return at == evidence.contrasts_left.end() ? std::optional<double>{} : at->z;
   };

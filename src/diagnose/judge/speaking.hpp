@@ -14,7 +14,9 @@ struct Speaking {
 };
 
 // The one with the largest z in the effect's sense of those that speak for it. Nothing where none could be taken.
-std::optional<Speaking> speaking_for(const std::string& effect, const Evidence& evidence);
+std::optional<Speaking> speaking_for(const std::string& effect, const std::vector<Signature>& signatures);
+// Likewise for a candidate, of what is left without it.
+std::optional<Speaking> speaking_for(const Candidate& candidate);
 
 // z of a contrast in the effect's sense: not below 0.
 double z_for(const std::string& effect, const Signature& signature);

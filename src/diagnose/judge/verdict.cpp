@@ -21,8 +21,8 @@ bool structured(const Left& left) {
 }
 
 // Told by the channels alone: a contrast that needs no model speaks for it.
-bool is_told_by_channels(const Candidate& candidate, const Evidence& evidence) {
-  const std::optional<Speaking> speaking = speaking_for(candidate.id, evidence);
+bool is_told_by_channels(const Candidate& candidate) {
+  const std::optional<Speaking> speaking = speaking_for(candidate);
   return candidate.as_channels && speaking && speaks(*speaking);
 }
 
@@ -39,7 +39,7 @@ std::vector<Named> named(std::size_t index, const Evidence& evidence) {
   first.id = candidate.id;
   first.candidate = index;
   first.alone = name_table().probability(features);
-  if (is_told_by_channels(candidate, evidence)) {
+  if (is_told_by_channels(candidate)) {
     first.alone = std::max(first.alone, channel_probability());
   }
   first.confidence = others.empty() ? first.alone : std::max(first.alone, set_table().probability(features));
@@ -107,6 +107,10 @@ const Evidence& evidence_for(const Named& named, const Evidence& evidence) {
 
 const Candidate& candidate_of(const Named& named, const Evidence& evidence) {
   return evidence_for(named, evidence).candidates[named.candidate];
+}
+
+std::optional<Speaking> speaking_for(const Named& named, const Evidence& evidence) {
+  return speaking_for(named.id, candidate_of(named, evidence).signatures);
 }
 
 std::string_view name_of(Answer answer) {

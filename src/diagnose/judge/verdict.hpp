@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "diagnose/judge/evidence.hpp"
+#include "diagnose/judge/speaking.hpp"
 
 namespace hysteron {
 
@@ -41,6 +42,8 @@ struct Named {
 // The evidence that a name was judged by, and the candidate there.
 const Evidence& evidence_for(const Named& named, const Evidence& evidence);
 const Candidate& candidate_of(const Named& named, const Evidence& evidence);
+// The contrast that speaks for it, of what is left without the candidate.
+std::optional<Speaking> speaking_for(const Named& named, const Evidence& evidence);
 
 struct Verdict {
   Answer answer = Answer::complete;

@@ -121,7 +121,7 @@ Stretch stretch_of(const Track& track, Part part) {
   return cycle(track);
 }
 
-// The track that the base model misses most, in the weights of the cost; of a contrast one of those whose own value has
+// The track that is missed most, in the weights of the cost; of a contrast one of those whose own value has
 // its sign.
 const Track& most_missed(std::span<const Track> tracks, const Contrast* contrast) {
   const auto agrees = [&](const Track& track) {

@@ -22,9 +22,9 @@ struct ContrastView {
   ForceOver over = ForceOver::displacement;
 };
 
-// Of the recordings whose own value has the contrast's sign the one that the base model misses most, and of it the
-// stop, step, pause, cycle or whole course in which the contrast acts. Without a contrast (null): a cycle of the
-// recording that is missed most, the force over the displacement. Empty where no recording has a motion that can be
+// Of the recordings whose own value has the contrast's sign the one that the model without the effect misses most, and
+// of it the stop, step, pause, cycle or whole course in which the contrast acts. Without a contrast (null): a cycle of
+// the recording that is missed most, the force over the displacement. Empty where no recording has a motion that can be
 // looked at.
 std::optional<ContrastView> view_of(const Contrast* contrast, std::span<const Recording> recordings,
                                     std::span<const Residual> residuals);

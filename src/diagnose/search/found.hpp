@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "diagnose/residual/contrast.hpp"
 #include "diagnose/search/workbench.hpp"
 
 namespace hysteron {
@@ -26,6 +27,7 @@ struct Found {
   std::vector<Rival> rivals;               // best first
   bool told = false;                       // by the channels, without a model (SearchOptions::told)
   std::optional<std::string> by_law = {};  // the parameter whose richer law in the drive shows the effect
+  std::vector<Contrast> contrasts = {};    // of what `without` leaves of the fitted recordings; taken after the search
 };
 
 }  // namespace hysteron

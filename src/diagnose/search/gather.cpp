@@ -179,12 +179,14 @@ class ContrastsLeft {
 
   void add(std::vector<ContrastLeft>& rows, const std::string& effect, const Fit& fit, const std::string& instead,
            bool law) {
-    const std::optional<Speaking> speaking = speaking_for(effect, *evidence_);
+    const auto candidate = std::ranges::find(evidence_->candidates, effect, &Candidate::id);
+    const std::optional<Speaking> speaking = speaking_for(*candidate);
     if (!speaking || !speaks(*speaking)) {
       return;
     }
-    const double z = z_of(fit, speaking->signature->id, [&](const Signature& left) { return z_for(effect, left); });
-    rows.push_back({effect, instead, law, z});
+    const std::string& id = speaking->signature->id;
+    rows.push_back(
+        {effect, id, instead, law, z_of(fit, id, [&](const Signature& left) { return z_for(effect, left); })});
   }
 
  private:
@@ -211,7 +213,7 @@ std::vector<std::string> told_by_channels(const std::vector<Recording>& recordin
   channels.signatures = signatures_of(channel_contrasts(recordings));
   std::vector<std::string> result;
   for (const std::string& candidate : candidates) {
-    const std::optional<Speaking> speaking = speaking_for(candidate, channels);
+    const std::optional<Speaking> speaking = speaking_for(candidate, channels.signatures);
     if (speaking && speaks(*speaking)) {
       result.push_back(candidate);
     }
@@ -291,6 +293,7 @@ Evidence evidence_of(const Search& search, const Workbench& fine, const Circumst
     one.on_bound = static_cast<int>(std::ranges::count_if(intervals, [&](const ParameterInterval& p) {
       return !p.bound.empty() && !is_plain_end(one.id, p.name, p.bound == "upper" ? BoxEnd::upper : BoxEnd::lower);
     }));
+    one.signatures = signatures_of(found.contrasts);
     one.as_channels = found.told || (one.id == channel_lag && as_channels_show(search.augmented, known));
     result.candidates.push_back(std::move(one));
   }
