@@ -58,11 +58,13 @@ struct Row {
 
 struct Rows {
   std::vector<Row> names;
-  std::vector<Row> sets;
   std::vector<Row> missing;
   // Campaigns in which a contrast that needs no model speaks, and of these with the effect it speaks for.
   std::size_t told = 0;
   std::size_t told_rightly = 0;
+  // Candidates of which others do as well, with a cause among them; of these the cause itself.
+  std::size_t sets = 0;
+  std::size_t found = 0;
 };
 
 int part_of(const std::string& form) {
@@ -121,11 +123,15 @@ void read(const std::filesystem::path& folder, Rows& rows) {
       row.id = candidate.id;
       row.features = listed(hysteron::features_of(candidate, of));
       row.right = truth.contains(candidate.id);
-      rows.names.push_back(row);
-      for (const hysteron::Contender* other : hysteron::as_good(candidate, of)) {
+      const std::vector<const hysteron::Contender*> others = hysteron::as_good(candidate, of);
+      for (const hysteron::Contender* other : others) {
         row.right = row.right || truth.contains(other->id);
       }
-      rows.sets.push_back(row);
+      if (!others.empty() && row.right) {
+        ++rows.sets;
+        rows.found += truth.contains(candidate.id) ? 1 : 0;
+      }
+      rows.names.push_back(row);
     };
     for (const hysteron::Candidate& candidate : evidence.candidates) {
       add(candidate, evidence);
@@ -356,9 +362,9 @@ int run(int argc, char** argv) {
       fmt::print("\n");
     }
   }
-  const std::array<Learned, 3> tables = {
-      learned_table("name", "A name of the augmented model is in the truth", rows.names),
-      learned_table("set", "It, or one that does as well in its place, is", rows.sets),
+  const std::array<Learned, 2> tables = {
+      learned_table("name", "An effect of the augmented model, or one that does as well in its place, is in the truth",
+                    rows.names),
       learned_table("missing", "Physics is missing at all", rows.missing)};
   std::string page = "# What grades are read from\n\nWritten by `build/release/bench/hysteron_learn_grades";
   std::string source =
@@ -373,22 +379,27 @@ int run(int argc, char** argv) {
   for (const Learned& table : tables) {
     source += "\n" + source_of(table);
   }
-  page += page_of(tables[0], hysteron::name_features) + page_of(tables[1], hysteron::name_features) +
-          page_of(tables[2], hysteron::missing_features);
+  page += page_of(tables[0], hysteron::name_features) + page_of(tables[1], hysteron::missing_features);
   const double told = (static_cast<double>(rows.told_rightly) + 0.5) / (static_cast<double>(rows.told) + 1.0);
   page += fmt::format(
       "\n## The channels tell it without a model\n\nThe contrast of a lag between velocity and displacement speaks in "
       "{} "
       "campaigns, in {} of them rightly: probability {:.3f}.\n",
       rows.told, rows.told_rightly, told);
-  source += fmt::format("\nconstexpr double of_channels = {:.4g};\n\n}}  // namespace\n", told);
+  const double found = (static_cast<double>(rows.found) + 0.5) / (static_cast<double>(rows.sets) + 1.0);
+  page += fmt::format("\n## Which of a set\n\nOf {} sets with a cause, the one found is a cause in {}: share {:.3f}.\n",
+                      rows.sets, rows.found, found);
+  source += fmt::format(
+      "\nconstexpr double of_channels = {:.4g};\nconstexpr double of_set = {:.4g};\n\n}}  // namespace\n", told, found);
   for (const Learned& table : tables) {
     source += fmt::format(
         "\nconst Table& {0}_table() {{\n  static constexpr Table table{{{0}_intercept, {0}_weights, {0}_knots}};\n"
         "  return table;\n}}\n",
         table.name);
   }
-  source += "\ndouble channel_probability() { return of_channels; }\n\n}  // namespace hysteron\n";
+  source +=
+      "\ndouble channel_probability() { return of_channels; }\n\ndouble found_of_set() { return of_set; }\n\n}  // "
+      "namespace hysteron\n";
   if (!out.empty()) {
     hysteron::write_file_atomically(out, source);
   }

@@ -95,7 +95,7 @@ TEST(Grade, FollowsTheProbability) {
 }
 
 TEST(Table, IsMonotoneInEveryFeature) {
-  for (const Table* table : {&name_table(), &set_table(), &missing_table()}) {
+  for (const Table* table : {&name_table(), &missing_table()}) {
     for (const double weight : table->weights) {
       EXPECT_GE(weight, 0.0);
     }
@@ -105,7 +105,6 @@ TEST(Table, IsMonotoneInEveryFeature) {
     }
   }
   EXPECT_EQ(name_table().weights.size(), name_features.size());
-  EXPECT_EQ(set_table().weights.size(), name_features.size());
   EXPECT_EQ(missing_table().weights.size(), missing_features.size());
 }
 

@@ -19,18 +19,6 @@ constexpr double least_prediction = 1e-3;
 
 double unit(double value) { return std::isfinite(value) ? std::clamp(value, 0.0, 1.0) : 0.0; }
 
-// The largest share of the gain among contenders.
-template <class Which>
-double best_share(const Candidate& candidate, const Which& which) {
-  double best = 0.0;
-  for (const Contender& row : candidate.contenders) {
-    if (which(row)) {
-      best = std::max(best, row.share);
-    }
-  }
-  return best;
-}
-
 // The largest |z| of the contrasts that speak for nothing in the augmented model, in what that leaves: what goes with
 // an effect of the model was its doing.
 double contrast_elsewhere(const Evidence& evidence) {
@@ -102,14 +90,9 @@ NameFeatures features_of(const Candidate& candidate, const Evidence& evidence) {
       law = std::max(law, (evidence.base_compared - other.squares) / all);
     }
   }
-  const auto explains = [&](const Contender& row) { return !leaves_the_contrast(candidate, row.id, false, evidence); };
-  const double inside = best_share(candidate, [&](const Contender& row) {
-    return row.kin && !(row.holds_the_candidate && !row.apart) && explains(row);
-  });
   const std::optional<Speaking> contrast = speaking_for(candidate);
   const double elsewhere = std::max(contrast_elsewhere(evidence), surely);
   return {std::log10(1.0 + std::clamp(candidate.score.mean, 0.0, 1.0) / least_prediction),
-          unit(1.0 - inside),
           unit(1.0 - law),
           unit(gain / (gain + chance(evidence.augmented.recurring, evidence.augmented.recurring_by_chance) *
                                   evidence.augmented.squares)),

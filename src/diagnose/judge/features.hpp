@@ -16,11 +16,8 @@ struct Feature {
 };
 
 // Of a name.
-inline constexpr std::array<Feature, 8> name_features = {{
+inline constexpr std::array<Feature, 7> name_features = {{
     {"prediction", "log10 of 1 + a thousand block scores: how much better recordings left out in turn are predicted"},
-    {"lead_in_family",
-     "1 less the share of the gain that the best related effect has in its place, of those that explain its contrast "
-     "too"},
     {"no_other_law",
      "1 less the share of what all effects take off that another damper law, without it as a part of its own, takes "
      "off without any and explains its contrast too"},

@@ -25,9 +25,11 @@ struct Table {
 // That an effect is in the truth for which a contrast speaks that needs no model.
 double channel_probability();
 
-// That the effect is in the truth; that it or one that does as well in its place is; that physics is missing.
+// Where an effect or one that does as well in its place is in the truth: that it is the one that was found.
+double found_of_set();
+
+// That the effect, or one that does as well in its place, is in the truth; that physics is missing.
 const Table& name_table();
-const Table& set_table();
 const Table& missing_table();
 
 }  // namespace hysteron

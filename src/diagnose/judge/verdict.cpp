@@ -38,11 +38,11 @@ std::vector<Named> named(std::size_t index, const Evidence& evidence) {
   Named first;
   first.id = candidate.id;
   first.candidate = index;
-  first.alone = name_table().probability(features);
+  first.confidence = name_table().probability(features);
   if (is_told_by_channels(candidate)) {
-    first.alone = std::max(first.alone, channel_probability());
+    first.confidence = std::max(first.confidence, channel_probability());
   }
-  first.confidence = others.empty() ? first.alone : std::max(first.alone, set_table().probability(features));
+  first.alone = others.empty() ? first.confidence : first.confidence * found_of_set();
   first.grade = grade_of(first.confidence);
   first.robustness = robustness_of(candidate, evidence);
   first.share_of_misfit = std::clamp(candidate.gain / std::max(evidence.base.excess(), 1e-300), 0.0, 1.0);
