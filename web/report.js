@@ -927,7 +927,10 @@ function effectBlock(e, d) {
     const rival = e.nearest_rival;
     if (rival) add("Nearest rival", el("code", {}, rival.id), ` explains ${rounded(rival.share_of_gain)} of what it explains, in its place${rival.refitted ? "" : ", to first order"}.`);
     if (list(e.behind_other_laws).length) add("Behind other laws", `Keeps ${e.behind_other_laws.map((k) => `${rounded(share(k.share_of_gain))} of its gain behind ${k.model}`).join(", ")}.`);
-    if (isNumber(e.robustness_value)) add("Robustness value", `${fmt(e.robustness_value, 2)}: to explain it away, unmodelled physics would have to explain ${rounded(e.robustness_value)} of what stays and share ${rounded(e.robustness_value)} of its shape.`);
+    if (isNumber(e.robustness_value)) {
+      const much = e.robustness_value > 0.995 && e.robustness_value < 1 ? "over 99 %" : rounded(e.robustness_value);
+      add("Robustness value", `To explain it away, unmodelled physics would have to explain ${much} of what stays and share ${much} of its shape.`);
+    }
   }
   const alike = list(e.indistinguishable_from);
   if (alike.length) add("Not distinguishable from", alike.map((id, i) => [i ? ", " : "", el("code", {}, id)]), isNumber(e.confidence_alone) ? `; the confidence that it is this one is ${rounded(e.confidence_alone)}.` : ".");

@@ -148,9 +148,8 @@ std::string sentence_of(const Diagnosis& diagnosis, const Named& named,
           others.leave_the_contrast, others.tried);
     }
     text += fmt::format(
-        ". To explain it away, unmodelled physics would have to explain {:.0f} % of what stays and share {:.0f} % of "
-        "its shape",
-        100.0 * named.robustness, 100.0 * named.robustness);
+        ". To explain it away, unmodelled physics would have to explain {} of what stays and share {} of its shape",
+        percent(named.robustness), percent(named.robustness));
   }
   return text + ".";
 }

@@ -16,8 +16,6 @@ namespace {
 
 constexpr std::size_t most_sizes = 2;  // of an effect, in its sentence
 
-std::string percent(double share) { return fmt::format("{:.0f} %", 100.0 * share); }
-
 std::string capital(std::string text) {
   if (!text.empty() && text.front() >= 'a' && text.front() <= 'z') {
     text.front() = static_cast<char>(text.front() - 'a' + 'A');

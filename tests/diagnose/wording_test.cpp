@@ -32,6 +32,13 @@ TEST(Worded, NoCardAdvisesOnCurrentsWithoutADrive) {
   }
 }
 
+TEST(Percent, IsAHundredForAllAndNoLess) {
+  EXPECT_EQ(percent(0.071), "7 %");
+  EXPECT_EQ(percent(0.994), "99 %");
+  EXPECT_EQ(percent(0.9996), "over 99 %");
+  EXPECT_EQ(percent(1.0), "100 %");
+}
+
 TEST(SizeText, IsInTheUnitThatItsNumberIsShortIn) {
   EXPECT_EQ(size_text(4.0e-4, "m", 2), "0.40 mm");
   EXPECT_EQ(size_text(0.25, "m", 2), "0.25 m");

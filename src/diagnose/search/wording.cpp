@@ -61,6 +61,11 @@ std::string title_of(std::string_view effect) {
   return std::string(!in_words.empty() ? in_words : part == nullptr ? effect : part->title);
 }
 
+std::string percent(double share) {
+  constexpr double rounds_to_all = 0.995;
+  return share >= rounds_to_all && share < 1.0 ? "over 99 %" : fmt::format("{:.0f} %", 100.0 * share);
+}
+
 std::string joined(const std::vector<std::string>& words, const std::string& last) {
   std::string result;
   for (std::size_t k = 0; k < words.size(); ++k) {

@@ -22,6 +22,9 @@ std::string title_of(std::string_view effect);
 // "a, b and c" with " and " for `last`.
 std::string joined(const std::vector<std::string>& words, const std::string& last);
 
+// "7 %"; what is less than all is never "100 %" but "over 99 %".
+std::string percent(double share);
+
 // A size in the unit that its number is short in, with its significant digits: "0.40 mm", "12 kN/m". A dimensionless
 // one is the number alone.
 std::string size_text(double value, const std::string& unit, int digits);
