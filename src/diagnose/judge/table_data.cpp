@@ -4,19 +4,20 @@
 namespace hysteron {
 namespace {
 
-constexpr double name_weights[] = {0.871, 1.109, 1.299, 2.025, 1.732, 2.049, 2.675};
-constexpr Knot name_knots[] = {{-4.278, 0.119},  {-2.405, 0.1829},   {-1.592, 0.2143},
-                               {-1.064, 0.2805}, {0.004108, 0.3525}, {1.018, 0.6639},
-                               {1.527, 0.6905},  {1.881, 0.939},     {2.438, 0.9936}};
-constexpr double name_intercept = -10.91;
+constexpr double name_weights[] = {0.6911, 1.095, 1.799, 1.459, 1.202, 1.108, 2.239};
+constexpr Knot name_knots[] = {{-3.782, 0.1667},   {-2.302, 0.2377}, {-0.9999, 0.2822}, {-0.2303, 0.3293},
+                               {-0.02355, 0.3571}, {0.2578, 0.4024}, {0.7696, 0.5492},  {1.136, 0.6429},
+                               {1.233, 0.7381},    {1.456, 0.7927},  {1.609, 0.8333},   {1.887, 0.9691},
+                               {2.292, 0.9931}};
+constexpr double name_intercept = -8.6671;
 
-constexpr double missing_weights[] = {1.633, 1.382, 1.135, 2.204, 1.14, 1.632};
-constexpr Knot missing_knots[] = {{-2, 0.07143},     {-1.663, 0.119}, {-1.119, 0.2143},
-                                  {-0.2985, 0.4524}, {1.511, 0.881},  {6.169, 0.9959}};
-constexpr double missing_intercept = -2.0698;
+constexpr double missing_weights[] = {1.544, 1.489, 1.13, 2.157, 1.406, 1.974};
+constexpr Knot missing_knots[] = {
+    {-1.793, 0.1049}, {-0.9621, 0.3095}, {-0.154, 0.4524}, {1.129, 0.7857}, {6.309, 0.9975}};
+constexpr double missing_intercept = -2.1549;
 
-constexpr double of_channels = 0.9583;
-constexpr double of_set = 0.7222;
+constexpr double of_channels = 0.9706;
+constexpr double of_set = 0.6786;
 
 }  // namespace
 
