@@ -54,6 +54,19 @@ TEST(Diagnosis, TakesTheContrastOfAnEffectBehindTheOthers) {
   EXPECT_NEAR(z_behind(mass->signatures), 8.0, 0.8) << z_behind(evidence.signatures);
 }
 
+TEST(Diagnosis, SetsAnEffectAgainstItsRivalsHoweverSmallBesideAnother) {
+  const auto diagnosis =
+      diagnosis_of(campaign_with({"inertia", "gas-spring"},
+                                 {{"inertia.m", 20.0}, {"gas-spring.f_g", 100.0}, {"gas-spring.g", 10.0}}, 0.003),
+                   few);
+  const std::vector<Candidate>& candidates = diagnosis->evidence.candidates;
+  ASSERT_EQ(candidates.size(), 2U);
+  const auto [small, large] = std::ranges::minmax(candidates, {}, &Candidate::gain);
+  ASSERT_LT(small.gain, 0.02 * large.gain);
+  EXPECT_FALSE(small.contenders.empty());
+  EXPECT_FALSE(large.contenders.empty());
+}
+
 TEST(Diagnosis, NamesNothingWhereTheVelocityIsNotThatOfTheDisplacement) {
   Campaign campaign = campaign_with({"inertia"}, {{"inertia.m", 8.0}}, 0.01);
   for (Recording& recording : campaign.recordings) {

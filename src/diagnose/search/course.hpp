@@ -15,7 +15,7 @@ namespace hysteron {
 using SearchProgress = std::function<void(double share, const std::string& stage)>;
 
 // A gain of less than this part of the strongest one is too small to be told from what the form of that one misses: no
-// further effects are looked for, and no rivals of it.
+// further effects are looked for.
 constexpr double negligible = 0.05;
 
 struct Course {

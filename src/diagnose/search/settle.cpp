@@ -180,14 +180,7 @@ std::vector<Found> settled(Course& course, const std::vector<Extension>& candida
     std::vector<Found> result = worth_their_place(course);
     bool swapped = false;
     double done = 0.0;
-    double strongest = 0.0;
-    for (const Found& found : result) {
-      strongest = std::max(strongest, found.gain);
-    }
     for (Found& found : result) {
-      if (found.gain < negligible * strongest) {
-        continue;  // too small beside the strongest to be told from what its form misses
-      }
       progress(0.6 + 0.15 * done / static_cast<double>(result.size()),
                "setting " + name_of(found.part) + " against its rivals");
       done += 1.0;
