@@ -1,4 +1,5 @@
-# cmake --install: program, library with a package for find_package, headers, documentation, datasets that ship.
+# cmake --install: program, its manual page and completions, library with a package for find_package, headers,
+# documentation, datasets that ship.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
@@ -7,6 +8,23 @@ install(DIRECTORY datasets/ DESTINATION "${CMAKE_INSTALL_DATADIR}/hysteron/datas
   PATTERN "*.?pp" EXCLUDE PATTERN support EXCLUDE)
 install(FILES LICENSE README.md CHANGELOG.md DESTINATION "${CMAKE_INSTALL_DOCDIR}")
 install(DIRECTORY docs examples DESTINATION "${CMAKE_INSTALL_DOCDIR}" PATTERN ".ipynb_checkpoints" EXCLUDE)
+
+# The program writes its own manual page and completions.
+if(NOT CMAKE_CROSSCOMPILING)
+  set(words "${PROJECT_BINARY_DIR}/words")
+  file(MAKE_DIRECTORY "${words}")
+  add_custom_command(OUTPUT "${words}/hysteron.1" "${words}/hysteron" "${words}/_hysteron" "${words}/hysteron.fish"
+    COMMAND hysteron man > "${words}/hysteron.1"
+    COMMAND hysteron completion bash > "${words}/hysteron"
+    COMMAND hysteron completion zsh > "${words}/_hysteron"
+    COMMAND hysteron completion fish > "${words}/hysteron.fish"
+    DEPENDS hysteron VERBATIM)
+  add_custom_target(hysteron_words ALL DEPENDS "${words}/hysteron.1")
+  install(FILES "${words}/hysteron.1" DESTINATION "${CMAKE_INSTALL_MANDIR}/man1")
+  install(FILES "${words}/hysteron" DESTINATION "${CMAKE_INSTALL_DATADIR}/bash-completion/completions")
+  install(FILES "${words}/_hysteron" DESTINATION "${CMAKE_INSTALL_DATADIR}/zsh/site-functions")
+  install(FILES "${words}/hysteron.fish" DESTINATION "${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d")
+endif()
 
 # Every box but those of the program alone.
 set(boxes core io simulate fit judge diagnose report presets datasets challenge export compare respond external plugin

@@ -26,7 +26,8 @@ endif()
 
 # The program finds its datasets from where it stands now.
 run("${prefix}/bin/hysteron" generate utfsm-mr-damper --only 10mm2Hz_0.50A --out "${WORK}/press")
-foreach(file share/doc/hysteron/LICENSE share/doc/hysteron/docs/data-formats.md include/hysteron/task/fit.hpp)
+foreach(file share/man/man1/hysteron.1 share/bash-completion/completions/hysteron share/zsh/site-functions/_hysteron
+  share/fish/vendor_completions.d/hysteron.fish share/doc/hysteron/LICENSE share/doc/hysteron/docs/data-formats.md include/hysteron/task/fit.hpp)
   if(NOT EXISTS "${prefix}/${file}")
     message(FATAL_ERROR "${file} is not installed")
   endif()
