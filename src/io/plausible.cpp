@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <tuple>
 #include <vector>
 
+#include "io/channel_faults.hpp"
 #include "io/text.hpp"
 
 namespace hysteron {
@@ -32,8 +34,9 @@ constexpr Believed temperature_c{{-100.0, 400.0}, {-60.0, 200.0}};
 // A movement through more than a millimetre that is slower than a millimetre a second, where seconds were assumed.
 constexpr double slow_m_s = 1e-3;
 constexpr double far_m = 1e-3;
-// Velocity over the slope of the displacement.
-constexpr Range slope{0.5, 2.0};
+// Velocity over the slope of the displacement: a channel is rarely calibrated worse, and coarse samples do not tell
+// more.
+constexpr Range slope{1.0 / 1.15, 1.15};
 
 double largest(const std::vector<double>& values) {
   double result = 0.0;
@@ -88,16 +91,23 @@ class Remarks {
   bool told_ = false;
 };
 
-// Least squares of v dt against dx over two samples: noise of both falls out of the mean.
-double velocity_over_slope(const Recording& r) {
-  double square = 0.0;
+// Velocity over the slope of the displacement, by the way over two samples of each (Simpson's rule): noise of the
+// velocity makes the one regression too large, noise of the displacement and a lag the other too small. The truth lies
+// between.
+Range velocity_over_slope(const Recording& r) {
+  double from_velocity = 0.0;
+  double from_displacement = 0.0;
   double product = 0.0;
   for (std::size_t n = 1; n + 1 < r.size(); ++n) {
-    const double way = r.velocity[n] * (r.time[n + 1] - r.time[n - 1]);
-    square += way * way;
-    product += way * (r.displacement[n + 1] - r.displacement[n - 1]);
+    const double way =
+        (r.velocity[n - 1] + 4.0 * r.velocity[n] + r.velocity[n + 1]) / 6.0 * (r.time[n + 1] - r.time[n - 1]);
+    const double change = r.displacement[n + 1] - r.displacement[n - 1];
+    from_velocity += way * way;
+    from_displacement += change * change;
+    product += way * change;
   }
-  return product == 0.0 ? 1.0 : square / product;
+  if (product == 0.0) return {1.0, 1.0};
+  return {product / from_displacement, from_velocity / product};
 }
 
 // The longest time between two samples where it is far longer than the others.
@@ -207,9 +217,25 @@ void remark_on_sizes(const Recording& recording, const Sources& sources, const s
                                     "motion in between is taken to be smooth",
                                     gap->length, gap->at, gap->length / gap->usual));
   }
-  const double ratio = recording.velocity_measured ? velocity_over_slope(recording) : 1.0;
+  for (const auto& [name, values, unit] :
+       {std::tuple("displacement", &recording.displacement, "m"), std::tuple("force", &recording.force, "N")}) {
+    if (const auto out = outliers_of(*values)) {
+      remarks.tell(std::string(name) + " outliers",
+                   fmt::format("a {} of {:.3g} {} at {:.4g} s where 99 % of the samples stay within {:.3g} {} of the "
+                               "median, {} samples like that: outliers weigh on a fit and on its NRMSE",
+                               name, (*values)[out->furthest], unit, recording.time[out->furthest], out->usual, unit,
+                               out->count));
+    }
+  }
+  if (const auto end = flat_end_of(recording.force)) {
+    remarks.tell("flat end",
+                 fmt::format("the force stays at exactly {:.4g} N, an end of its range, for {:.0f} % of the "
+                             "samples: a channel that saturates looks so, and a fit to it is too soft",
+                             end->value, 100.0 * end->share));
+  }
+  const Range ratio = recording.velocity_measured ? velocity_over_slope(recording) : Range{1.0, 1.0};
   // Where the velocity has the wrong sign the force may well follow the displacement.
-  if (ratio > 0.0 && options.force_required && !recording.force.empty() && drives_its_rig(recording)) {
+  if (ratio.low > 0.0 && options.force_required && !recording.force.empty() && drives_its_rig(recording)) {
     remarks.tell(
         "sign",
         "the force falls as the velocity grows, as if the damper drove the rig: force or displacement has the "
@@ -217,14 +243,14 @@ void remark_on_sizes(const Recording& recording, const Sources& sources, const s
         "are exchanged");
   }
   if (recording.velocity_measured) {
-    if (ratio < 0.0) {
+    if (ratio.low < 0.0) {
       remarks.tell("slope", "the velocity runs against the displacement: check their signs");
-    } else if (ratio < slope.low || ratio > slope.high) {
+    } else if (ratio.high < slope.low || ratio.low > slope.high) {
       remarks.tell(
           "slope",
-          fmt::format(
-              "the velocity is {:.3g} times the slope of the displacement over time: check the units of the three",
-              ratio));
+          fmt::format("the velocity is {:.3g} times the slope of the displacement over time: check the units and "
+                      "the calibration of the three",
+                      std::sqrt(ratio.low * ratio.high)));
     }
   }
 }

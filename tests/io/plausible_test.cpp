@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -94,7 +96,49 @@ TEST(Plausible, AGapInTime) {
   read(0.045);
   EXPECT_TRUE(said.empty()) << said[0];
   read(0.75);
-  expect_one(said, "no samples for 0.755 s from 1.295 s on, 151 times the usual spacing: the motion in between is taken");
+  expect_one(said,
+             "no samples for 0.755 s from 1.295 s on, 151 times the usual spacing: the motion in between is taken");
+}
+
+// What is remarked of a force that is made of the one that a damper has at 12 rad/s.
+std::vector<std::string> remarks_on(const std::function<double(int sample, double force)>& force) {
+  std::string text = "time [s],displacement [mm],force [N]\n";
+  for (int n = 0; n < 400; ++n) {
+    const double phase = 12.0 * 0.005 * n;
+    text += std::to_string(0.005 * n) + "," + std::to_string(10.0 * std::sin(phase)) + "," +
+            std::to_string(force(n, 800.0 * std::cos(phase))) + "\n";
+  }
+  std::vector<std::string> said;
+  ReadOptions options;
+  options.remark = [&](const Remark& remark) { said.push_back(remark.text); };
+  (void)parse_csv(text, "a.csv", options);
+  return said;
+}
+
+TEST(Plausible, SamplesThatStandOutAlone) {
+  expect_one(remarks_on([](int n, double force) { return n == 100 || n == 301 ? 1e5 : force; }),
+             "a force of 1e+05 N at 0.5 s where 99 % of the samples stay within ");
+  // A stop that the rod runs into is no outlier.
+  EXPECT_TRUE(remarks_on([](int n, double force) { return n % 100 < 4 ? 5000.0 : force; }).empty());
+}
+
+TEST(Plausible, AForceThatSaturates) {
+  // acos(3/4) (1 + 3 * 2) of 24 rad.
+  expect_one(remarks_on([](int, double force) { return std::min(force, 600.0); }),
+             "the force stays at exactly 600 N, an end of its range, for 21 % of the samples");
+  expect_one(remarks_on([](int, double force) { return std::max(force, -600.0); }),
+             "the force stays at exactly -600 N");
+}
+
+// A converter of few steps holds its crest for several samples too.
+TEST(Plausible, CoarseStepsAreNoSaturation) {
+  for (const double step : {1.0, 10.0, 40.0, 100.0, 160.0, 170.0, 300.0}) {
+    const auto said = remarks_on([&](int, double force) { return step * std::round(force / step); });
+    EXPECT_TRUE(said.empty()) << step << ": " << said[0];
+    const auto friction =
+        remarks_on([&](int, double force) { return step * std::round(800.0 * std::tanh(0.02 * force) / step); });
+    EXPECT_TRUE(friction.empty()) << step << ": " << friction[0];
+  }
 }
 
 TEST(Plausible, AWrongUnit) {
@@ -106,6 +150,9 @@ TEST(Plausible, AWrongUnit) {
 TEST(Plausible, AVelocityThatIsNotTheSlope) {
   expect_one(remarks("time [s],displacement [mm],force [N],velocity [m/s]", 1e-3, 1.0, 0.1),
              "the velocity is 10 times the slope of the displacement");
+  expect_one(remarks("time [s],displacement [mm],force [N],velocity [m/s]", 1e-3, 1.0, 0.8),
+             "the velocity is 1.25 times the slope of the displacement");
+  EXPECT_TRUE(remarks("time [s],displacement [mm],force [N],velocity [m/s]", 1e-3, 1.0, 0.95).empty());
   expect_one(remarks("time [s],displacement [mm],force [N],velocity [m/s]", 1e-3, 1.0, -1.0),
              "the velocity runs against the displacement");
 }
