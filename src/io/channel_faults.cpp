@@ -24,6 +24,10 @@ constexpr double crowded = 4.0;
 // Fewer values than these are steps of a converter, and a friction stays within one of them.
 constexpr std::size_t least_values = 150;
 
+// A stretch of zeros counts from this share of the samples on, and from so many: a play without noise has shorter ones.
+constexpr double least_silent = 0.1;
+constexpr std::size_t fewest_silent = 100;
+
 std::vector<double> thinned(const std::vector<double>& values) {
   const std::size_t stride = values.size() / most_looked_at + 1;
   std::vector<double> some;
@@ -95,6 +99,18 @@ std::optional<FlatEnd> flat_end_of(const std::vector<double>& values) {
   const std::optional<FlatEnd> above = flat_end(values, high - low, 1.0);
   const std::optional<FlatEnd> below = flat_end(values, high - low, -1.0);
   return above && (!below || above->share >= below->share) ? above : below;
+}
+
+std::optional<Silence> silence_of(const std::vector<double>& values) {
+  Silence longest;
+  std::size_t run = 0;
+  for (std::size_t n = 0; n < values.size(); ++n) {
+    run = values[n] == 0.0 ? run + 1 : 0;
+    if (run > longest.count) longest = {n + 1 - run, run};
+  }
+  const bool long_enough = longest.count >= fewest_silent &&
+                           static_cast<double>(longest.count) >= least_silent * static_cast<double>(values.size());
+  return long_enough && longest.count < values.size() ? std::optional(longest) : std::nullopt;
 }
 
 }  // namespace hysteron

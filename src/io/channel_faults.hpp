@@ -25,4 +25,12 @@ struct FlatEnd {
 };
 std::optional<FlatEnd> flat_end_of(const std::vector<double>& values);
 
+// The longest stretch of samples that are exactly zero, where it is long and the channel is not zero throughout: a logger
+// that pads, or a channel that was off.
+struct Silence {
+  std::size_t first = 0;  // index of a sample
+  std::size_t count = 0;
+};
+std::optional<Silence> silence_of(const std::vector<double>& values);
+
 }  // namespace hysteron

@@ -233,6 +233,13 @@ void remark_on_sizes(const Recording& recording, const Sources& sources, const s
                              "samples: a channel that saturates looks so, and a fit to it is too soft",
                              end->value, 100.0 * end->share));
   }
+  if (const auto silence = silence_of(recording.force)) {
+    const std::size_t last = silence->first + silence->count - 1;
+    remarks.tell("silence",
+                 fmt::format("the force is exactly 0 from {:.4g} to {:.4g} s, {} samples: a channel that was off "
+                             "or a file that was padded looks so; cut them",
+                             recording.time[silence->first], recording.time[last], silence->count));
+  }
   const Range ratio = recording.velocity_measured ? velocity_over_slope(recording) : Range{1.0, 1.0};
   // Where the velocity has the wrong sign the force may well follow the displacement.
   if (ratio.low > 0.0 && options.force_required && !recording.force.empty() && drives_its_rig(recording)) {

@@ -130,6 +130,12 @@ TEST(Plausible, AForceThatSaturates) {
              "the force stays at exactly -600 N");
 }
 
+TEST(Plausible, AForceThatWasOff) {
+  expect_one(remarks_on([](int n, double force) { return n < 300 ? force : 0.0; }),
+             "the force is exactly 0 from 1.5 to 1.995 s, 100 samples");
+  EXPECT_TRUE(remarks_on([](int n, double force) { return n < 370 ? force : 0.0; }).empty());
+}
+
 // A converter of few steps holds its crest for several samples too.
 TEST(Plausible, CoarseStepsAreNoSaturation) {
   for (const double step : {1.0, 10.0, 40.0, 100.0, 160.0, 170.0, 300.0}) {
