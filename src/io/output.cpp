@@ -49,6 +49,7 @@ void append(std::string& text, double value) {
 }  // namespace
 
 void write_file_atomically(const std::filesystem::path& path, std::string_view bytes) {
+  if (path.empty()) throw InputError("the output file has no name, expected a file for the results");
   std::error_code code;
   const auto status = std::filesystem::status(path, code);
   if (std::filesystem::is_directory(status)) fail(path, EISDIR);

@@ -21,7 +21,12 @@ std::optional<double> diverges_at(const std::vector<double>& force, const Record
   return std::nullopt;
 }
 
-std::string percent_text(double percent) { return std::isfinite(percent) ? fmt::format("{:.1f}", percent) : "-"; }
+std::string percent_text(double percent) {
+  constexpr double readable = 1e5;
+  return !std::isfinite(percent)         ? "-"
+         : std::fabs(percent) < readable ? fmt::format("{:.1f}", percent)
+                                         : fmt::format("{:.3g}", percent);
+}
 
 void require_finite(const std::vector<double>& force, const Recording& recording) {
   if (const auto time = diverges_at(force, recording)) {

@@ -64,6 +64,8 @@ TEST(Output, FailuresNameThePathAndTheReason) {
   std::filesystem::permissions(folder.path(), std::filesystem::perms::owner_all);
 }
 
+TEST(Output, AFileWithoutANameIsAWrongInput) { EXPECT_THROW(write_file_atomically("", "a"), InputError); }
+
 TEST(Output, MakesFolders) {
   const TemporaryFolder folder;
   make_output_folder(folder.path() / "a/b/c");
