@@ -133,7 +133,7 @@ std::string sentence_of_unknown(const Diagnosis& diagnosis) {
     return "None of the misfit beyond the noise is left without a name.";
   }
   const std::string instead = law_instead(diagnosis.search);
-  return fmt::format("{} of the misfit of {} beyond the noise has no name{}.", percent(verdict.unknown_share),
+  return fmt::format("{} of the misfit of {} beyond the noise has no name{}.", capital(percent(verdict.unknown_share)),
                      diagnosis.search.base.what.model,
                      instead.empty()           ? ""
                      : listed(verdict).empty() ? "; the rest is gone with " + instead
@@ -151,7 +151,7 @@ std::string sentence_of_place(const Diagnosis& diagnosis) {
   const bool named = place.where.starts_with(place.variable);
   const std::string where =
       named ? "where the " + place.variable + " is" + place.where.substr(place.variable.size()) : place.where;
-  return fmt::format("{} of {} sits {} ({} of the samples).", percent(place.share_of_misfit),
+  return fmt::format("{} of {} sits {} ({} of the samples).", capital(percent(place.share_of_misfit)),
                      left ? "what stays" : "the misfit of " + diagnosis.search.base.what.model, where,
                      percent(place.share_of_samples));
 }
