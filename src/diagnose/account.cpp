@@ -215,6 +215,11 @@ std::string experiment_after(const Diagnosis& diagnosis) {
   if (verdict.answer == Answer::unattributed && !law.empty() && law != diagnosis.search.augmented.what.model) {
     return "none yet: diagnose these recordings with --model " + law + " first";
   }
+  if (verdict.answer == Answer::unattributed && candidates.empty() && diagnosis.tone) {
+    return fmt::format(
+        "the same rig running with the rod at rest; it would show whether the tone of {:.3g} Hz is the rig's",
+        diagnosis.tone->frequency);
+  }
   const Separating decides = separating(candidates, diagnosis.drive);
   if (decides.id.empty()) {
     return decides.recording;
@@ -246,6 +251,9 @@ void note_verdict(Diagnosis& diagnosis) {
                     "of it is seen to follow the motion to tell it from slow noise, of which the floor misses a part",
                     diagnosis.search.augmented.cost / diagnosis.noise_floor,
                     diagnosis.search.augmented.heldout / diagnosis.noise_floor_heldout));
+  }
+  if (diagnosis.tone && diagnosis.evidence.doubt_of_completeness != sentence_of(*diagnosis.tone)) {
+    diagnosis.notes.push_back(sentence_of(*diagnosis.tone));
   }
   for (const DriftOfParameter& before : diagnosis.drift_of_base.parameters) {
     if (before.follows.empty()) {

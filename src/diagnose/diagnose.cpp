@@ -10,6 +10,7 @@
 #include "core/drive.hpp"
 #include "core/error.hpp"
 #include "diagnose/account.hpp"
+#include "diagnose/residual/tone.hpp"
 #include "diagnose/residual/wander.hpp"
 #include "diagnose/search/left_out.hpp"
 #include "diagnose/search/of_fit.hpp"
@@ -213,10 +214,17 @@ std::vector<std::string> candidates_of(const DiagnoseOptions& options, Diagnosis
   return result;
 }
 
+// In N. Of every sample: a thinned recording has no high frequencies.
+std::optional<Tone> tone_left(const Search& search, const Workbench& bench) {
+  const std::vector<Recording>& recordings = bench.split().fit;
+  return tone_of(
+      leftovers_of(recordings, bench.plain_residuals(search.augmented), std::vector<double>(recordings.size(), 1.0)));
+}
+
 // Why more than noise is left though no effect helps: a held-out recording, or the residual's bond to the force, shows
 // it. Empty where nothing does.
 std::string doubt_of_completeness(const Search& search, const Workbench& fine,
-                                  const std::vector<std::string>& surprising) {
+                                  const std::vector<std::string>& surprising, const std::optional<Tone>& tone) {
   if (!surprising.empty()) {
     return "nothing but noise is left on the fitted recordings, but not on " + joined(surprising, " and ") +
            ": what is missing shows there only, and only a fitted recording can tell its cause";
@@ -235,7 +243,11 @@ std::string doubt_of_completeness(const Search& search, const Workbench& fine,
   if (left.squares > above_floor * left.floor && uneven(left.evenness)) {
     return "the size of what is left follows the motion, as that of noise does not";
   }
-  const Wandering wander = wandering(leftovers_of(fine.split().fit, fine.residuals(search.augmented)));
+  if (tone) {
+    return sentence_of(*tone);
+  }
+  const Residuals residuals = fine.residuals(search.augmented);
+  const Wandering wander = wandering(leftovers_of(fine.split().fit, residuals.of, residuals.norms));
   if (!wanders(wander)) {
     return {};
   }
@@ -278,6 +290,7 @@ std::string doubt_of_velocity(const std::vector<Recording>& recordings) {
 struct Judgement {
   Search search;
   std::vector<std::string> surprising;
+  std::optional<Tone> tone;
   std::vector<Contrast> contrasts;
   std::optional<Belonging> belonging;
   std::optional<ColumnTold> column;
@@ -303,8 +316,9 @@ Judgement judged(Search found, const Workbench& bench, const Workbench& fine, co
       velocity_channel_lag(bench.split().fit), result.contrasts,
       [&](const Fit& fit) { return contrasts(bench.split().fit, bench.plain_residuals(fit), Placebos::none); }};
   result.surprising = surprises(bench, result.search.augmented);
+  result.tone = tone_left(result.search, bench);
   result.evidence = evidence_of(result.search, fine, known);
-  result.evidence.doubt_of_completeness = doubt_of_completeness(result.search, fine, result.surprising);
+  result.evidence.doubt_of_completeness = doubt_of_completeness(result.search, fine, result.surprising, result.tone);
   result.evidence.doubt_of_data = doubt_of_data;
   return result;
 }
@@ -514,6 +528,7 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const Split& split
   diagnosis.search = std::move(judgement.search);
   diagnosis.asked = std::move(judgement.asked);
   diagnosis.surprises = std::move(judgement.surprising);
+  diagnosis.tone = judgement.tone;
   diagnosis.belonging = std::move(judgement.belonging);
   diagnosis.column = std::move(judgement.column);
   diagnosis.evidence = std::move(judgement.evidence);

@@ -10,6 +10,7 @@
 #include "diagnose/residual/contrast_view.hpp"
 #include "diagnose/residual/drift.hpp"
 #include "diagnose/residual/locate.hpp"
+#include "diagnose/residual/tone.hpp"
 #include "diagnose/search/alias.hpp"
 #include "diagnose/search/gather.hpp"
 #include "diagnose/signal/noise.hpp"
@@ -47,6 +48,7 @@ struct Diagnosis {
   Workbench bench;
   Search search;
   std::optional<Belonging> belonging;  // groups of the recordings, where some stand out
+  std::optional<Tone> tone;            // that what is left of the fitted recordings holds, N
   std::optional<ColumnTold> column;    // that the parameters follow and no model uses
   std::optional<Search> asked;         // behind the law asked for, where another took its place
   Evidence evidence;

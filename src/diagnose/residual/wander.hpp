@@ -13,7 +13,7 @@ namespace hysteron {
 // What is left of one recording, without its run-in: arrays of equal length.
 struct Leftover {
   std::vector<double> time;      // s, increasing
-  std::vector<double> residual;  // in units of the recording's norm
+  std::vector<double> residual;  // in any unit, one for all recordings
   std::vector<double> force;     // in any unit, predicted
 };
 
@@ -29,6 +29,8 @@ Wandering wandering(const std::vector<Leftover>& leftovers);
 // Whether chance does not explain the share.
 bool wanders(const Wandering& wandering);
 
-std::vector<Leftover> leftovers_of(const std::vector<Recording>& recordings, const Residuals& residuals);
+// `norms`: N, what the force of each recording is divided by.
+std::vector<Leftover> leftovers_of(const std::vector<Recording>& recordings, const std::vector<Residual>& residuals,
+                                   const std::vector<double>& norms);
 
 }  // namespace hysteron

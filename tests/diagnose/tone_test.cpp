@@ -1,0 +1,109 @@
+// A tone at one frequency in all recordings is told from noise of any colour and from what follows the motion.
+#include "diagnose/residual/tone.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <optional>
+
+#include "core/random.hpp"
+#include "diagnose/concealed_damper.hpp"
+
+namespace hysteron {
+namespace {
+
+constexpr double two_pi = 2.0 * std::numbers::pi;
+
+// Four sines of 6 to 9 s at 400 Hz, their forces those of a yielding damper; what is left of `which` at a time with the
+// force there, beside coloured noise of variance 1.
+std::vector<Leftover> leftovers(const std::function<double(std::size_t which, double time, double force)>& left,
+                                double colour, std::uint64_t seed = 5) {
+  std::vector<Leftover> result;
+  const Stream stream = Stream(seed).child("noise");
+  std::uint64_t drawn = 0;
+  for (const double frequency : {0.7, 1.6, 3.1, 2.2}) {
+    Leftover one;
+    double noise = 0.0;
+    const auto size = 2400 + 400 * result.size();
+    for (std::size_t n = 0; n < size; ++n) {
+      const double t = static_cast<double>(n) / 400.0;
+      const double v = std::sin(two_pi * frequency * t);
+      const double force = std::tanh(8.0 * v) + 0.3 * v;
+      noise = colour * noise + std::sqrt(1.0 - colour * colour) * stream.normal(drawn++);
+      one.time.push_back(t);
+      one.force.push_back(1000.0 * force);
+      one.residual.push_back(left(result.size(), t, force) + noise);
+    }
+    result.push_back(std::move(one));
+  }
+  return result;
+}
+
+TEST(Tone, IsFoundWithFrequencyAmplitudeAndShare) {
+  for (const double colour : {0.0, 0.9}) {
+    for (const double frequency : {5.3, 23.7, 49.9, 121.0}) {
+      const auto tone =
+          tone_of(leftovers([&](std::size_t which, double t,
+                                double) { return 1.5 * std::sin(two_pi * frequency * t + static_cast<double>(which)); },
+                            colour));
+      ASSERT_TRUE(tone) << frequency << " Hz in noise of colour " << colour;
+      EXPECT_NEAR(tone->frequency, frequency, 0.1);
+      // Noise adds its part at that frequency, more the lower that is.
+      EXPECT_NEAR(tone->amplitude, 1.5, frequency < 10.0 ? 0.4 : 0.15);
+      EXPECT_NEAR(tone->share, 0.5 * 1.5 * 1.5 / (1.0 + 0.5 * 1.5 * 1.5), 0.1);
+      EXPECT_EQ(tone->recordings, 4U);
+    }
+  }
+}
+
+// Chance: a hundred draws, each expected to give 1e-6.
+TEST(Tone, NoiseOfAnyColourHoldsNone) {
+  for (std::uint64_t seed = 0; seed < 25; ++seed) {
+    for (const double colour : {0.0, 0.9, -0.7, 0.99}) {
+      EXPECT_FALSE(tone_of(leftovers([](std::size_t, double, double) { return 0.0; }, colour, seed)))
+          << colour << ' ' << seed;
+    }
+  }
+}
+
+TEST(Tone, WhatFollowsTheMotionIsNone) {
+  EXPECT_FALSE(tone_of(leftovers([](std::size_t, double, double force) { return 3.0 * force * force * force; }, 0.5)));
+}
+
+// One loud recording, or each its own frequency, is no tone that runs through all.
+TEST(Tone, MustBeInMostRecordingsAtOneFrequency) {
+  EXPECT_FALSE(tone_of(leftovers(
+      [](std::size_t which, double t, double) { return which < 2 ? 5.0 * std::sin(two_pi * 23.7 * t) : 0.0; }, 0.0)));
+  EXPECT_FALSE(
+      tone_of(leftovers([](std::size_t which, double t,
+                           double) { return 2.0 * std::sin(two_pi * (20.0 + 3.0 * static_cast<double>(which)) * t); },
+                        0.0)));
+}
+
+TEST(Tone, IsTheReasonWhyNothingIsCalledComplete) {
+  Campaign campaign = testing::campaign_with({}, {}, 0.01);
+  double largest = 0.0;
+  double sampling = 1e300;
+  for (const Recording& recording : campaign.recordings) {
+    sampling = std::min(sampling, static_cast<double>(recording.size()) / recording.time.back());
+    for (const double force : recording.force) {
+      largest = std::max(largest, std::fabs(force));
+    }
+  }
+  for (Recording& recording : campaign.recordings) {
+    for (std::size_t n = 0; n < recording.size(); ++n) {
+      recording.force[n] += 0.03 * largest * std::sin(two_pi * 0.2137 * sampling * recording.time[n] + 0.5);
+    }
+  }
+  const auto diagnosis = testing::diagnosis_of(campaign, testing::few);
+  EXPECT_EQ(diagnosis->verdict.answer, Answer::unattributed);
+  ASSERT_TRUE(diagnosis->tone);
+  EXPECT_NEAR(diagnosis->tone->amplitude, 0.03 * largest, 0.003 * largest);
+  EXPECT_EQ(diagnosis->verdict.reason.find(sentence_of(*diagnosis->tone)), 0U) << diagnosis->verdict.reason;
+}
+
+}  // namespace
+}  // namespace hysteron
