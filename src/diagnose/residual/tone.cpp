@@ -11,9 +11,9 @@
 namespace hysteron {
 namespace {
 
-constexpr std::size_t fewest_samples = 64;
-constexpr std::size_t fewest_recordings = 3;
-constexpr std::size_t most_samples = 4096;  // of a recording; more are averaged
+constexpr std::size_t fewest_samples = 64;    // of a recording that counts
+constexpr std::size_t fewest_recordings = 3;  // with the tone; two may agree by chance
+constexpr std::size_t most_samples = 4096;    // of a recording; more are averaged
 // Spectra have this many values for each that is independent.
 constexpr double finer = 4.0;
 // The neighbourhood of a frequency, in units of the resolution: without the line itself, whose window is two wide.
