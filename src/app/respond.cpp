@@ -63,15 +63,17 @@ void run(Options& options) {
     check_drive(stored, options.model, recording);
   }
   const bool has_force = !recording.force.empty();
-  const bool has_base = !recording.displacement.empty();
+  // A file that names a base has the displacement of the mass beside it, as what `respond` writes.
+  const std::vector<double>& ground = recording.base.empty() ? recording.displacement : recording.base;
+  const bool has_base = !ground.empty();
   if (options.excitation == "auto" && has_force == has_base) {
-    throw InputError(recording.file + (has_force
-                                           ? ": holds a force and a displacement, expected --excitation force or base"
-                                           : ": holds neither a force nor a displacement, expected one of them"));
+    throw InputError(recording.file +
+                     (has_force ? ": holds a force and a displacement of the base, expected --excitation force or base"
+                                : ": holds neither a force nor a base or displacement, expected one of them"));
   }
   const bool base = options.excitation == "auto" ? has_base : options.excitation == "base";
   if (base ? !has_base : !has_force) {
-    throw InputError(recording.file + ": no " + (base ? "displacement" : "force") +
+    throw InputError(recording.file + ": no " + (base ? "base or displacement" : "force") +
                      " column, expected one for --excitation " + options.excitation);
   }
   const Interpolation interpolation = interpolation_of(options.interpolation);
@@ -82,7 +84,7 @@ void run(Options& options) {
   const bool periodic = options.periods > 0;
   double frequency = options.frequency;
   Recording as_motion = recording;
-  as_motion.displacement = base ? recording.displacement : recording.force;
+  as_motion.displacement = base ? ground : recording.force;
   if (!std::isnan(options.drive)) {
     as_motion.drive.assign(recording.size(), options.drive);
     as_motion.drive_kind = stored.drive;
@@ -104,7 +106,7 @@ void run(Options& options) {
   Excitation excitation;
   excitation.time = periodic ? repeated_times(recording.time, options.periods) : recording.time;
   (base ? excitation.base : excitation.force) =
-      Signal(recording.time, base ? recording.displacement : recording.force, interpolation, periodic);
+      Signal(recording.time, base ? ground : recording.force, interpolation, periodic);
   if (!std::isnan(options.drive)) {
     excitation.drive =
         Signal(recording.time, std::vector<double>(recording.size(), options.drive), Interpolation::linear, periodic);

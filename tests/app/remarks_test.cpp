@@ -42,6 +42,27 @@ class Remarks : public Program {
   }
 };
 
+// A file that names its base holds the motion relative to it beside it, as what `respond` writes.
+TEST_F(Remarks, ABaseIsTheColumnOfThatName) {
+  fit();
+  const auto moved = [&](const std::string& name, const std::string& head, bool both) {
+    std::string text = head + "\n";
+    for (int n = 0; n < 200; ++n) {
+      const double t = 0.01 * n;
+      text += std::to_string(t) + "," + std::to_string(5.0 * std::sin(9.0 * t)) +
+              (both ? "," + std::to_string(0.3 * std::cos(9.0 * t)) : "") + "\n";
+    }
+    write(folder_ / name, text);
+    const Outcome outcome =
+        run({"respond", "fitted/model.json", name, "--mass", "20", "--stiffness", "1e4", "--out", "r_" + name});
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    return read(folder_ / ("r_" + name));
+  };
+  const std::string alone = moved("d.csv", "time [s],displacement [mm]", false);
+  EXPECT_EQ(moved("b.csv", "time [s],base [mm]", false), alone);
+  EXPECT_EQ(moved("both.csv", "time [s],base [mm],displacement [mm]", true), alone);
+}
+
 TEST_F(Remarks, EveryCommandSaysWhatItAssumed) {
   fit();
   write(folder_ / "mm.csv", millimetres(true));
