@@ -23,7 +23,7 @@ struct SensorDelay {
   static constexpr Knowledge knowledge = {
       .family = families::phase,
       .in_words = "a delay between the motion and force channels",
-      .shows = "the force follows motion[ and current] later by one time, at any frequency",
+      .shows = "the force follows motion[ and current] by one time at any frequency; a negative lag leads",
       .experiment =
           "[a current step at constant velocity and ]sines at frequencies an octave apart: a delay stays constant in "
           "ms",

@@ -342,6 +342,20 @@ TEST(Verdict, WhatIsDoubtedHasItsPartOfWhatHasNoName) {
   EXPECT_NEAR(verdict.unknown_share, 4.0 / 19.0 + 15.0 / 19.0 / 4.0, 1e-12);
 }
 
+// The augmented model may owe most to richer laws in the drive, which are no candidates.
+TEST(Verdict, ANameIsCreditedWithNoMoreThanItTakesOff) {
+  Evidence evidence = plain();
+  evidence.candidates[0].gain = 4.75 * floor_squares;
+  evidence.candidates[0].gain_alone = 3.8 * floor_squares;
+  Verdict verdict = verdict_of(evidence);
+  ASSERT_EQ(verdict.effects.size() + verdict.suggestions.size(), 1U);
+  EXPECT_NEAR(verdict.unknown_share, 0.75, 1e-12) << "it takes a quarter off, and all is taken off";
+  evidence.candidates[0].gain_alone = 9.5 * floor_squares;
+  verdict = verdict_of(evidence);
+  ASSERT_EQ(verdict.effects.size() + verdict.suggestions.size(), 1U);
+  EXPECT_NEAR(verdict.unknown_share, 0.5, 1e-12) << "alone it takes off a half";
+}
+
 TEST(Features, AContrastIsThatOfWhatIsLeftWithoutTheCandidate) {
   Evidence evidence = plain();
   evidence.signatures[0].z = 0.2;  // behind the bare law another effect covers it

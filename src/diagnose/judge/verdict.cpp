@@ -77,16 +77,22 @@ void append(std::vector<Named>& list, const std::vector<Named>& rows, const std:
 
 // Of the base model's misfit beyond the noise: what stays, and of what the augmented model takes off the part of
 // effects that are neither named nor suggested. Effects may explain the same, so that their own shares part it in
-// proportion.
+// proportion; but what is named explains no more than it does alone or in the augmented model, the larger of both: the
+// rest is due to richer laws, which have no name.
 double unknown_share(const Verdict& verdict, const Evidence& evidence) {
   if (verdict.answer == Answer::complete) {
     return 0.0;
   }
   double known = 0.0;
+  double most = 0.0;
   double doubted = 0.0;
   for (const std::vector<Named>* list : {&verdict.effects, &verdict.suggestions}) {
     for (const Named& row : *list) {
-      known += row.in_place_of || row.of_law ? 0.0 : row.share_of_misfit;
+      if (!row.in_place_of && !row.of_law) {
+        known += row.share_of_misfit;
+        most += std::max(row.share_of_misfit,
+                         evidence.candidates[row.candidate].gain_alone / std::max(evidence.base.excess(), 1e-300));
+      }
     }
   }
   for (const Named& row : verdict.doubtful) {
@@ -96,7 +102,8 @@ double unknown_share(const Verdict& verdict, const Evidence& evidence) {
     return 1.0;
   }
   const double stays = evidence.augmented.excess() / std::max(evidence.base.excess(), 1e-300);
-  return std::clamp(stays + std::max(1.0 - stays, 0.0) * doubted / (known + doubted), 0.0, 1.0);
+  const double taken = std::max(1.0 - stays, 0.0);
+  return std::clamp(stays + taken - std::min(taken * known / (known + doubted), most), 0.0, 1.0);
 }
 
 }  // namespace
