@@ -44,6 +44,7 @@ Recording motion_of(const Options& options) {
 
 void run(const Options& options) {
   const ExportTarget& target = export_target(options.to);
+  refuse_inputs(options.out, {options.model, options.motion});
   StoredModel stored = read_model(options.model);
   hold_conditions(stored, numbers_at(options.data), "export");
   ExportedModel exported{stored.model, stored.held, stored.terms, options.name};

@@ -56,6 +56,7 @@ std::vector<double> repeated_times(const std::vector<double>& time, int count) {
 }
 
 void run(Options& options) {
+  check_table(options.out, {options.model, options.data.data.front()});
   StoredModel stored = read_model(options.model);
   const Recording recording = read_excitation(options, stored);
   follow_conditions(stored, {recording});

@@ -3,9 +3,15 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace hysteron::app {
 
+// Throws InputError where `out` is one of the files read, or the file of a recording in one of the folders read, which
+// the result would replace.
+void refuse_inputs(const std::string& out, const std::vector<std::string>& inputs);
+// The same for a table, whose ending must not be that of another kind of file.
+void check_table(const std::string& out, const std::vector<std::string>& inputs);
 // To a file as write_file_atomically does, or, for `-`, to standard output, whose failure main tells.
 void write_result(const std::string& out, std::string_view bytes);
 // A table as CSV text with units behind its names: as it is, or as a MAT file of one vector a column where `out` ends

@@ -36,6 +36,9 @@ void add_score(CLI::App& program) {
     if (is_standard_output(options->out)) {
       throw InputError("--out -: the scores are on standard output already, expected a file");
     }
+    std::vector<std::string> inputs = options->data.data;
+    inputs.push_back(options->model);
+    check_table(options->out, inputs);
     const ObjectiveOptions objective = objective_options(options->common);
     StoredModel stored = read_model(options->model);
     options->data.conditions = conditions_of({&stored});

@@ -172,6 +172,7 @@ void add_simulate(CLI::App& program) {
     if (!preset && (!options->set.empty() || !std::isnan(options->drive))) {
       throw InputError("simulate: --set and --drive belong to --preset");
     }
+    check_table(options->out, options->words);
     const Preset* chosen = preset ? &preset_called(options->preset) : nullptr;
     StoredModel stored;
     if (!preset) {

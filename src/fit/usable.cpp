@@ -33,4 +33,21 @@ void require_usable(const std::vector<Recording>& recordings, ForceOf force) {
   }
 }
 
+void require_one_drive(const std::vector<Recording>& recordings) {
+  const auto has_drive = [](const Recording& one) { return one.drive_kind != DriveKind::none; };
+  const auto word = [](DriveKind kind) { return std::string(kind == DriveKind::voltage ? "voltage" : "current"); };
+  const auto first = std::ranges::find_if(recordings, has_drive);
+  if (first == recordings.end()) return;
+  const std::string expected = word(first->drive_kind);
+  for (const Recording& recording : recordings) {
+    if (recording.drive_kind == first->drive_kind) continue;
+    throw InputError(
+        recording.file, 0,
+        has_drive(recording)
+            ? "records a " + word(recording.drive_kind) + ", expected a " + expected + " as in " + first->file
+            : "no current or voltage, expected a " + expected + " as in " + first->file + ": a column, or a line " +
+                  expected + " = NUMBER of the recording in campaign.toml");
+  }
+}
+
 }  // namespace hysteron

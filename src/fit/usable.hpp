@@ -16,4 +16,8 @@ enum class ForceOf { damper, excitation };
 // throughout while it moves, and where none of them moves.
 void require_usable(const std::vector<Recording>& recordings, ForceOf force = ForceOf::damper);
 
+// Throws InputError where some recordings hold a current and others a voltage or neither: for work in which something
+// follows the drive, which would take one for the other, or what was not recorded for zero.
+void require_one_drive(const std::vector<Recording>& recordings);
+
 }  // namespace hysteron

@@ -91,6 +91,7 @@ json curves_json(const Diagnosis& diagnosis, const Campaign& campaign, const Obj
 
 void check_diagnosis(const Campaign& campaign, DiagnoseOptions& options) {
   require_usable(campaign.recordings);
+  require_one_drive(campaign.recordings);  // effects of the drive are looked for in every campaign
   if (options.model.empty()) options.model = campaign.model.empty() ? "bouc-wen" : campaign.model;
   add_laws_of(campaign, options.layout);
   refuse_repeats("--laws", options.laws);

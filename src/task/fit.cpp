@@ -282,6 +282,9 @@ FitData fit_data(Campaign campaign, FitRequest& request) {
   refuse_repeats("--effects", identify_with.effects);
   LayoutOptions& layout = identify_with.layout;
   add_laws_of(data.campaign, layout);
+  if (!layout.by_current.empty()) {
+    require_one_drive(request.rig ? data.responses : data.campaign.recordings);
+  }
   const CompositeModel model = make_model(data.model, identify_with.effects);
   normaliser(data.campaign.recordings.front(), identify_with.objective.normalisation);
   if (request.two_stages && layout.by_current.empty() && layout.by_frequency.empty()) {

@@ -50,6 +50,66 @@ TEST_F(Results, DivergenceIsAFailureAndWritesNothing) {
   }
 }
 
+// What was read stays as it was, whatever name or link leads to it; a file made before is replaced as ever.
+TEST_F(Results, NothingThatIsReadIsReplaced) {
+  fit();
+  const std::string model = read(folder_ / "fitted/model.json");
+  const std::string recording = read(folder_ / "data/r1.csv");
+  fs::create_symlink(folder_ / "data/r1.csv", folder_ / "link.csv");
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"score", "fitted/model.json", "data/r1.csv", "--out", "data/../data/r1.csv"},
+        {"score", "fitted/model.json", "data", "--out", "data/r1.csv"},
+        {"score", "fitted/model.json", "data", "--out", "fitted/model.json"},
+        {"simulate", "fitted/model.json", "data/r1.csv", "--out", "data/r1.csv"},
+        {"simulate", "fitted/model.json", "data/r1.csv", "--out", "link.csv"},
+        {"simulate", "fitted/model.json", "data/r1.csv", "--out", "fitted/model.json"},
+        {"respond", "fitted/model.json", "data/r1.csv", "--mass", "10", "--excitation", "base", "--out", "data/r1.csv"},
+        {"export", "fitted/model.json", "--to", "python", "--out", "fitted/model.json"}}) {
+    const Outcome outcome = run(words);
+    EXPECT_EQ(outcome.status, 2) << words[0];
+    EXPECT_NE(outcome.err.find("would be replaced, expected another file"), std::string::npos) << outcome.err;
+    EXPECT_EQ(read(folder_ / "fitted/model.json"), model);
+    EXPECT_EQ(read(folder_ / "data/r1.csv"), recording);
+  }
+  for (int times = 0; times < 2; ++times) {
+    EXPECT_EQ(run({"score", "fitted/model.json", "data", "--out", "scores.csv"}).status, 0);
+  }
+  EXPECT_EQ(run({"simulate", "fitted/model.json", "data/r1.csv", "--out", "p.xlsx"}).err,
+            "error: --out p.xlsx: tables are not written as .xlsx, expected .csv or .mat\n");
+}
+
+TEST_F(Results, RecordingsWithoutTheDriveThatParametersFollowAreRefused) {
+  std::string without = csv(1.5, 0.5);
+  for (auto at = without.find(",0.5\n"); at != std::string::npos; at = without.find(",0.5\n")) {
+    without.erase(at, 4);
+  }
+  without.replace(without.find(",current [A]"), 12, "");
+  write(folder_ / "data/r3.csv", without);
+  const std::vector<std::string> fit = {"fit",      "data", "--model", "bouc-wen", "--by-current", "c0:1",
+                                        "--budget", "400",  "--quiet", "--out",    "fitted"};
+  const std::vector<std::string> diagnose = {"diagnose", "data", "--model", "bouc-wen", "--out", "found"};
+  const std::string none =
+      "error: r3.csv: no current or voltage, expected a current as in r1.csv: a column, or a line current = NUMBER of "
+      "the recording in campaign.toml\n";
+  EXPECT_EQ(run(fit).err, none);
+  EXPECT_EQ(run(diagnose).err, none);
+  EXPECT_FALSE(fs::exists(folder_ / "fitted"));
+  std::string volts = csv(1.5, 0.5);
+  volts.replace(volts.find("current [A]"), 11, "voltage [V]");
+  write(folder_ / "data/r3.csv", volts);
+  const std::string other = "error: r3.csv: records a voltage, expected a current as in r1.csv\n";
+  EXPECT_EQ(run(fit).err, other);
+  EXPECT_EQ(run(diagnose).err, other);
+  // Where nothing follows the drive it need not be there; where campaign.toml gives it, it is.
+  write(folder_ / "data/r3.csv", without);
+  EXPECT_EQ(run({"fit", "data", "--model", "bouc-wen", "--budget", "400", "--quiet", "--out", "passive"}).status, 0);
+  write(folder_ / "data/campaign.toml",
+        "schema = \"hysteron.campaign/1\"\n"
+        "[[recording]]\nfile = \"r1.csv\"\n[[recording]]\nfile = \"r2.csv\"\n"
+        "[[recording]]\nfile = \"r3.csv\"\ncurrent = 0.5\n");
+  EXPECT_EQ(run(fit).status, 0) << run(fit).err;
+}
+
 TEST_F(Results, FullStandardOutputIsAFailure) {
   if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
   fit();
