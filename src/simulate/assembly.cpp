@@ -32,7 +32,7 @@ using States = std::array<T, static_cast<std::size_t>(max_states)>;
 template <class V>
 struct Root {
   V u;
-  V slope;  // g'
+  V force;  // of the links below, at u
 };
 
 template <class T>
@@ -156,6 +156,11 @@ class Assembly {
       part.yield(own, *state, yield);
       yield.gain = yield.gain * U(relief.factor[top - 1]);
       const Input<U> shifted{in.x - yield.deflection, in.v, in.drive, in.time, in.age, in.a, in.jerk};
+      if constexpr (std::is_same_v<U, Value>) {
+        if (rates == nullptr) {
+          return root(top - 1, p, s, shifted, *state, yield, relief).force;
+        }
+      }
       const U u = solve(top - 1, p, s, shifted, *state, yield, relief);
       if (rates != nullptr) {
         rates[link.state] = u;
@@ -189,7 +194,7 @@ class Assembly {
   U solve(std::size_t top, const U* p, const U* s, const Input<U>& in, const U& q, const Yield<U>& yield,
           const Relief<Value>& relief) const {
     if constexpr (std::is_same_v<U, Value>) {
-      return root(top, p, s, in, q, yield, relief);
+      return root(top, p, s, in, q, yield, relief).u;
     } else {
       States<Value> state;
       const int below = links_[top].state;
@@ -199,7 +204,7 @@ class Assembly {
       const Yield<Value> values{value_of(yield.deflection), value_of(yield.slope), value_of(yield.bend),
                                 value_of(yield.gain),       value_of(yield.hold),  value_of(yield.width)};
       const Input<Value> at = value_input(in);
-      const Value u = root(top, values_.data(), state.data(), at, q.v, values, relief);
+      const Value u = root(top, values_.data(), state.data(), at, q.v, values, relief).u;
       const Value resistance = damping(top, values_.data(), state.data(), moved(at, values.slope * u), relief);
       const Value slope = fma(values.gain * values.slope, resistance, Value(1.0));
       const U known(u);
@@ -223,12 +228,13 @@ class Assembly {
   }
 
   // The root of g by secants kept within the bracket, which end where g is its own rounding; lanes that are done stay.
-  Value root(std::size_t top, const Value* p, const Value* s, const Input<Value>& in, const Value& q,
-             const Yield<Value>& yield, const Relief<Value>& relief) const {
+  Root<Value> root(std::size_t top, const Value* p, const Value* s, const Input<Value>& in, const Value& q,
+                   const Yield<Value>& yield, const Relief<Value>& relief) const {
     const Value held = yield.hold * q;
     Value tolerance;
+    Value force;
     const auto residual = [&](const Value& u) {
-      const Value force = evaluate<Value>(top, p, s, moved(in, yield.slope * u), relief, nullptr);
+      force = evaluate<Value>(top, p, s, moved(in, yield.slope * u), relief, nullptr);
       tolerance = Value(motion_.balance_tolerance) * (abs(u) + yield.gain * (abs(force) + abs(held)));
       return u - yield.gain * (force - held);
     };
@@ -268,7 +274,7 @@ class Assembly {
       tolerance = select(active, tolerance, kept);
       narrow();
     }
-    return u;
+    return {u, force};  // lanes that were done had the same u, and so the same force, to the end
   }
 
   // Bounds of the stiffness of all rates at a state with known rates; sets the relief that keeps every element within
