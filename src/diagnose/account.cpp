@@ -154,6 +154,10 @@ std::string sentence_of(const Diagnosis& diagnosis, const Named& named,
   return text + ".";
 }
 
+std::string_view what_shapes_do(const Diagnosis& diagnosis) {
+  return diagnosis.search.augmented.heldout < diagnosis.search.base.heldout ? "predict" : "fit";
+}
+
 std::vector<Rejected> rejected_of(const Diagnosis& diagnosis) {
   std::vector<Rejected> result;
   const auto is_listed = [&](const std::string& id) {
@@ -164,12 +168,12 @@ std::vector<Rejected> rejected_of(const Diagnosis& diagnosis) {
     if (is_listed(row.id)) {
       continue;
     }
-    result.push_back({row.id, diagnosis.evidence.doubt_of_data.empty()
-                                  ? fmt::format("in the augmented model as a shape that predicts better; as a cause it "
-                                                "is less likely than not ({:.0f} %)",
-                                                100.0 * row.confidence)
-                                  : "in the augmented model as a shape that predicts better; on these recordings no "
-                                    "cause can be named"});
+    result.push_back(
+        {row.id,
+         fmt::format("in the augmented model as a shape that {}s better; {}", what_shapes_do(diagnosis),
+                     diagnosis.evidence.doubt_of_data.empty()
+                         ? fmt::format("as a cause it is less likely than not ({:.0f} %)", 100.0 * row.confidence)
+                         : std::string("on these recordings no cause can be named"))});
   }
   const double base = squared(diagnosis.search.quick_base.cost);
   const double all = std::max(base - squared(diagnosis.search.quick_augmented.cost), 1e-300);

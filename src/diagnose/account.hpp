@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "diagnose/diagnose.hpp"
@@ -26,6 +27,9 @@ std::string sizes_text(const std::vector<ParameterInterval>& parameters, std::si
 std::string sentence_of(const Diagnosis& diagnosis, const Named& named,
                         const std::vector<ParameterInterval>& parameters);
 
+// "predict" or, where the augmented model predicts held-out recordings no better than the base model, "fit": what
+// shapes that are no causes do better.
+std::string_view what_shapes_do(const Diagnosis& diagnosis);
 // Effects that were tried and not named, with reasons.
 std::vector<Rejected> rejected_of(const Diagnosis& diagnosis);
 // A recording that would decide or confirm.

@@ -80,8 +80,9 @@ std::string sentence_of_shapes(const Diagnosis& diagnosis) {
   if (shapes.empty()) {
     return {};
   }
-  return fmt::format("Not sure enough to name: {}; {} better.", joined(shapes, "; and "),
-                     shapes.size() == 1 ? "it is a shape that predicts" : "they are shapes that predict");
+  return fmt::format("Not sure enough to name: {}; {} {} better.", joined(shapes, "; and "),
+                     shapes.size() == 1 ? "it is a shape that" : "they are shapes that",
+                     std::string(what_shapes_do(diagnosis)) + (shapes.size() == 1 ? "s" : ""));
 }
 
 // "modified-bouc-wen, which has a series dashpot as a part of its own,": what its card and those of effects say that
@@ -116,12 +117,15 @@ std::string sentence_of_errors(const Diagnosis& diagnosis) {
                        diagnosis.noise_floor_heldout);
   }
   const bool many = subject == "Together they";
-  if (after < before) {
-    return fmt::format("{} {} the held-out error from {:#.2g} to {:#.2g} (noise {:#.2g}).", subject,
-                       many ? "take" : "takes", before, after, diagnosis.noise_floor_heldout);
+  // As printed, with two digits: what is the same there has not changed.
+  const std::string from = fmt::format("{:#.2g}", before);
+  const std::string to = fmt::format("{:#.2g}", after);
+  const std::string noise = fmt::format("noise {:#.2g}", diagnosis.noise_floor_heldout);
+  if (from == to) {
+    return fmt::format("{} {} the held-out error at {} ({}).", subject, many ? "leave" : "leaves", from, noise);
   }
-  return fmt::format("{} {} nothing off the held-out error ({:#.2g} before, {:#.2g} after, noise {:#.2g}).", subject,
-                     many ? "take" : "takes", before, after, diagnosis.noise_floor_heldout);
+  return fmt::format("{} {} the held-out error from {} to {} ({}).", subject,
+                     after < before ? (many ? "take" : "takes") : (many ? "raise" : "raises"), from, to, noise);
 }
 
 std::string sentence_of_unknown(const Diagnosis& diagnosis) {

@@ -103,7 +103,7 @@ double unknown_share(const Verdict& verdict, const Evidence& evidence) {
   }
   const double stays = evidence.augmented.excess() / std::max(evidence.base.excess(), 1e-300);
   const double taken = std::max(1.0 - stays, 0.0);
-  return std::clamp(stays + taken - std::min(taken * known / (known + doubted), most), 0.0, 1.0);
+  return std::clamp(1.0 - std::min(taken * known / (known + doubted), most), 0.0, 1.0);
 }
 
 }  // namespace
