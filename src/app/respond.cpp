@@ -115,6 +115,7 @@ void run(Options& options) {
     excitation.drive = Signal(recording.time, quiet_drive(recording.drive), Interpolation::linear, periodic);
   }
   excitation.conditions = condition_signals(recording, periodic);
+  options.respond.stopped = interrupted;
   const MassMotion response = respond(oscillator, excitation, options.respond);
 
   std::string text = "time [s],displacement [m],velocity [m/s],acceleration [m/s^2],force [N]";
@@ -179,7 +180,7 @@ void add_respond(CLI::App& program) {
                    "the excitation is one period: it is repeated so many times and the last response is written")
       ->check(CLI::Range(0, 10000));
   command->add_option("--x0", options->respond.displacement, "displacement at the start, m, relative to the base")
-      ->check(real_number(-1e9, 1e9));
+      ->check(real_number(-farthest_motion, farthest_motion));
   command->add_option("--v0", options->respond.velocity, "velocity at the start, m/s, relative to the base")
       ->check(real_number(-1e9, 1e9));
   command->add_option("--drive", options->drive, "constant current or voltage, instead of the file's")

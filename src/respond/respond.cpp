@@ -198,6 +198,8 @@ constexpr std::array<double, 7> errors = {71.0 / 57600.0,      0.0,          -71
 
 // Smallest part of an interval that a step may be.
 constexpr double least_part = 1e-9;
+constexpr int most_steps = 1000000;  // within an interval
+constexpr int steps_between_questions = 1000;
 
 class Integrator {
  public:
@@ -216,6 +218,7 @@ class Integrator {
     if (options_.substeps > 0) {
       const double h = (to - from) / options_.substeps;
       for (int n = 0; n < options_.substeps; ++n) {
+        end_if_stopped(from + n * h);
         step(from + n * h, h);
         y_ = next_;
       }
@@ -223,7 +226,13 @@ class Integrator {
     }
     double t = from;
     double h = h_ > 0.0 ? std::min(h_, to - from) : 0.01 * (to - from);
-    while (t < to) {
+    for (int tried = 0; t < to; ++tried) {
+      end_if_stopped(t);
+      if (tried == most_steps) {
+        throw WorkError("the motion cannot be followed at " + std::to_string(t) + " s: " + std::to_string(most_steps) +
+                        " steps do not lead from one sample to the next, the equations are too stiff for a motion of " +
+                        std::to_string(std::fabs(y_[0])) + " m at " + std::to_string(std::fabs(y_[1])) + " m/s");
+      }
       const bool last = t + h >= to * (1.0 - 1e-15) || t + h >= to;
       if (last) {
         h = to - t;
@@ -250,6 +259,11 @@ class Integrator {
   }
 
  private:
+  void end_if_stopped(double t) {
+    if (++steps_ % steps_between_questions == 0 && options_.stopped()) {
+      throw WorkError("interrupted at " + std::to_string(t) + " s of the motion; nothing is written");
+    }
+  }
   void grow() {
     for (std::size_t i = 0; i < y_.size(); ++i) {
       scale_[i] = std::max(scale_[i], std::fabs(y_[i]));
@@ -287,7 +301,8 @@ class Integrator {
   std::vector<double> scale_;  // largest size of every state so far
   std::vector<double> next_;
   std::array<std::vector<double>, 7> k_;
-  double h_ = 0.0;  // s, the step to try next
+  double h_ = 0.0;         // s, the step to try next
+  std::size_t steps_ = 0;  // so far
 };
 
 }  // namespace
@@ -333,7 +348,7 @@ MassMotion respond(const Oscillator& oscillator, const Excitation& excitation, c
     response.velocity.push_back(y[1]);
     response.acceleration.push_back(system.acceleration);
     response.force.push_back(system.force);
-    if (!std::isfinite(y[0]) || !std::isfinite(system.acceleration) || !std::isfinite(system.force)) {
+    if (!(std::fabs(y[0]) <= farthest_motion) || !std::isfinite(system.acceleration) || !std::isfinite(system.force)) {
       throw WorkError("the motion runs away at " + std::to_string(excitation.time[n]) + " s");
     }
   }

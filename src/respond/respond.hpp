@@ -30,7 +30,12 @@ struct RespondOptions {
   int substeps = 0;           // steps of equal length between samples; 0: as the tolerance asks
   double displacement = 0.0;  // m, at the start, relative to the base
   double velocity = 0.0;      // m/s
+  // Asked between steps; true ends the motion.
+  std::function<bool()> stopped = [] { return false; };
 };
+
+// No mass on a damper comes so far.
+constexpr double farthest_motion = 1e5;  // m
 
 struct Excitation {
   std::vector<double> time;     // s, where the motion is wanted
@@ -56,8 +61,8 @@ struct MassMotion {
 // values.
 void require_response(const CompositeModel& model, const std::vector<double>& p, bool follows_varying_drive);
 
-// Throws WorkError where the motion runs away or cannot be followed, InputError for a model that needs what a motion to
-// come does not tell.
+// Throws WorkError where the motion runs away, cannot be followed or is stopped, InputError for a model that needs what
+// a motion to come does not tell.
 MassMotion respond(const Oscillator& oscillator, const Excitation& excitation, const RespondOptions& options);
 
 }  // namespace hysteron

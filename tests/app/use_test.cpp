@@ -234,5 +234,62 @@ TEST(ProgressText, SaysWhatHowFarHowLong) {
   EXPECT_EQ(progress_text("\xc3\xa9\xc3\xa9\xc3\xa9", 0.5, "", 1.0, 2), "\xc3\xa9\xc3\xa9") << "characters, not bytes";
 }
 
+// ---- Motions that are not those of a damper ----
+
+namespace motions {
+
+constexpr int samples = 2000;
+
+// A stiff hysteresis: a fast motion has time constants of nanoseconds in it.
+std::string model(double yield_displacement) {
+  return fmt::format(
+      R"({{"schema":"hysteron.model/1","model":"bouc-wen","effects":[],"parameters":[
+      {{"name":"alpha","value":400,"unit":"N"}},{{"name":"c0","value":0,"unit":"N s/m"}},
+      {{"name":"k0","value":0,"unit":"N/m"}},{{"name":"f0","value":0,"unit":"N"}},
+      {{"name":"x_y","value":{},"unit":"m"}},{{"name":"share","value":0.5,"unit":"1"}},
+      {{"name":"n","value":1.5,"unit":"1"}}]}})",
+      yield_displacement);
+}
+
+std::string push() {
+  std::string text = "time [s],force [N]\n";
+  for (int n = 0; n < samples; ++n) text += fmt::format("{},{}\n", 0.01 * n, 100.0 * std::sin(n));
+  return text;
+}
+
+}  // namespace motions
+
+TEST_F(Use, AMotionThatDoesNotAdvanceEnds) {
+  write(folder_ / "stiff.json", motions::model(1e-7));
+  write(folder_ / "push.csv", motions::push());
+  const Outcome outcome =
+      run({"respond", "stiff.json", "push.csv", "--mass", "250", "--stiffness", "2e4", "--x0", "9e4", "--out", "r.csv"},
+          [] { alarm(60); });
+  EXPECT_EQ(outcome.status, 1) << outcome.err;
+  EXPECT_NE(outcome.err.find("the equations are too stiff for a motion of "), std::string::npos) << outcome.err;
+  EXPECT_FALSE(fs::exists(folder_ / "r.csv"));
+  const Outcome far =
+      run({"respond", "stiff.json", "push.csv", "--mass", "250", "--x0", "1e8", "--out", "r.csv"}, [] { alarm(60); });
+  EXPECT_EQ(far.status, 2) << far.err;
+  EXPECT_NE(far.err.find("not a number from -100000 to 100000"), std::string::npos) << far.err;
+}
+
+TEST_F(Use, AResponseIsInterrupted) {
+  write(folder_ / "stiff.json", motions::model(1e-4));
+  write(folder_ / "push.csv", motions::push());
+  for (const int signal : {SIGINT, SIGTERM}) {
+    const pid_t child = testing::start({"respond", "stiff.json", "push.csv", "--mass", "250", "--stiffness", "2e4",
+                                        "--x0", "1e3", "--periods", "10000", "--out", "r.csv"},
+                                       folder_, [] { alarm(60); });
+    testing::wait_until_caught(child, signal);
+    usleep(300000);
+    ASSERT_EQ(kill(child, signal), 0);
+    const Outcome outcome = testing::finish(child, folder_);
+    EXPECT_EQ(outcome.status, 130) << outcome.err;
+    EXPECT_TRUE(outcome.err.starts_with("error: interrupted at ")) << outcome.err;
+    EXPECT_FALSE(fs::exists(folder_ / "r.csv"));
+  }
+}
+
 }  // namespace
 }  // namespace hysteron
