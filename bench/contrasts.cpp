@@ -24,11 +24,11 @@
 #include "bench/program.hpp"
 #include "core/random.hpp"
 #include "diagnose/residual/contrast.hpp"
-#include "diagnose/signal/outliers.hpp"
 #include "diagnose/signal/thin.hpp"
 #include "fit/driver.hpp"
 #include "fit/identify.hpp"
 #include "io/campaign.hpp"
+#include "io/outliers.hpp"
 #include "io/velocity.hpp"
 
 namespace {

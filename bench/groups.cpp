@@ -21,9 +21,9 @@
 #include "core/drive.hpp"
 #include "core/random.hpp"
 #include "diagnose/diagnose.hpp"
-#include "diagnose/signal/outliers.hpp"
 #include "diagnose/signal/thin.hpp"
 #include "io/campaign.hpp"
+#include "io/outliers.hpp"
 #include "io/velocity.hpp"
 
 namespace {

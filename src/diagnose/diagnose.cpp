@@ -16,10 +16,10 @@
 #include "diagnose/search/of_fit.hpp"
 #include "diagnose/search/wording.hpp"
 #include "diagnose/signal/noise.hpp"
-#include "diagnose/signal/outliers.hpp"
 #include "diagnose/signal/thin.hpp"
 #include "diagnose/summary.hpp"
 #include "fit/identify.hpp"
+#include "io/outliers.hpp"
 #include "io/velocity.hpp"
 
 namespace hysteron {

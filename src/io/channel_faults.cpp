@@ -6,10 +6,7 @@
 namespace hysteron {
 namespace {
 
-// Times what 99 % of the samples stay below: no force of a damper does that for a sample or two.
-constexpr double far = 3.0;
-constexpr std::size_t most_running = 2;
-// Samples that tell what is usual.
+// Samples whose different values are counted.
 constexpr std::size_t most_looked_at = 65536;
 
 // An end of a range: at least this share of the samples is at it, in two runs or more of so many, and so many times
@@ -33,12 +30,6 @@ std::vector<double> thinned(const std::vector<double>& values) {
   std::vector<double> some;
   for (std::size_t n = 0; n < values.size(); n += stride) some.push_back(values[n]);
   return some;
-}
-
-double quantile(std::vector<double>& values, double part) {
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(part * static_cast<double>(values.size() - 1));
-  std::ranges::nth_element(values, at);
-  return *at;
 }
 
 // `sign` 1: the largest value, -1: the smallest.
@@ -67,27 +58,6 @@ std::optional<FlatEnd> flat_end(const std::vector<double>& values, double span, 
 }
 
 }  // namespace
-
-std::optional<Outliers> outliers_of(const std::vector<double>& values) {
-  if (values.size() < 100) return std::nullopt;  // one of them is a hundredth
-  std::vector<double> some = thinned(values);
-  const double middle = quantile(some, 0.5);
-  for (double& value : some) value = std::fabs(value - middle);
-  Outliers result;
-  result.usual = quantile(some, 0.99);
-  const auto stands_out = [&](std::size_t n) { return std::fabs(values[n] - middle) > far * result.usual; };
-  for (std::size_t n = 0; n < values.size();) {
-    std::size_t end = n;
-    while (end < values.size() && stands_out(end)) ++end;
-    for (std::size_t k = n; k < end && end - n <= most_running; ++k) {
-      const bool further = std::fabs(values[k] - middle) > std::fabs(values[result.furthest] - middle);
-      result.furthest = result.count == 0 || further ? k : result.furthest;
-      ++result.count;
-    }
-    n = std::max(end, n + 1);
-  }
-  return result.count > 0 && result.usual > 0.0 ? std::optional(result) : std::nullopt;
-}
 
 std::optional<FlatEnd> flat_end_of(const std::vector<double>& values) {
   if (values.empty()) return std::nullopt;

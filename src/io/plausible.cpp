@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "io/channel_faults.hpp"
+#include "io/outliers.hpp"
 #include "io/text.hpp"
 
 namespace hysteron {
@@ -219,12 +220,16 @@ void remark_on_sizes(const Recording& recording, const Sources& sources, const s
   }
   for (const auto& [name, values, unit] :
        {std::tuple("displacement", &recording.displacement, "m"), std::tuple("force", &recording.force, "N")}) {
-    if (const auto out = outliers_of(*values)) {
+    std::vector<Outlier> out = outliers_of(recording.time, *values);
+    std::erase_if(out, [](const Outlier& one) { return !one.extreme; });
+    const auto furthest =
+        std::ranges::max_element(out, {}, [&](const Outlier& one) { return std::fabs((*values)[one.at] - one.told); });
+    if (furthest != out.end()) {
       remarks.tell(std::string(name) + " outliers",
-                   fmt::format("a {} of {:.3g} {} at {:.4g} s where 99 % of the samples stay within {:.3g} {} of the "
-                               "median, {} samples like that: outliers weigh on a fit and on its NRMSE",
-                               name, (*values)[out->furthest], unit, recording.time[out->furthest], out->usual, unit,
-                               out->count));
+                   fmt::format("a {} of {:.3g} {} at {:.4g} s where its neighbours tell {:.3g} {}, {} samples like "
+                               "that: outliers weigh on a fit and on its NRMSE",
+                               name, (*values)[furthest->at], unit, recording.time[furthest->at], furthest->told, unit,
+                               out.size()));
     }
   }
   if (const auto end = flat_end_of(recording.force)) {

@@ -9,7 +9,6 @@
 
 #include "diagnose/residual/evenness.hpp"
 #include "diagnose/residual/structure.hpp"
-#include "diagnose/signal/outliers.hpp"
 #include "fit/synthetic.hpp"
 #include "io/velocity.hpp"
 
@@ -62,56 +61,6 @@ TEST(NoiseFloor, HoldsTheRoundingThatRepeatsWithTheCycles) {
   const NoiseFloor floor = noise_floor(recording);
   EXPECT_GE(floor.sigma, 60.0 / std::sqrt(12.0));
   EXPECT_GE(floor.white, 60.0 / std::sqrt(12.0));
-}
-
-TEST(Outliers, StandAloneAndAreReplaced) {
-  const Recording clean = noisy(10.0, 0.0, 0.0);
-  Recording recording = clean;
-  std::size_t added = 0;
-  for (std::size_t n = 50; n + 3 < recording.size(); n += 290, ++added) {
-    recording.force[n] += added % 2 == 0 ? 400.0 : -400.0;
-  }
-  EXPECT_EQ(replace_outliers(recording), added);
-  for (std::size_t n = 0; n < recording.size(); ++n) {
-    EXPECT_NEAR(recording.force[n], clean.force[n], 80.0) << n;
-  }
-}
-
-TEST(Outliers, ThatHideEachOtherAreFound) {
-  const Recording clean = noisy(10.0, 0.0, 0.0);
-  Recording recording = clean;
-  std::size_t added = 0;
-  for (std::size_t n = 50; n + 10 < recording.size(); n += 290, added += 2) {
-    const bool adjacent = added % 4 == 0;
-    recording.force[n] += 400.0;
-    recording.force[n + (adjacent ? 1 : 2)] += adjacent ? -500.0 : 500.0;
-  }
-  EXPECT_EQ(replace_outliers(recording), added);
-  for (std::size_t n = 0; n < recording.size(); ++n) {
-    EXPECT_NEAR(recording.force[n], clean.force[n], 80.0) << n;
-  }
-}
-
-TEST(Outliers, StepsKinksPeaksAndNoiseAreNone) {
-  Recording recording = noisy(5.0, 5.0, 0.9);
-  for (std::size_t n = 0; n < recording.size(); ++n) {
-    recording.force[n] += (n / 250) % 2 == 0 ? 500.0 : -500.0;                    // steps
-    recording.force[n] += 20.0 * std::fabs(static_cast<double>(n % 120) - 60.0);  // kinks
-    const double from_peak = std::fabs(static_cast<double>(n % 400) - 200.0);
-    recording.force[n] += 800.0 * std::max(0.0, 1.0 - from_peak / 4.0);    // peaks of seven samples
-    recording.force[n] += n % 400 == 100 || n % 400 == 101 ? 500.0 : 0.0;  // and of two
-  }
-  EXPECT_EQ(replace_outliers(recording), 0U);
-}
-
-TEST(Outliers, ManyAreHowTheForceIs) {
-  Recording recording = noisy(10.0, 0.0, 0.0);
-  for (std::size_t n = 20; n + 3 < recording.size(); n += 25) {
-    recording.force[n] += 400.0;
-  }
-  const Recording before = recording;
-  EXPECT_EQ(replace_outliers(recording), 0U);
-  EXPECT_EQ(recording.force, before.force);
 }
 
 TEST(NoiseFloor, FindsThePeriod) {

@@ -116,8 +116,16 @@ std::vector<std::string> remarks_on(const std::function<double(int sample, doubl
 }
 
 TEST(Plausible, SamplesThatStandOutAlone) {
-  expect_one(remarks_on([](int n, double force) { return n == 100 || n == 301 ? 1e5 : force; }),
-             "a force of 1e+05 N at 0.5 s where 99 % of the samples stay within ");
+  expect_one(
+      remarks_on([](int n, double force) { return n == 100 || n == 301 ? 1e5 : force; }),
+      "a force of 1e+05 N at 1.505 s where its neighbours tell 563 N, 2 samples like that: outliers weigh on a fit");
+  // Two side by side, and one at either end, of a chain that starts or stops.
+  expect_one(remarks_on([](int n, double force) { return n == 100 || n == 101 ? 5000.0 : force; }),
+             "a force of 5e+03 N at 0.5 s where its neighbours tell 789 N, 2 samples");
+  expect_one(remarks_on([](int n, double force) { return n == 0 || n == 399 ? -5000.0 : force; }),
+             "a force of -5e+03 N at 0 s where its neighbours tell ");
+  // What stands out by less than the force spans is the noise of a chain, which a diagnosis replaces.
+  EXPECT_TRUE(remarks_on([](int n, double force) { return n == 100 ? force + 300.0 : force; }).empty());
   // A stop that the rod runs into is no outlier.
   EXPECT_TRUE(remarks_on([](int n, double force) { return n % 100 < 4 ? 5000.0 : force; }).empty());
 }

@@ -1,10 +1,8 @@
-#include "diagnose/signal/outliers.hpp"
+#include "io/outliers.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <utility>
-#include <vector>
 
 #include "io/velocity.hpp"
 
@@ -16,6 +14,7 @@ constexpr double deviations = 8.0;
 // ... and this many times as far as they are from each other.
 constexpr double apart = 2.0;
 constexpr std::size_t fewest_samples_each = 50;
+constexpr std::size_t fewest_samples = 8;
 
 // The four samples nearest to n on both sides but for `partner` (n itself: none), and what they say of n.
 struct Neighbours {
@@ -24,7 +23,7 @@ struct Neighbours {
   double spread = 0.0;  // the most that one is from the next
 };
 
-Neighbours neighbours_of(const std::vector<double>& f, std::size_t n, std::size_t partner) {
+Neighbours neighbours_of(std::span<const double> f, std::size_t n, std::size_t partner) {
   Neighbours result{};
   std::size_t before = n;
   std::size_t after = n;
@@ -49,14 +48,14 @@ Neighbours neighbours_of(const std::vector<double>& f, std::size_t n, std::size_
 }
 
 // How far the sample is from what its neighbours say, with its sign; 0 where that is not far.
-double stands_out(const std::vector<double>& f, std::size_t n, std::size_t partner, double limit) {
+double stands_out(std::span<const double> f, std::size_t n, std::size_t partner, double limit) {
   const Neighbours around = neighbours_of(f, n, partner);
   const double off = f[n] - around.told;
   return std::fabs(off) > std::max(limit, apart * around.spread) ? off : 0.0;
 }
 
 // Another outlier one or two samples away hides one. Two that lie side by side on the same side are a peak.
-std::size_t partner_of(const std::vector<double>& f, std::size_t n, double limit) {
+std::size_t partner_of(std::span<const double> f, std::size_t n, double limit) {
   for (const std::size_t partner : {n - 2, n - 1, n + 1, n + 2}) {
     if (partner < 3 || partner + 3 >= f.size()) {
       continue;
@@ -70,32 +69,54 @@ std::size_t partner_of(const std::vector<double>& f, std::size_t n, double limit
   return n;
 }
 
+// Of the five samples nearest to each. One or two that stand out are never a median.
+std::vector<double> medians_of_five(std::span<const double> f) {
+  std::vector<double> result(f.size());
+  for (std::size_t n = 0; n < f.size(); ++n) {
+    const std::size_t first = std::clamp<std::size_t>(n, 2, f.size() - 3) - 2;
+    std::array<double, 5> five{};
+    std::ranges::copy(f.subspan(first, five.size()), five.begin());
+    std::ranges::nth_element(five, five.begin() + 2);
+    result[n] = five[2];
+  }
+  return result;
+}
+
 }  // namespace
 
-std::size_t replace_outliers(Recording& recording) {
-  std::vector<double>& f = recording.force;
-  if (f.size() < 8) {
-    return 0;
-  }
-  const double limit = deviations * channel_noise(recording.time, f);
-  std::vector<std::pair<std::size_t, double>> found;
-  for (std::size_t n = 2; n + 2 < f.size() && limit > 0.0; ++n) {
+std::vector<Outlier> outliers_of(std::span<const double> time, std::span<const double> values) {
+  std::vector<Outlier> found;
+  const std::size_t size = values.size();
+  if (size < fewest_samples) return found;
+  const double limit = deviations * channel_noise(time, values);
+  const std::vector<double> medians = medians_of_five(values);
+  const auto [low, high] = std::ranges::minmax(medians);
+  const double span = high - low;
+  if (!(span > 0.0)) return found;
+  for (std::size_t n = 0; n < size; ++n) {
     std::size_t partner = n;
-    bool out = stands_out(f, n, n, limit) != 0.0;
-    if (!out && n >= 3 && n + 3 < f.size()) {
-      partner = partner_of(f, n, limit);
-      out = partner != n;
+    bool out = false;
+    if (n >= 2 && n + 2 < size && limit > 0.0) {
+      out = stands_out(values, n, n, limit) != 0.0;
+      if (!out && n >= 3 && n + 3 < size) {
+        partner = partner_of(values, n, limit);
+        out = partner != n;
+      }
     }
     if (out) {
-      found.emplace_back(n, neighbours_of(f, n, partner).told);
+      const double told = neighbours_of(values, n, partner).told;
+      found.push_back({n, told, std::fabs(values[n] - told) > span});
+    } else if (std::fabs(values[n] - medians[n]) > std::max(limit, span)) {
+      found.push_back({n, medians[n], true});
     }
   }
-  if (found.size() * fewest_samples_each > f.size()) {
-    return 0;
-  }
-  for (const auto& [n, told] : found) {
-    f[n] = told;
-  }
+  if (found.size() * fewest_samples_each > size) found.clear();
+  return found;
+}
+
+std::size_t replace_outliers(Recording& recording) {
+  const std::vector<Outlier> found = outliers_of(recording.time, recording.force);
+  for (const Outlier& one : found) recording.force[one.at] = one.told;
   return found.size();
 }
 
