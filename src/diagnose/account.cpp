@@ -158,6 +158,13 @@ std::string_view what_shapes_do(const Diagnosis& diagnosis) {
   return diagnosis.search.augmented.heldout < diagnosis.search.base.heldout ? "predict" : "fit";
 }
 
+std::string sentence_of(const Tone& tone) {
+  return fmt::format(
+      "a tone of {:.3g} Hz and {:.{}f} N runs through {} of {} recordings whatever the motion, as of a machine, the "
+      "mains or a sensor",
+      tone.frequency, tone.amplitude, tone.amplitude < 10.0 ? 2 : 0, tone.recordings, tone.of);
+}
+
 std::vector<Rejected> rejected_of(const Diagnosis& diagnosis) {
   std::vector<Rejected> result;
   const auto is_listed = [&](const std::string& id) {
@@ -256,7 +263,9 @@ void note_verdict(Diagnosis& diagnosis) {
                     diagnosis.search.augmented.cost / diagnosis.noise_floor,
                     diagnosis.search.augmented.heldout / diagnosis.noise_floor_heldout));
   }
-  if (diagnosis.tone && diagnosis.evidence.doubt_of_completeness != sentence_of(*diagnosis.tone)) {
+  const bool tone_is_reason =
+      diagnosis.tone_doubts && verdict.answer == Answer::unattributed && diagnosis.evidence.doubt_of_data.empty();
+  if (diagnosis.tone && !tone_is_reason) {
     diagnosis.notes.push_back(sentence_of(*diagnosis.tone));
   }
   for (const DriftOfParameter& before : diagnosis.drift_of_base.parameters) {

@@ -10,6 +10,7 @@
 #include "core/drive.hpp"
 #include "core/error.hpp"
 #include "diagnose/account.hpp"
+#include "diagnose/residual/leftover.hpp"
 #include "diagnose/residual/tone.hpp"
 #include "diagnose/residual/wander.hpp"
 #include "diagnose/search/left_out.hpp"
@@ -223,40 +224,44 @@ std::optional<Tone> tone_left(const Search& search, const Workbench& bench) {
 
 // Why more than noise is left though no effect helps: a held-out recording, or the residual's bond to the force, shows
 // it. Empty where nothing does.
-std::string doubt_of_completeness(const Search& search, const Workbench& fine,
-                                  const std::vector<std::string>& surprising, const std::optional<Tone>& tone) {
+struct Doubt {
+  std::string why;
+  bool of_tone = false;
+};
+Doubt doubt_of_completeness(const Search& search, const Workbench& fine, const std::vector<std::string>& surprising,
+                            const std::optional<Tone>& tone) {
   if (!surprising.empty()) {
-    return "nothing but noise is left on the fitted recordings, but not on " + joined(surprising, " and ") +
-           ": what is missing shows there only, and only a fitted recording can tell its cause";
+    return {"nothing but noise is left on the fitted recordings, but not on " + joined(surprising, " and ") +
+            ": what is missing shows there only, and only a fitted recording can tell its cause"};
   }
   const Misfit& left = search.misfit;
   const auto parameters = static_cast<double>(search.augmented.dimension());
   if (left.independent < values_per_parameter * parameters) {
-    return fmt::format(
+    return {fmt::format(
         "what is left holds {:.0f} independent values for {:.0f} parameters: too few to tell noise from what is "
         "missing",
-        left.independent, parameters);
+        left.independent, parameters)};
   }
   if (left.squares <= above_white * left.white) {
     return {};
   }
   if (left.squares > above_floor * left.floor && uneven(left.evenness)) {
-    return "the size of what is left follows the motion, as that of noise does not";
+    return {"the size of what is left follows the motion, as that of noise does not"};
   }
   if (tone) {
-    return sentence_of(*tone);
+    return {sentence_of(*tone), true};
   }
   const Residuals residuals = fine.residuals(search.augmented);
   const Wandering wander = wandering(leftovers_of(fine.split().fit, residuals.of, residuals.norms));
   if (!wanders(wander)) {
     return {};
   }
-  return fmt::format(
-      "{:.0f} % of what is left is a factor of the force that {}", 100.0 * wander.share,
-      wander.period > 0.0
-          ? fmt::format("swings with a period of {:.2g} s whatever the motion, as of a supply that cycles",
-                        wander.period)
-          : std::string("changes from moment to moment, as of a supply or a grip that changes"));
+  return {
+      fmt::format("{:.0f} % of what is left is a factor of the force that {}", 100.0 * wander.share,
+                  wander.period > 0.0
+                      ? fmt::format("swings with a period of {:.2g} s whatever the motion, as of a supply that cycles",
+                                    wander.period)
+                      : std::string("changes from moment to moment, as of a supply or a grip that changes"))};
 }
 
 // Why no name can be given: the recorded velocity is not that of the displacement, and effects would explain a fault of
@@ -291,6 +296,7 @@ struct Judgement {
   Search search;
   std::vector<std::string> surprising;
   std::optional<Tone> tone;
+  bool tone_doubts = false;
   std::vector<Contrast> contrasts;
   std::optional<Belonging> belonging;
   std::optional<ColumnTold> column;
@@ -318,7 +324,9 @@ Judgement judged(Search found, const Workbench& bench, const Workbench& fine, co
   result.surprising = surprises(bench, result.search.augmented);
   result.tone = tone_left(result.search, bench);
   result.evidence = evidence_of(result.search, fine, known);
-  result.evidence.doubt_of_completeness = doubt_of_completeness(result.search, fine, result.surprising, result.tone);
+  const Doubt doubt = doubt_of_completeness(result.search, fine, result.surprising, result.tone);
+  result.evidence.doubt_of_completeness = doubt.why;
+  result.tone_doubts = doubt.of_tone;
   result.evidence.doubt_of_data = doubt_of_data;
   return result;
 }
@@ -529,6 +537,7 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const Split& split
   diagnosis.asked = std::move(judgement.asked);
   diagnosis.surprises = std::move(judgement.surprising);
   diagnosis.tone = judgement.tone;
+  diagnosis.tone_doubts = judgement.tone_doubts;
   diagnosis.belonging = std::move(judgement.belonging);
   diagnosis.column = std::move(judgement.column);
   diagnosis.evidence = std::move(judgement.evidence);

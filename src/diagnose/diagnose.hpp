@@ -49,6 +49,7 @@ struct Diagnosis {
   Search search;
   std::optional<Belonging> belonging;  // groups of the recordings, where some stand out
   std::optional<Tone> tone;            // that what is left of the fitted recordings holds, N
+  bool tone_doubts = false;            // whether it is what doubt_of_completeness of the evidence says
   std::optional<ColumnTold> column;    // that the parameters follow and no model uses
   std::optional<Search> asked;         // behind the law asked for, where another took its place
   Evidence evidence;

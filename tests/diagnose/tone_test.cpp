@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "core/random.hpp"
+#include "diagnose/account.hpp"
 #include "diagnose/concealed_damper.hpp"
 
 namespace hysteron {

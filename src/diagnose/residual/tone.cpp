@@ -1,7 +1,5 @@
 #include "diagnose/residual/tone.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -187,14 +185,6 @@ std::optional<Tone> tone_of(const std::vector<Leftover>& leftovers) {
     }
   }
   return best;
-}
-
-std::string sentence_of(const Tone& tone) {
-  return fmt::format(
-      "a tone of {:.3g} Hz and {:.{}f} N runs through {} of {} recordings whatever the motion, as of a machine, the "
-      "mains "
-      "or a sensor",
-      tone.frequency, tone.amplitude, tone.amplitude < 10.0 ? 2 : 0, tone.recordings, tone.of);
 }
 
 }  // namespace hysteron

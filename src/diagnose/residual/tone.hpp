@@ -5,10 +5,9 @@
 
 #include <cstddef>
 #include <optional>
-#include <string>
 #include <vector>
 
-#include "diagnose/residual/wander.hpp"
+#include "diagnose/residual/leftover.hpp"
 
 namespace hysteron {
 
@@ -24,7 +23,5 @@ struct Tone {
 // colour, and frequencies at which the predicted force has a line of its own are the motion's. Recordings of 64 samples
 // or more count, and there must be three of them. Frequencies below 15 cycles a recording are not looked at.
 std::optional<Tone> tone_of(const std::vector<Leftover>& leftovers);
-// Of a tone in N, without a full stop.
-std::string sentence_of(const Tone& tone);
 
 }  // namespace hysteron

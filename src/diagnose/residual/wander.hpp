@@ -5,17 +5,9 @@
 
 #include <vector>
 
-#include "core/recording.hpp"
-#include "diagnose/residual/residuals.hpp"
+#include "diagnose/residual/leftover.hpp"
 
 namespace hysteron {
-
-// What is left of one recording, without its run-in: arrays of equal length.
-struct Leftover {
-  std::vector<double> time;      // s, increasing
-  std::vector<double> residual;  // in any unit, one for all recordings
-  std::vector<double> force;     // in any unit, predicted
-};
 
 struct Wandering {
   double share = 0.0;      // of the squared residual that such a factor takes off all recordings together
@@ -28,9 +20,5 @@ struct Wandering {
 Wandering wandering(const std::vector<Leftover>& leftovers);
 // Whether chance does not explain the share.
 bool wanders(const Wandering& wandering);
-
-// `norms`: N, what the force of each recording is divided by.
-std::vector<Leftover> leftovers_of(const std::vector<Recording>& recordings, const std::vector<Residual>& residuals,
-                                   const std::vector<double>& norms);
 
 }  // namespace hysteron
