@@ -1,33 +1,25 @@
-#include "diagnose/residual/tone.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <complex>
 #include <numbers>
 #include <unsupported/Eigen/FFT>
 
+#include "diagnose/residual/tone.hpp"
+
 namespace hysteron {
 namespace {
 
-constexpr std::size_t fewest_samples = 64;    // of a recording that counts
-constexpr std::size_t fewest_recordings = 3;  // with the tone; two may agree by chance
-constexpr std::size_t most_samples = 4096;    // of a recording; more are averaged
+constexpr std::size_t most_samples = 4096;  // of a recording; more are averaged
 // Spectra have this many values for each that is independent.
 constexpr double finer = 4.0;
 // The neighbourhood of a frequency, in units of the resolution: without the line itself, whose window is two wide.
 constexpr double neighbour_from = 3.0;
 constexpr double neighbour_to = 15.0;
-// Times its neighbourhood, by which the force has a line that is no chance, and the part of a tone's share that the
-// line has of the force at least where the motion makes the tone.
-constexpr double line_of_the_force = 20.0;
+// Part of a tone's share of the residual that the force has there at least where the motion makes the tone.
 constexpr double part_of_the_force = 0.01;
-// Times its neighbourhood, by which a tone stands out in a recording, and at most what one recording counts.
-constexpr double stands_out = 8.0;
-constexpr double most_of_one = 20.0;
 // Expected number of frequencies at which noise would do as well.
 constexpr double by_chance = 1e-6;
 constexpr double least_share = 0.1;  // of the squared residual
-constexpr double highest = 0.8;      // of half the sampling frequency
 
 using Values = std::vector<double>;
 
@@ -58,11 +50,12 @@ struct Spectrum {
   [[nodiscard]] double amplitude(std::size_t at) const { return amplitude_per_root * std::sqrt(power[at]); }
   // Of the variance, what a sine at that frequency makes.
   [[nodiscard]] double share(std::size_t at) const { return 0.5 * amplitude(at) * amplitude(at) / variance; }
+  [[nodiscard]] double independent() const { return static_cast<double>(power.size()) / finer; }
 };
 
-// Whether the motion has a line there that can have made the one of the residual.
+// Whether the motion can have made what the residual holds there.
 bool is_of_the_motion(const Spectrum& residual, const Spectrum& force, std::size_t at) {
-  return force.beyond[at] > line_of_the_force && force.share(at) > part_of_the_force * residual.share(at);
+  return force.share(at) > part_of_the_force * residual.share(at);
 }
 
 Spectrum spectrum_of(const Values& values, double duration) {
@@ -89,7 +82,7 @@ Spectrum spectrum_of(const Values& values, double duration) {
     result.variance += (value - mean) * (value - mean) / static_cast<double>(size);
   }
   result.variance = std::max(result.variance, 1e-300);
-  const auto count = static_cast<std::size_t>(highest * 0.5 * finer * static_cast<double>(size));
+  const auto count = static_cast<std::size_t>(0.5 * finer * static_cast<double>(size));
   for (std::size_t k = 0; k < count; ++k) {
     result.power.push_back(std::norm(transformed[k]));
   }
@@ -113,13 +106,19 @@ Spectrum spectrum_of(const Values& values, double duration) {
   return result;
 }
 
-// That the sum of `count` independent exponential numbers of mean 1 exceeds `sum`.
-double chance_of(double sum, std::size_t count) {
-  double term = std::exp(-sum);
+// More than half of `count`.
+std::size_t most_of(std::size_t count) { return count / 2 + 1; }
+
+// That most of `count` independent exponential numbers of mean 1 exceed `value`: the upper tail of a binomial
+// distribution.
+double chance_of(double value, std::size_t count) {
+  const double p = std::exp(-value);
+  const auto n = static_cast<double>(count);
   double result = 0.0;
-  for (std::size_t k = 0; k < count; ++k) {
-    result += term;
-    term *= sum / static_cast<double>(k + 1);
+  for (std::size_t k = most_of(count); k <= count; ++k) {
+    const auto r = static_cast<double>(k);
+    const double ways = std::lgamma(n + 1.0) - std::lgamma(r + 1.0) - std::lgamma(n - r + 1.0);
+    result += std::exp(ways - r * value) * std::pow(1.0 - p, n - r);
   }
   return result;
 }
@@ -135,7 +134,7 @@ struct Pair {
 std::optional<Tone> tone_of(const std::vector<Leftover>& leftovers) {
   std::vector<Pair> pairs;
   for (const Leftover& one : leftovers) {
-    if (one.time.size() < fewest_samples) {
+    if (one.time.size() < 2) {
       continue;
     }
     const std::size_t parts = std::min(one.time.size(), most_samples);
@@ -148,8 +147,8 @@ std::optional<Tone> tone_of(const std::vector<Leftover>& leftovers) {
     }
     pairs.push_back(std::move(pair));
   }
-  if (pairs.size() < fewest_recordings) {
-    return std::nullopt;
+  if (pairs.size() < 2) {
+    return std::nullopt;  // one motion tells nothing of others
   }
   const auto finest = std::ranges::min_element(pairs, {}, [](const Pair& pair) { return pair.residual.step; });
   double squares = 0.0;
@@ -160,27 +159,30 @@ std::optional<Tone> tone_of(const std::vector<Leftover>& leftovers) {
   std::optional<Tone> best;
   for (std::size_t k = 0; k < count; ++k) {
     const double frequency = static_cast<double>(k) * finest->residual.step;
-    double sum = 0.0;
+    Values beyond(pairs.size(), 0.0);
     double taken = 0.0;
     std::size_t seen = 0;
     Tone tone{frequency, 0.0, 0.0, 0, leftovers.size()};
-    for (const Pair& pair : pairs) {
-      const auto at = static_cast<std::size_t>(std::lround(frequency / pair.residual.step));
-      if (at >= pair.residual.power.size() || is_of_the_motion(pair.residual, pair.force, at)) {
+    for (std::size_t r = 0; r < pairs.size(); ++r) {
+      const Spectrum& residual = pairs[r].residual;
+      const auto at = static_cast<std::size_t>(std::lround(frequency / residual.step));
+      if (at >= residual.power.size() || is_of_the_motion(residual, pairs[r].force, at)) {
         continue;
       }
       ++seen;
-      sum += std::min(pair.residual.beyond[at], most_of_one);
-      taken += 0.5 * pair.residual.amplitude(at) * pair.residual.amplitude(at);
-      tone.recordings += pair.residual.beyond[at] > stands_out ? 1 : 0;
-    }
-    if (tone.recordings < fewest_recordings || 2 * tone.recordings <= pairs.size()) {
-      continue;
+      beyond[r] = residual.beyond[at];
+      taken += 0.5 * residual.amplitude(at) * residual.amplitude(at);
+      tone.recordings += beyond[r] > std::log(residual.independent()) ? 1 : 0;  // noise is expected to once
     }
     tone.share = taken / squares;
+    if (!(tone.share > least_share)) {
+      continue;
+    }
+    const auto reached = beyond.begin() + static_cast<std::ptrdiff_t>(most_of(pairs.size()) - 1);
+    std::ranges::nth_element(beyond, reached, std::ranges::greater());
     tone.amplitude = std::sqrt(2.0 * taken / static_cast<double>(seen));
-    const double chance = static_cast<double>(count) / finer * chance_of(sum, seen);
-    if (tone.share > least_share && chance < by_chance && (!best || tone.share > best->share)) {
+    const double chance = finest->residual.independent() * chance_of(*reached, pairs.size());
+    if (chance < by_chance && (!best || tone.share > best->share)) {
       best = tone;
     }
   }

@@ -15,13 +15,15 @@ struct Tone {
   double frequency = 0.0;      // Hz
   double amplitude = 0.0;      // root mean square over the recordings of its amplitude, in the unit of the residual
   double share = 0.0;          // of the squared residual
-  std::size_t recordings = 0;  // in which it stands out
+  std::size_t recordings = 0;  // that hold it: it is above what noise is expected to reach once
   std::size_t of = 0;          // recordings
 };
 
-// The strongest one that is not chance: spectra are compared with their own neighbourhood, so that noise may have any
-// colour, and frequencies at which the predicted force has a line of its own are the motion's. Recordings of 64 samples
-// or more count, and there must be three of them. Frequencies below 15 cycles a recording are not looked at.
+// The strongest one that is not chance. At each frequency the power is compared with that of its own neighbourhood, so
+// that noise may have any colour; of noise that ratio is exponential. What more than half of the recordings reach is
+// the statistic, and how likely noise reaches it there, by the binomial distribution, decides. Where the predicted
+// force has power of its own the motion may have made it. There must be two recordings. Frequencies below 15 cycles a
+// recording are not looked at. results/tones.md has what it tells of tones put into recordings.
 std::optional<Tone> tone_of(const std::vector<Leftover>& leftovers);
 
 }  // namespace hysteron
