@@ -35,7 +35,7 @@ struct Preisach {
       cards::c0,
       cards::f0,
       {.name = "R", .unit = "A", .meaning = "half width of the widest relay", .box = {0.01, 0.5}, .initial = 0.1, .scale = Scale::logarithmic},
-      {.name = "d", .unit = "1", .meaning = "decay of the density with the width of the relays", .box = {0, 8}, .initial = 1},
+      {.name = "d", .unit = "1", .meaning = "decay of the density with the width of the relays", .box = {0, 8}, .initial = 1, .limits = {}},
       cards::v_s,
       {.name = "tau", .unit = "s", .meaning = "time constant of the plays", .box = {5e-4, 0.02}, .initial = 2e-3, .scale = Scale::logarithmic, .fixed = true},
   };

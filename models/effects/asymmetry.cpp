@@ -15,7 +15,7 @@ struct Asymmetry {
   static constexpr std::string_view equations[] = {"F <- F (1 + e tanh(v / v_s))"};
   static constexpr int states = 0;
   static constexpr Parameter parameters[] = {
-      {.name = "e", .unit = "1", .meaning = "relative difference of either direction from the mean", .box = {-0.8, 0.8}, .initial = 0},
+      {.name = "e", .unit = "1", .meaning = "relative difference of either direction from the mean", .box = {-0.8, 0.8}, .initial = 0, .limits = {.lower = -1, .upper = 1}},
       cards::v_s,
   };
   static constexpr std::string_view kin[] = {"cavitation"};

@@ -16,7 +16,7 @@ struct Degradation {
   static constexpr std::string_view equations[] = {"F <- F / (1 + d E)", "E' = F v"};
   static constexpr int states = 1;
   static constexpr Parameter parameters[] = {
-      {.name = "d", .unit = "1/J", .meaning = "relative loss of force per work done", .box = {0, 2e-3}, .initial = 0},
+      {.name = "d", .unit = "1/J", .meaning = "relative loss of force per work done", .box = {0, 2e-3}, .initial = 0, .limits = {}},
   };
   static constexpr std::string_view kin[] = {"self-heating", "stiction"};
   static constexpr std::string_view part_of[] = {"baber-noori"};

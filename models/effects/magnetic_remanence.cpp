@@ -19,9 +19,9 @@ struct MagneticRemanence {
   static constexpr std::string_view equations[] = {"m <- min(max(m, i - w), i + w)", "i <- i + rho (m - i)"};
   static constexpr int states = 0;
   static constexpr Parameter parameters[] = {
-      {.name = "rho", .unit = "1", .meaning = "share of the drive that remains behind", .box = {0, 1}, .initial = 0},
+      {.name = "rho", .unit = "1", .meaning = "share of the drive that remains behind", .box = {0, 1}, .initial = 0, .limits = {.lower = 0, .upper = 1}},
       {.name = "w", .unit = "A", .meaning = "half width of the play", .box = {0.01, 2}, .initial = 0.2, .scale = Scale::logarithmic},
-      {.name = "s", .unit = "1", .meaning = "field over current before the recording", .box = {0, 1}, .initial = 1},
+      {.name = "s", .unit = "1", .meaning = "field over current before the recording", .box = {0, 1}, .initial = 1, .limits = {.lower = -1, .upper = 1}},
   };
   static constexpr Need needs[] = {Need::drive, Need::changing_drive};
   static constexpr std::string_view kin[] = {"coil-lag", "magnetic-saturation"};

@@ -17,7 +17,7 @@ struct Pinching {
   static constexpr std::string_view equations[] = {"F <- F (1 - p exp(-|(x - x_p) / w|^q))"};
   static constexpr int states = 0;
   static constexpr Parameter parameters[] = {
-      {.name = "p", .unit = "1", .meaning = "relative loss of force in the middle", .box = {-0.5, 0.95}, .initial = 0},
+      {.name = "p", .unit = "1", .meaning = "relative loss of force in the middle", .box = {-0.5, 0.95}, .initial = 0, .limits = {.upper = 1}},
       {.name = "x_p", .unit = "m", .meaning = "middle of the weak range", .box = {-0.015, 0.015}, .initial = 0, .place = 1},
       {.name = "w", .unit = "m", .meaning = "half width of the weak range", .box = {5e-4, 0.015}, .initial = 4e-3, .scale = Scale::logarithmic},
       {.name = "q", .unit = "1", .meaning = "sharpness of its borders: 2 is a bell, more a flat bottom", .box = {1.2, 8}, .initial = 2, .scale = Scale::logarithmic},

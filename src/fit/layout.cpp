@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "core/error.hpp"
 #include "core/suggest.hpp"
@@ -9,6 +10,12 @@
 
 namespace hysteron {
 namespace {
+
+std::string number_text(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", value);
+  return text;
+}
 
 std::vector<double> nodes(double low, double high, int order) {
   std::vector<double> result;
@@ -58,6 +65,28 @@ void check_known(const std::vector<std::string>& names, const std::string& name,
     throw InputError(option + ": the model has no parameter '" + name + "'" + suggestion(name, names) +
                      ", expected one of " + list);
   }
+}
+
+// A length or a time so far below those of the device has more steps in it than can be marched.
+constexpr double far_below_the_box = 1e-3;
+
+// "more than 0", "from 0 to 1": what a parameter can be, in its unit.
+std::string limits_text(const Parameter& card, double least) {
+  const std::string unit = card.unit == "1" ? "" : " " + std::string(card.unit);
+  if (least > 0.0) return "at least " + number_text(least) + unit;
+  if (!card.limits.zero) return "more than " + number_text(card.limits.lower) + unit;
+  if (std::isinf(card.limits.lower)) return "at most " + number_text(card.limits.upper) + unit;
+  if (std::isinf(card.limits.upper)) return "at least " + number_text(card.limits.lower) + unit;
+  return number_text(card.limits.lower) + " to " + number_text(card.limits.upper) + unit;
+}
+
+// `given` is the option with the value. The box is the device's.
+void refuse_impossible(const Parameter& card, const Box& box, double value, const std::string& given) {
+  const bool divides = card.scale == Scale::logarithmic && !card.limits.zero;
+  const double least = divides ? far_below_the_box * box.lower : card.limits.lower;
+  if (card.limits.hold(value) && value >= least) return;
+  throw InputError(given + ": " + number_text(value) + " is no " + std::string(card.name) + " (" +
+                   std::string(card.meaning) + "), expected " + limits_text(card, divides ? least : 0.0));
 }
 
 }  // namespace
@@ -246,7 +275,11 @@ Layout::Layout(CompositeModel model, const DataScale& scale, const LayoutOptions
       card.box.upper += shift;
       card.initial += shift;
     }
+    const Box of_device = card.box;
     if (const auto own = options.bounds.find(names_[j]); own != options.bounds.end()) {
+      const std::string given = "--bounds " + names_[j];
+      refuse_impossible(card, of_device, own->second.first, given);
+      refuse_impossible(card, of_device, own->second.second, given);
       card.box.lower = own->second.first;
       card.box.upper = own->second.second;
       card.initial = std::clamp(card.initial, card.box.lower, card.box.upper);
@@ -256,6 +289,7 @@ Layout::Layout(CompositeModel model, const DataScale& scale, const LayoutOptions
       }
     }
     if (const auto fixed = options.fix.find(names_[j]); fixed != options.fix.end()) {
+      refuse_impossible(card, of_device, fixed->second, "--fix " + names_[j]);
       card.fixed = true;
       card.initial = fixed->second;
     }

@@ -4,6 +4,7 @@
 //    .role = PhysicalRole::damping}
 #pragma once
 
+#include <limits>
 #include <stdexcept>
 #include <string_view>
 
@@ -97,6 +98,26 @@ struct Box {
   double upper;
 };
 
+// What a parameter can be at all, inside the box or outside.
+struct Limits {
+  double lower = -std::numeric_limits<double>::infinity();
+  double upper = std::numeric_limits<double>::infinity();
+  bool zero = true;  // may be zero
+
+  [[nodiscard]] constexpr bool hold(double value) const {
+    return value >= lower && value <= upper && (zero || value != 0.0);
+  }
+};
+
+// What is looked for on one side of zero only is never beyond; what is looked for away from zero divides by it, except
+// for coefficients of the force. A spring may push the other way, and a place may be anywhere.
+constexpr Limits limits_of(Box box, Scale scale, double place, PhysicalRole role) {
+  const bool either_sign = box.lower < 0.0 || place != 0.0 || role == PhysicalRole::offset_force ||
+                           (role == PhysicalRole::stiffness && scale == Scale::linear);
+  if (either_sign) return {};
+  return {.lower = 0.0, .zero = box.lower == 0.0 || role != PhysicalRole::none};
+}
+
 // Name, unit, meaning, box and initial value must be said.
 struct Parameter {
   std::string_view name;           // in the code, on the command line and in results
@@ -111,6 +132,7 @@ struct Parameter {
   bool linear = false;  // the force is affine in it
   bool fixed = false;   // held at `initial` unless the user frees it
   PhysicalRole role = PhysicalRole::none;
+  Limits limits = limits_of(box, scale, place, role);
 };
 
 }  // namespace hysteron
