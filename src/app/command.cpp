@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <csignal>
 #include <cstdlib>
+#include <ctime>
 #include <optional>
+#include <string_view>
 
 #include "app/values.hpp"
 #include "core/error.hpp"
@@ -27,6 +29,28 @@ namespace hysteron::app {
 namespace {
 
 volatile std::sig_atomic_t interrupt_seen = 0;
+timespec interrupt_time{};
+
+// Of a monotonic clock.
+double seconds_since(const timespec& then) {
+  timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return static_cast<double>(now.tv_sec - then.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec - then.tv_nsec);
+}
+
+// What sends one signal may send it twice, as `timeout` does.
+constexpr double same_interrupt = 1.0;  // s
+
+extern "C" void on_interrupt(int /*signal*/) {
+  if (interrupt_seen == 0) {
+    clock_gettime(CLOCK_MONOTONIC, &interrupt_time);
+    interrupt_seen = 1;
+  } else if (seconds_since(interrupt_time) > same_interrupt) {
+    constexpr std::string_view words = "\nerror: interrupted twice: ended where it was, nothing more is kept\n";
+    [[maybe_unused]] const auto written = write(STDERR_FILENO, words.data(), words.size());
+    _exit(130);
+  }
+}
 std::string typed;
 
 }  // namespace
@@ -203,7 +227,7 @@ bool interrupted() { return interrupt_seen != 0; }
 
 void catch_interrupts() {
   struct sigaction action {};
-  action.sa_handler = [](int) { interrupt_seen = 1; };
+  action.sa_handler = on_interrupt;
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
   // A file beyond the limit of its size is then an error of writing it, and no temporary file is left.

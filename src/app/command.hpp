@@ -72,7 +72,8 @@ struct Ended {
   int status;
 };
 
-// Set by SIGINT and SIGTERM; long work checks it between generations.
+// Set by SIGINT and SIGTERM; long work checks it between generations. A second signal, a second later, ends the
+// program.
 bool interrupted();
 void catch_interrupts();
 

@@ -392,6 +392,15 @@ std::vector<Wrong> wrong_command_lines() {
       {"--bounds reversed", fit_with({"--bounds", "alpha=5:1"})},
       {"--bounds without a colon", fit_with({"--bounds", "alpha=5"})},
       {"--bounds unknown", fit_with({"--bounds", "alfa=1:5"})},
+      {"--fix that divides by zero", fit_with({"--fix", "x_y=0"})},
+      {"--fix with too many steps in it", fit_with({"--fix", "x_y=1e-12"})},
+      {"--fix of the wrong sign", fit_with({"--fix", "x_y=-1e-3"})},
+      {"--fix of no exponent", fit_with({"--fix", "n=0"})},
+      {"--fix of a negative exponent", fit_with({"--fix", "n=-1"})},
+      {"--fix of a negative damping", fit_with({"--fix", "c0=-100"})},
+      {"--bounds of the wrong sign", fit_with({"--bounds", "x_y=-1:-0.5"})},
+      {"--bounds down to what divides by zero", fit_with({"--bounds", "x_y=0:1e-3"})},
+      {"--bounds through zero", fit_with({"--bounds", "alpha=-50:500"})},
       {"--bounds infinite", fit_with({"--bounds", "alpha=0:inf"})},
       {"--set unknown", fit_with({"--solver", "pso", "--set", "no-such-setting=1"})},
       {"--set text", fit_with({"--solver", "pso", "--set", "particles=many"})},
@@ -654,6 +663,34 @@ TEST_F(Program, InterruptKeepsWhatIsFinishedAndExits130) {
     // What was kept can be used.
     EXPECT_EQ(run({"score", out + "/model.json", "data"}).status, 0);
   }
+}
+
+TEST_F(Program, WhatIsOutsideTheBoxButPossibleIsTaken) {
+  for (const std::vector<std::string>& option : std::vector<std::vector<std::string>>{
+           {"--fix", "n=0.9"}, {"--fix", "c0=0"}, {"--fix", "x_y=0.5"}, {"--bounds", "k0=-1e6:0"}}) {
+    std::vector<std::string> words = {"fit", "data",    "--model", "bouc-wen", "--budget",
+                                      "50",  "--quiet", "--out",   "out"};
+    words.insert(words.end(), option.begin(), option.end());
+    const Outcome outcome = run(words);
+    EXPECT_EQ(outcome.status, 0) << option[1] << ": " << outcome.err;
+  }
+  const Outcome refused = run({"fit", "data", "--model", "bouc-wen", "--fix", "n=-1", "--out", "none"});
+  EXPECT_EQ(refused.err, "error: --fix n: -1 is no n (sharpness of the knee), expected more than 0\n");
+}
+
+// A march within one evaluation may take longer than anyone waits.
+TEST_F(Program, ASecondInterruptEndsAtOnce) {
+  write(folder_ / "long/r1.csv", testing::csv(0.001, 0.2, 4000));
+  const pid_t child =
+      start({"fit", "long", "--model", "bouc-wen", "--fix", "x_y=1e-4", "--quiet", "--out", "out"}, folder_);
+  testing::wait_until_caught(child, SIGTERM);
+  usleep(300000);
+  kill(child, SIGTERM);
+  kill(child, SIGTERM);  // at the same time: one interruption
+  usleep(1200000);
+  kill(child, SIGTERM);
+  const Outcome outcome = finish(child, folder_);
+  EXPECT_EQ(outcome.status, 130) << outcome.err;
 }
 
 }  // namespace
