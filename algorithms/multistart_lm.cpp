@@ -6,9 +6,10 @@
 //
 // Where the problem allows screening, descents are made on the coarse objective first, until the squared cost falls by
 // less than 1e-2 of itself in two steps, or so little is foretold of the next. One that ends within 10 % of the best
-// screened cost, and not within 0.5 % of one already taken further, is finished on the full objective from where it
-// ended; agreement is then counted among screened costs, within 0.5 %, once every descent taken further has ended.
-// Screening uses at most half of the budget. Without screening agreement is counted among final costs, within 1e-4.
+// screened cost, or comes from the problem's start, and not within 0.5 % of one already taken further, is finished on
+// the full objective from where it ended; agreement is then counted among screened costs, within 0.5 %, once every
+// descent taken further has ended. Screening uses at most half of the budget. Without screening agreement is counted
+// among final costs, within 1e-4.
 #include <algorithm>
 #include <cmath>
 
@@ -40,7 +41,7 @@ class MultistartLm final : public Solver {
     tolerance_ = setting(problem, solver_multistart_lm, "tolerance");
     screening_ = problem.screening && affords(2 * screening_rounds * width);
     for (std::size_t k = 0; k < width; ++k) {
-      descents_.push_back(begin());
+      descents_.push_back(begin(begun_++));
     }
   }
 
@@ -75,10 +76,11 @@ class MultistartLm final : public Solver {
     if (&told == &finishing_) {
       std::erase_if(finishing_, [](const Descent& descent) { return descent.finished(); });
     } else {
-      for (Descent& descent : descents_) {
-        if (descent.finished()) {
-          end(descent);
-          descent = begin();
+      for (std::size_t k = 0; k < descents_.size(); ++k) {
+        if (descents_[k].finished()) {
+          end(descents_[k], k == 0 && !start_ended_);
+          start_ended_ = start_ended_ || k == 0;
+          descents_[k] = begin(begun_++);
         }
       }
     }
@@ -88,8 +90,8 @@ class MultistartLm final : public Solver {
       if (!screening_) {
         // The rest of the budget on the full objective.
         ended_.clear();
-        for (Descent& descent : descents_) {
-          descent = begin();
+        for (std::size_t k = 0; k < descents_.size(); ++k) {
+          descents_[k] = begin(k == 0 ? 0 : begun_++);
         }
       }
     }
@@ -104,10 +106,14 @@ class MultistartLm final : public Solver {
 
   [[nodiscard]] bool affords(std::size_t points) const { return points * (1 + problem_.dimension) <= problem_.budget; }
 
-  // A descent has ended; a screened one may go on where it ended.
-  void end(const Descent& descent) {
+  // A descent has ended; a screened one may go on where it ended, and that from the problem's start does.
+  void end(const Descent& descent, bool from_start) {
     if (descent.best().size() == 0) {
       ++diverged_;
+      if (screening_ && from_start && !problem_.start.empty()) {
+        // Too stiff for coarse steps, which says nothing of the problem's start on the full objective.
+        finishing_.emplace_back(point_of(0), problem_.linear, tolerance_);
+      }
       return;
     }
     ended_.push_back(descent.cost());
@@ -118,7 +124,7 @@ class MultistartLm final : public Solver {
     const bool promising = cost <= 1.1 * lowest_;
     const bool known = std::ranges::any_of(
         taken_, [&](double other) { return std::fabs(cost - other) <= screened_tolerance * other; });
-    if (promising && !known) {
+    if ((promising || (from_start && !problem_.start.empty())) && !known) {
       taken_.push_back(cost);
       finishing_.emplace_back(descent.best(), problem_.linear, tolerance_);
     }
@@ -138,14 +144,19 @@ class MultistartLm final : public Solver {
     }
   }
 
-  Descent begin() {
-    const std::size_t index = begun_++;
+  // Where descent `index` begins.
+  [[nodiscard]] Eigen::VectorXd point_of(std::size_t index) const {
     Eigen::VectorXd point(static_cast<Eigen::Index>(problem_.dimension));
     for (std::size_t k = 0; k < problem_.dimension; ++k) {
       point[static_cast<Eigen::Index>(k)] = index == 0 && !problem_.start.empty()
                                                 ? problem_.start[k]
                                                 : problem_.stream.uniform(index, static_cast<std::uint32_t>(k));
     }
+    return point;
+  }
+
+  Descent begin(std::size_t index) {
+    Eigen::VectorXd point = point_of(index);
     return screening_ ? Descent(std::move(point), problem_.linear, 1e-2, true)
                       : Descent(std::move(point), problem_.linear, tolerance_);
   }
@@ -157,6 +168,7 @@ class MultistartLm final : public Solver {
   std::vector<double> taken_;            // screened costs of those finished or being finished
   double lowest_ = 3.0 * diverged_cost;  // of all screened costs
   std::string reason_;
+  bool start_ended_ = false;  // the descent from the problem's start
   std::size_t begun_ = 0;
   std::size_t spent_ = 0;     // points told
   std::size_t diverged_ = 0;  // descents whose start diverged

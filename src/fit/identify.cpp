@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "core/suggest.hpp"
+#include "fit/law_start.hpp"
 
 namespace hysteron {
 namespace {
@@ -172,6 +173,14 @@ Identification identify(const Campaign& campaign, const std::string& model, cons
   }
   Identification result{layout, {}, {}, {}, 0, 0.0, {}, fitted, heldout, roles, {}};
 
+  // Descents begin at what the law reaches without the effects; what that takes is of the budget of each.
+  LawStart law{layout.initial(), 0};
+  if (std::ranges::any_of(entries, &SolverEntry::uses_derivatives)) {
+    law = start_at_law(
+        layout, model, scale, refer_to(campaign.recordings, fitted), options,
+        [&](const RunResult& partial) { return !progress || progress(model + " without effects", partial); });
+  }
+
   // One objective at a time: they are as large as the recordings. Some is evaluated whether it was interrupted or not.
   bool calm = false;
   ObjectiveOptions with = options.objective;
@@ -188,19 +197,27 @@ Identification identify(const Campaign& campaign, const std::string& model, cons
   std::vector<double> best;
   for (const SolverEntry* entry : entries) {
     const std::string stage = heldout.empty() || roles ? "fit" : "fit without the held-out recordings";
+    const auto observe = [&](const RunResult& partial) {
+      return !progress || progress(std::string(entry->id) + ": " + stage, partial);
+    };
+    const LawStart start = entry->uses_derivatives ? law : LawStart{layout.initial(), 0};
+    IdentifyOptions rest = options;
+    rest.budget -= start.evaluations;
     RunResult run = run_solver(
-        *entry, make_problem(*objective, *entry, options, "fit", layout.initial()),
-        [&](const Request& request) { return objective->evaluate(request); },
-        [&](const RunResult& partial) {
-          return !progress || progress(std::string(entry->id) + ": " + stage, partial);
-        });
+        *entry, make_problem(*objective, *entry, rest, "fit", start.point),
+        [&](const Request& request) { return objective->evaluate(request); }, observe);
+    run.evaluations += start.evaluations;
+    run.budget = options.budget;
+    for (TracePoint& point : run.trace) {
+      point.evaluations += start.evaluations;
+    }
     if (run.best.empty() && run.stopped == "interrupted") {
       if (!result.solvers.empty()) {
         break;
       }
       // Where every search starts: something to keep.
-      run.best = layout.initial();
-      run.evaluations = 1;
+      run.best = start.point;
+      run.evaluations = start.evaluations + 1;
       run.cost = calm_cost(run.best);
     }
     if (run.best.empty() || run.cost >= diverged_cost) {

@@ -28,6 +28,29 @@ struct Truth {
 
 class EffectFit : public ::testing::TestWithParam<Truth> {};
 
+// A wider model fits no worse: a law that is not quite the damper's leaves effects with optima of their own, in which a
+// fit that begins anywhere ends.
+TEST(FitWithEffects, IsNoWorseThanOneWithout) {
+  Campaign campaign;
+  campaign.recordings = {motion("slow.csv", {{0.02, 0.7}}, 2.0, 120, 0.3),
+                         motion("fast.csv", {{0.008, 2.6}}, 1.0, 120, 0.2)};
+  const Layout truth(make_model("modified-bouc-wen", {}), DataScale{}, {});
+  for (std::size_t r = 0; r < campaign.recordings.size(); ++r) {
+    set_force(campaign.recordings[r], truth, truth.terms(truth.initial()), {}, 0.01, Stream(seed).child(r));
+  }
+  campaign.roles.assign(campaign.recordings.size(), Role::fit);
+  IdentifyOptions options;
+  options.budget = 1000;
+  options.objective.threads = 2;
+  const double without = identify(campaign, "bouc-wen", options, {}).cost;
+  for (const char* effect : {"compliance", "series-dashpot", "stiction", "sensor-delay"}) {
+    options.effects = {effect};
+    const Identification with = identify(campaign, "bouc-wen", options, {});
+    EXPECT_LE(with.cost, 1.001 * without) << effect;
+    EXPECT_LE(with.solvers.front().run.evaluations, options.budget) << effect;
+  }
+}
+
 TEST_P(EffectFit, FindsTheSizeInNoisyForces) {
   const Truth& truth = GetParam();
   SCOPED_TRACE("seed " + std::to_string(seed));
