@@ -14,6 +14,7 @@
 #include "io/block_means.hpp"
 #include "io/clock_time.hpp"
 #include "io/conditions.hpp"
+#include "io/decimal_mark.hpp"
 #include "io/file.hpp"
 #include "io/plausible.hpp"
 #include "io/sha256.hpp"
@@ -370,7 +371,7 @@ class CsvReader {
     for (std::size_t i = 0; i < columns_.size(); ++i) {
       unused_.push_back({0.0, channel_of[i] < 0 && !columns_[i].text.empty()});
     }
-    const bool decimal_comma = delimiter_ != ',' || has_quotes_;
+    decimal_comma_ = delimiter_ != ',' || has_quotes_;
     std::vector<std::string_view> fields;
     std::string_view line;
     while (next_line(line)) {
@@ -382,10 +383,12 @@ class CsvReader {
       check_width(fields);
       for (std::size_t i = 0; i < columns_.size(); ++i) {
         if (channel_of[i] >= 0) {
-          add(channel_of[i], unquoted(fields[i]), decimal_comma);
+          add(channel_of[i], unquoted(fields[i]));
         } else if (unused_[i].numbers) {
           double value = 0.0;
-          unused_[i].numbers = parse_number(unquoted(fields[i]), decimal_comma, value) == NumberError::none;
+          const std::string_view field = unquoted(fields[i]);
+          unused_[i].numbers =
+              parse_number(field, decimal_comma_, value) == NumberError::none && !mark_.is_other(field);
           unused_[i].sum += value;
         }
       }
@@ -397,6 +400,24 @@ class CsvReader {
       fail(0, std::to_string(count) + (count == 1 ? " row" : " rows") + " of numbers, expected at least " +
                   std::to_string(fewest_rows));
     }
+    doubt_mark();
+  }
+
+  // No number has decimals for certain: those with a mark may be thousands.
+  void doubt_mark() const {
+    const std::optional<DecimalMark::Doubt> doubt = mark_.doubt();
+    if (!doubt) return;
+    const std::string name = name_of(static_cast<int>(doubt->column));
+    if (doubt->likely) {
+      fail(doubt->line, name + " " + in_quotes(doubt->text) +
+                            " stands among whole numbers below 1000, as one with a mark of thousands does, expected "
+                            "decimals in all numbers and no mark between thousands");
+    }
+    if (!options_.remark) return;
+    options_.remark({file_, Remark::Kind::dialect, "thousands",
+                     name + " " + in_quotes(doubt->text) + " of line " + std::to_string(doubt->line) +
+                         " is read with three decimals, as all numbers with a mark: where that stands between "
+                         "thousands, export them without"});
   }
 
   void split_plain(std::string_view line, std::vector<std::string_view>& fields) const {
@@ -432,13 +453,17 @@ class CsvReader {
                                     : conditions_[static_cast<std::size_t>(channel - quantity_count)].name;
   }
 
-  void add(int channel, std::string_view field, bool decimal_comma) {
+  void add(int channel, std::string_view field) {
     double value = 0.0;
     const auto index = static_cast<std::size_t>(channel);
     const ConditionSource* condition =
         channel < quantity_count ? nullptr : &conditions_[static_cast<std::size_t>(channel - quantity_count)];
-    switch (parse_number(field, decimal_comma, value)) {
+    switch (parse_number(field, decimal_comma_, value)) {
       case NumberError::none:
+        // Where commas separate the columns, only points between thousands are to be feared.
+        if (decimal_comma_ || !mark_.known()) {
+          if (const auto wrong = mark_.look(field, index, line_)) fail(line_, name_of(channel) + " " + *wrong);
+        }
         value = condition == nullptr ? sources_[index].unit.to_si(value) : condition->unit.conversion.to_si(value);
         if (!(std::abs(value) <= largest_value)) {
           fail(line_, name_of(channel) + " " + in_quotes(field) + " is too large, expected at most 1e30 in SI units");
@@ -502,6 +527,8 @@ class CsvReader {
   char line_end_ = '\n';
   char delimiter_ = ',';
   bool has_quotes_ = false;
+  bool decimal_comma_ = false;  // a comma may stand in a number
+  DecimalMark mark_;
   bool ended_ = true;  // the current line has a line end
   std::vector<Column> columns_;
   Sources sources_;

@@ -121,6 +121,64 @@ TEST(Csv, ByteOrderMarkWindowsLineEndsSemicolonAndDecimalComma) {
   EXPECT_DOUBLE_EQ(r.force[3], 3250.0);
 }
 
+// Rows of time, displacement and the force that is given, as spreadsheets of either kind write them.
+std::string rows_with(const std::string& time, const std::string& force) {
+  std::string text = "t [ms];x [um];F [N]\n";
+  for (int n = 1; n < 10; ++n) {
+    text += std::to_string(n) + time + ";" + std::to_string(10 * n) + ";" + (n == 7 ? force : "998") + "\n";
+  }
+  return text;
+}
+
+TEST(Csv, MarksOfThousandsAreNoDecimalMarks) {
+  const auto refused = [](const std::string& text) {
+    return message_of<InputError>([&] { (void)parse_csv(text, "a.csv"); });
+  };
+  const std::string one = "expected one decimal mark in all numbers and none between thousands";
+  EXPECT_EQ(refused(rows_with(",5", "1.010")),
+            "a.csv:8: force '1.010' has a point and '1,5' of line 2 a comma, " + one);
+  EXPECT_EQ(refused(rows_with(".5", "1,010")),
+            "a.csv:8: force '1,010' has a comma and '1.5' of line 2 a point, " + one);
+  std::string quoted = "t,x,F\n";
+  for (int n = 0; n < 9; ++n) quoted += std::to_string(n) + ".5,1,\"1,010\"\n";
+  EXPECT_EQ(refused(quoted), "a.csv:2: force '1,010' has a comma and '0.5' of line 2 a point, " + one);
+  for (const std::string mark : {".", ","}) {
+    EXPECT_EQ(refused(rows_with("", "-1" + mark + "010")),
+              "a.csv:8: force '-1" + mark +
+                  "010' stands among whole numbers below 1000, as one with a mark of thousands does, expected decimals "
+                  "in all numbers and no mark between thousands");
+  }
+}
+
+TEST(Csv, DecimalsThatMayBeThousandsAreTold) {
+  const auto said = [](const std::string& text) {
+    std::string lines;
+    ReadOptions options;
+    options.remark = [&](const Remark& remark) {
+      if (remark.kind == Remark::Kind::dialect) lines += remark.text + "\n";
+    };
+    (void)parse_csv(text, "a.csv", options);
+    return lines;
+  };
+  std::string three = "t;x;F\n";
+  for (int n = 1; n < 10; ++n)
+    three += std::to_string(n) + ";" + std::to_string(n * n) + ";1,12" + std::to_string(n) + "\n";
+  EXPECT_EQ(said(three),
+            "force '1,121' of line 2 is read with three decimals, as all numbers with a mark: where that stands "
+            "between thousands, export them without\n");
+  // One number that has decimals for certain, or a thousand without a mark, tells of all.
+  for (const char* more : {"20;1;0,5\n", "20;1;1,5\n", "20;1;1500\n"}) EXPECT_EQ(said(three + more), "") << more;
+  EXPECT_EQ(said(rows_with("", "1.01")), "");
+  EXPECT_EQ(said(rows_with(",0", "1,010")), "");
+}
+
+// Columns that are no channel may hold anything; what cannot be of one mark has no mean.
+TEST(Csv, AColumnOfTheOtherMarkIsNoNumber) {
+  std::string text = "t;x;F;version\n";
+  for (int n = 0; n < 9; ++n) text += std::to_string(n) + ",5;1;2;1.2\n";
+  EXPECT_TRUE(parse_csv(text, "a.csv").unused.empty());
+}
+
 TEST(Csv, TabsQuotesAndDelimiterAtTheEndOfRows) {
   EXPECT_DOUBLE_EQ(parse_csv("t\tx\tF\n" + ten_rows('\t'), "a.csv").force[9], 90.0);
   std::string text = "\"time [s]\",\"stroke [mm]\",\"force [N]\",\n";
