@@ -206,6 +206,7 @@ class Assigner {
 
   void assign(Quantity quantity, std::size_t i, const std::string& unit) {
     const std::string& text = unit.empty() ? columns_[i].unit : unit;
+    if (unit.empty()) refuse_two_units(columns_[i], std::string(quantity_name(quantity)), file_, line_);
     source(quantity) = {static_cast<int>(i), text.empty() ? UnitConversion{} : parse_unit(quantity, text, file_, line_),
                         text.empty()};
     taken_[i] = true;
@@ -252,6 +253,23 @@ Column split_column(std::string_view text) {
   column.name = trimmed(text.substr(0, open));
   column.unit = trimmed(text.substr(open + 1, text.size() - open - 2));
   return column;
+}
+
+void refuse_two_units(const Column& column, const std::string& name, const std::string& file, int line) {
+  // What is no unit is a note.
+  const auto is_unit = [](std::string_view text) { return is_any_unit(text) || find_pressure(text).has_value(); };
+  if (!is_unit(column.unit) || !is_unit(column.other_unit)) return;
+  // "mm" and "millimetres" are one.
+  bool same = find_pressure(column.unit) == find_pressure(column.other_unit);
+  for (int i = 0; i < quantity_count; ++i) {
+    const auto quantity = static_cast<Quantity>(i);
+    same = same && find_unit(quantity, column.unit) == find_unit(quantity, column.other_unit);
+  }
+  if (same) return;
+  throw InputError(file, line,
+                   "column " + in_quotes(column.text) + " is given in " + in_quotes(column.unit) + " and in " +
+                       in_quotes(column.other_unit) + ", expected one unit, or --column " + name + "=\"" + column.name +
+                       " [UNIT]\" to choose");
 }
 
 Sources assign_columns(const std::vector<Column>& columns, const ReadOptions& options, const std::string& file,

@@ -53,10 +53,11 @@ struct ReadOptions {
 
 // A column as the file names it.
 struct Column {
-  std::string text;   // as written, shown in messages
-  std::string name;   // without the unit
-  std::string unit;   // empty: SI
-  std::string alias;  // another name it answers to in a mapping, or empty
+  std::string text;             // as written, shown in messages
+  std::string name;             // without the unit
+  std::string unit;             // empty: SI
+  std::string alias;            // another name it answers to in a mapping, or empty
+  std::string other_unit = {};  // that the file gives beside it, in a row of units or a property
 };
 
 // Where a channel comes from; column -1 when the file does not have it.
@@ -83,6 +84,9 @@ inline constexpr double shortest_step = 1e-30;  // s
 
 // "force [kN]" or "force (kN)" -> name and unit; the unit is empty when there is none.
 [[nodiscard]] Column split_column(std::string_view text);
+
+// InputError at file:line where a column is given in two units; `name` is what --column calls it.
+void refuse_two_units(const Column& column, const std::string& name, const std::string& file, int line);
 
 // Finds each channel's column. Time, displacement and (if required) force must be there; every failure is an
 // InputError at file:line that lists the columns present.

@@ -48,7 +48,9 @@ int column_of(const std::string& name, const std::vector<Column>& columns, const
     }
     return -1;
   }
-  unit = wanted.unit.empty() ? columns[static_cast<std::size_t>(found.front())].unit : wanted.unit;
+  const Column& column = columns[static_cast<std::size_t>(found.front())];
+  if (wanted.unit.empty()) refuse_two_units(column, name, file, line);
+  unit = wanted.unit.empty() ? column.unit : wanted.unit;
   return found.front();
 }
 

@@ -89,13 +89,6 @@ std::string_view without_brackets(std::string_view unit) {
   return unit;
 }
 
-bool is_any_unit(std::string_view text) {
-  for (int i = 0; i < quantity_count; ++i) {
-    if (find_unit(static_cast<Quantity>(i), text)) return true;
-  }
-  return false;
-}
-
 // What is to be known of a text before its first line is read.
 struct Survey {
   std::uint64_t bytes = 0;
@@ -332,7 +325,7 @@ class CsvReader {
       return;
     }
     for (std::size_t i = 0; i < std::min(cells.size(), columns_.size()); ++i) {
-      if (columns_[i].unit.empty()) columns_[i].unit = without_brackets(unquoted(cells[i]));
+      (columns_[i].unit.empty() ? columns_[i].unit : columns_[i].other_unit) = without_brackets(unquoted(cells[i]));
     }
     header_line_ = line_;
   }

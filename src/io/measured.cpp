@@ -176,7 +176,7 @@ class RecordingMaker {
     if (!unit.empty() && column.unit.empty()) {
       column.text += (column.text.empty() ? "[" : " [") + unit + "]";
     }
-    if (!unit.empty()) column.unit = unit;
+    if (!unit.empty()) column.other_unit = std::exchange(column.unit, unit);
     return column;
   }
 
@@ -261,6 +261,7 @@ class RecordingMaker {
       if (times_are_a_column_) {
         unit = sources_[time_at].unit;
       } else if (!column.unit.empty()) {
+        refuse_two_units(column, "time", file_, 0);
         unit = parse_unit(Quantity::time, column.unit, file_);
       }
       if (times.count != channel.count) {

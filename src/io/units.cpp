@@ -187,6 +187,13 @@ std::optional<UnitConversion> find_unit(Quantity quantity, std::string_view text
   return std::nullopt;
 }
 
+bool is_any_unit(std::string_view text) {
+  for (int i = 0; i < quantity_count; ++i) {
+    if (find_unit(static_cast<Quantity>(i), text)) return true;
+  }
+  return false;
+}
+
 std::optional<UnitConversion> find_pressure(std::string_view text) {
   return plain(find_factor(pressure_units, trimmed(text)));
 }

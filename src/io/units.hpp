@@ -18,6 +18,7 @@ struct UnitConversion {
 
   [[nodiscard]] double to_si(double value) const { return value * factor + offset; }
   [[nodiscard]] double from_si(double value) const { return (value - offset) / factor; }
+  bool operator==(const UnitConversion&) const = default;
 };
 
 // "time", "displacement", ...: the name of the quantity in messages and in --column.
@@ -28,6 +29,9 @@ struct UnitConversion {
 
 // The conversion of `text` (case matters: mN is not MN), or nothing when it is not a unit of the quantity.
 [[nodiscard]] std::optional<UnitConversion> find_unit(Quantity quantity, std::string_view text);
+
+// Whether the text is a unit of any quantity.
+[[nodiscard]] bool is_any_unit(std::string_view text);
 
 // To Pa, of a unit of pressure: Pa and bar with SI prefixes, psi, ksi, atm.
 [[nodiscard]] std::optional<UnitConversion> find_pressure(std::string_view text);

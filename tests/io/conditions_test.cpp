@@ -56,6 +56,15 @@ TEST(Conditions, UnitsOfEveryKindBecomeSi) {
   }
 }
 
+TEST(Conditions, TwoUnitsOfOneColumnAreRefused) {
+  std::string text = with_column("valve [bar]", [](int) { return std::string("1"); });
+  text.insert(text.find('\n') + 1, "s,mm,N,kPa\n");
+  EXPECT_EQ(message_of<InputError>([&] { (void)parse_csv(text, "a.csv", following({"valve"})); }),
+            "a.csv:2: column 'valve [bar]' is given in 'bar' and in 'kPa', expected one unit, or --column "
+            "valve=\"valve [UNIT]\" to choose");
+  EXPECT_EQ(parse_csv(text, "a.csv").size(), 20U) << "nothing follows it";
+}
+
 TEST(Conditions, NamesOfTheMotionAreRefused) {
   EXPECT_EQ(condition_name(" Pressure ", "--by"), "pressure");
   EXPECT_EQ(condition_name("temp", "--by"), "temperature");

@@ -110,6 +110,10 @@ TEST(Csv, WithoutUnitsIsSiUnlessAUnitRowFollows) {
   EXPECT_DOUBLE_EQ(r.displacement[3], 9e-3);
   EXPECT_DOUBLE_EQ(r.force[3], 30e3);
   EXPECT_DOUBLE_EQ(parse_csv("t,x,F\ns,mm,N\n" + ten_rows(), "a.csv").displacement[3], 9e-3);
+  // Both say the same, or one is a note; a mapping decides.
+  EXPECT_DOUBLE_EQ(parse_csv("t,x [mm],F [N]\nsec,millimetres,CH1\n" + ten_rows(), "a.csv").displacement[3], 9e-3);
+  EXPECT_DOUBLE_EQ(parse_csv("t,x,F [N]\ns,mm,kN\n" + ten_rows(), "a.csv", mapped({{"force", "F [kN]"}})).force[3],
+                   30e3);
 }
 
 TEST(Csv, ByteOrderMarkWindowsLineEndsSemicolonAndDecimalComma) {
@@ -301,6 +305,8 @@ TEST(Csv, WrongInputsAreOneClearLine) {
       {"unknown unit", "t,x,F [stone]\n1,2,3\n", ":1: unknown unit 'stone' of force" + unit_list},
       {"unit of another quantity", "t,x,F [mm]\n1,2,3\n", ":1: unknown unit 'mm' of force" + unit_list},
       {"empty unit row", "t,x,F\ns,mm,stone\n1,2,3\n", ":2: unknown unit 'stone' of force" + unit_list},
+      {"units that contradict", "t [s],x [mm],F [N]\ns,mm,kN\n1,2,3\n",
+       ":2: column 'F [N]' is given in 'N' and in 'kN', expected one unit, or --column force=\"F [UNIT]\" to choose"},
       {"text instead of units", "t,x,F\nfoo,bar,baz\n1,2,3\n", ":2: time 'foo' is not a number" + number_end},
       {"mapped column missing", good,
        ":1: no column 'CH9' for force, expected one of 'time [s]', 'displacement [mm]', 'force [N]'",

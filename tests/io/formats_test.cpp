@@ -399,6 +399,10 @@ TEST(Tdms, ATimeChannelServesItsGroup) {
   EXPECT_DOUBLE_EQ(r.time[3], 6e-3);
   EXPECT_DOUBLE_EQ(read("TDMS", file(object("/'G'/'Total Time (ms)'", index(f64, 20), {}), bytes_of(ms))).time[3],
                    6e-3);
+  EXPECT_EQ(
+      refusal("TDMS", file(object("/'G'/'Time [s]'", index(f64, 20), {property("unit_string", "ms")}), bytes_of(ms))),
+      "r: column 'Time [s]' is given in 'ms' and in 's', expected one unit, or --column time=\"Time [UNIT]\" to "
+      "choose");
   EXPECT_EQ(read("TDMS", file(object("/'G'/'Time'", index(time_type, 20), {}), stamps)).time[3], 1.5);
   EXPECT_EQ(
       refusal("TDMS", file(object("/'G'/'Clock'", index(f64, 20), {}), bytes_of(ms))),
