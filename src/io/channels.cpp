@@ -99,6 +99,7 @@ class Assigner {
     keep_for_conditions();
     for (std::size_t i = 0; i < columns_.size(); ++i) match(i);
     match_last_words();
+    refuse_shared();
     if (options_.time_required && !options_.without_time) require(Quantity::time);
     if (options_.displacement_required) require(Quantity::displacement);
     if (options_.force_required) require(Quantity::force);
@@ -210,6 +211,18 @@ class Assigner {
     source(quantity) = {static_cast<int>(i), text.empty() ? UnitConversion{} : parse_unit(quantity, text, file_, line_),
                         text.empty()};
     taken_[i] = true;
+  }
+
+  // Two mappings may name one column.
+  void refuse_shared() const {
+    for (std::size_t i = 0; i < sources_.size(); ++i) {
+      for (std::size_t k = i + 1; k < sources_.size(); ++k) {
+        if (sources_[i].column < 0 || sources_[i].column != sources_[k].column) continue;
+        fail("column " + in_quotes(columns_[static_cast<std::size_t>(sources_[i].column)].text) +
+             " is mapped to both " + std::string(quantity_name(static_cast<Quantity>(i))) + " and " +
+             std::string(quantity_name(static_cast<Quantity>(k))) + ", expected one channel per column");
+      }
+    }
   }
 
   void require(Quantity quantity) {

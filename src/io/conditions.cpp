@@ -54,6 +54,22 @@ int column_of(const std::string& name, const std::vector<Column>& columns, const
   return found.front();
 }
 
+// A condition whose column a channel or a condition before it has.
+void refuse_shared(const ConditionSource& source, const std::vector<ConditionSource>& before,
+                   const std::vector<Column>& columns, const Sources& sources, const std::string& file, int line) {
+  std::string other;
+  for (std::size_t i = 0; i < sources.size(); ++i) {
+    if (sources[i].column == source.column) other = quantity_name(static_cast<Quantity>(i));
+  }
+  for (const ConditionSource& one : before) {
+    if (one.column == source.column) other = in_quotes(one.name);
+  }
+  if (other.empty()) return;
+  throw InputError(file, line,
+                   "column " + in_quotes(columns[static_cast<std::size_t>(source.column)].text) + " is both " + other +
+                       " and " + in_quotes(source.name) + ", expected a column for each");
+}
+
 }  // namespace
 
 std::string condition_name(std::string_view text, const std::string& where) {
@@ -120,6 +136,7 @@ std::vector<ConditionSource> assign_conditions(const std::vector<Column>& column
       source.unit = condition_unit(unit);
     }
     const bool recorded = source.channel || source.column >= 0;
+    if (source.column >= 0) refuse_shared(source, result, columns, sources, file, line);
     if (const auto number = options.numbers.find(name); number != options.numbers.end()) {
       if (recorded) fail_both(number->second, name, file);
       source.number = number->second;

@@ -342,24 +342,12 @@ class CsvReader {
     }
     for (std::size_t i = 0; i < sources_.size(); ++i) {
       if (sources_[i].column < 0) continue;
-      // One column may serve only one channel, except by two mappings.
-      auto& channel = channel_of[static_cast<std::size_t>(sources_[i].column)];
-      if (channel >= 0)
-        fail(header_line_, "column " + in_quotes(columns_[static_cast<std::size_t>(sources_[i].column)].text) +
-                               " is mapped to both " + name_of(channel) + " and " + name_of(static_cast<int>(i)) +
-                               ", expected one channel per column");
-      channel = static_cast<int>(i);
+      channel_of[static_cast<std::size_t>(sources_[i].column)] = static_cast<int>(i);
       if (!means_) channels_[i].reserve(rows + 1);
     }
     for (std::size_t c = 0; c < conditions_.size(); ++c) {
       if (conditions_[c].column < 0) continue;
-      auto& channel = channel_of[static_cast<std::size_t>(conditions_[c].column)];
-      if (channel >= 0) {
-        fail(header_line_, "column " + in_quotes(columns_[static_cast<std::size_t>(conditions_[c].column)].text) +
-                               " is both " + name_of(channel) + " and " + in_quotes(conditions_[c].name) +
-                               ", expected a column for each");
-      }
-      channel = quantity_count + static_cast<int>(c);
+      channel_of[static_cast<std::size_t>(conditions_[c].column)] = quantity_count + static_cast<int>(c);
     }
     for (std::size_t i = 0; i < columns_.size(); ++i) {
       unused_.push_back({0.0, channel_of[i] < 0 && !columns_[i].text.empty()});

@@ -77,21 +77,50 @@ class MatReader {
  private:
   [[noreturn]] void fail(const std::string& message) const { throw InputError(file_, 0, message); }
 
-  // Units by lower-case variable name.
+  // Units by lower-case variable name, of the struct `units`, or `unit` where that is one.
   [[nodiscard]] std::map<std::string, std::string> read_units() const {
     std::map<std::string, std::string> units;
     for (const auto& variable : variables_) {
-      if (lower_case(variable.name) != "units") continue;
-      if (variable.damaged) fail("variable 'units' cannot be read, the file is damaged, expected a complete MAT file");
+      const bool one = lower_case(variable.name) == "unit" && variable.kind == MatVariable::Kind::texts;
+      if (!one && lower_case(variable.name) != "units") continue;
+      const std::string whose = in_quotes(variable.name);
+      if (variable.damaged)
+        fail("variable " + whose + " cannot be read, the file is damaged, expected a complete MAT file");
       if (variable.kind != MatVariable::Kind::texts) {
-        fail("variable 'units' is not a struct, expected one text per channel");
+        fail("variable " + whose + " is not a struct, expected one text per channel");
       }
       for (const auto& [name, text] : variable.fields) {
-        if (!text) fail("field " + in_quotes(name) + " of 'units' is not text, expected a unit such as 'mm'");
-        units[lower_case(name)] = *text;
+        if (!text) fail("field " + in_quotes(name) + " of " + whose + " is not text, expected a unit such as 'mm'");
+        const auto [known, fresh] = units.emplace(lower_case(name), *text);
+        if (!fresh && known->second != *text) {
+          fail("the unit of " + in_quotes(name) + " is " + in_quotes(known->second) + " and " + in_quotes(*text) +
+               ", expected one");
+        }
       }
     }
     return units;
+  }
+
+  // A unit whose variable is not there belongs to a channel of another name, or to what was left out of the file.
+  void doubt_units(const std::map<std::string, std::string>& units) const {
+    for (const auto& entry : units) {
+      // References: clang 14 does not capture structured bindings.
+      const std::string& name = entry.first;
+      const std::string& unit = entry.second;
+      if (std::ranges::any_of(variables_, [&](const auto& one) { return lower_case(one.name) == name; })) continue;
+      const auto quantity = quantity_of_name(name);
+      const auto meant = std::ranges::find_if(columns_, [&](const Column& column) {
+        return quantity && column.unit.empty() && quantity_of_name(column.name) == quantity;
+      });
+      if (meant != columns_.end()) {
+        fail("there is a unit of " + in_quotes(name) + ", " + in_quotes(unit) + ", and none of " +
+             in_quotes(meant->name) + ", expected the name of the variable");
+      }
+      if (options_.remark) {
+        options_.remark({file_, Remark::Kind::dialect, "units " + name,
+                         "there is a unit of " + in_quotes(name) + " and no variable of that name: it is not used"});
+      }
+    }
   }
 
   void list_columns() {
@@ -116,6 +145,7 @@ class MatReader {
       }
     }
     if (columns_.empty()) fail("no numeric variables, expected one vector per channel or a matrix");
+    doubt_units(units);
   }
 
   void add(std::string name, std::string alias, std::string unit, Slice slice) {

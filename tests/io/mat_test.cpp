@@ -44,11 +44,11 @@ class MatWriter {
     std::size_t dims[2] = {1, values.size()};
     put(Mat_VarCreate(name, MAT_C_SINGLE, MAT_T_SINGLE, 2, dims, values.data(), 0));
   }
-  void units(std::vector<std::pair<const char*, std::string>> fields) {
+  void units(std::vector<std::pair<const char*, std::string>> fields, const char* called = "units") {
     std::vector<const char*> names;
     for (const auto& field : fields) names.push_back(field.first);
     std::size_t one[2] = {1, 1};
-    matvar_t* units = Mat_VarCreateStruct("units", 2, one, names.data(), static_cast<unsigned>(names.size()));
+    matvar_t* units = Mat_VarCreateStruct(called, 2, one, names.data(), static_cast<unsigned>(names.size()));
     for (auto& [name, text] : fields) {
       std::size_t dims[2] = {1, text.size()};
       Mat_VarSetStructFieldByName(units, name, 0,
@@ -179,6 +179,48 @@ TEST_P(MatVersions, WrongContents) {
               mat.units({{"f", "stone"}});
             }),
             ": unknown unit 'stone' of force, expected one of N, kN, MN, daN, mN, lbf, lb, kip, kgf");
+}
+
+TEST_P(MatVersions, UnitsOfOtherNamesAreNotDroppedWithoutAWord) {
+  std::vector<std::string> said;
+  const auto read = [&](std::vector<std::pair<const char*, std::string>> units, const char* called) {
+    const auto path = folder_.path() / "u.mat";
+    std::filesystem::remove(path);
+    {
+      MatWriter mat(path, GetParam());
+      mat.column("t", ramp(20, 0.1));
+      mat.column("x", ramp(20, 1.0));
+      mat.column("Load", ramp(20, 1.0));
+      mat.units(std::move(units), called);
+    }
+    said.clear();
+    ReadOptions options;
+    options.remark = [&](const Remark& remark) {
+      if (remark.kind == Remark::Kind::dialect) said.push_back(remark.text);
+    };
+    return read_mat(path, options);
+  };
+  EXPECT_DOUBLE_EQ(read({{"x", "mm"}, {"load", "kN"}}, "Unit").force[3], 3e3);
+  EXPECT_TRUE(said.empty());
+  EXPECT_DOUBLE_EQ(read({{"x", "mm"}, {"torque", "Nm"}}, "units").displacement[3], 3e-3);
+  EXPECT_EQ(said, std::vector<std::string>{"there is a unit of 'torque' and no variable of that name: it is not used"});
+  EXPECT_EQ(message_of<InputError>([&] {
+              (void)read({{"x", "mm"}, {"force", "kN"}}, "units");
+            }).substr((folder_.path() / "u.mat").string().size()),
+            ": there is a unit of 'force', 'kN', and none of 'Load', expected the name of the variable");
+}
+
+TEST_P(MatVersions, AColumnIsOneChannel) {
+  const auto path = folder_.path() / "a.mat";
+  {
+    MatWriter mat(path, GetParam());
+    mat.column("t", ramp(20, 0.1));
+    mat.column("a", ramp(20, 1.0));
+  }
+  EXPECT_EQ(message_of<InputError>([&] {
+              (void)read_mat(path, {{{"displacement", "a"}, {"force", "a"}}, true});
+            }),
+            path.string() + ": column 'a' is mapped to both displacement and force, expected one channel per column");
 }
 
 TEST_P(MatVersions, DamagedFilesAreRefused) {
