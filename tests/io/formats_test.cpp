@@ -836,6 +836,51 @@ TEST(Xlsx, TheTableIsFoundAmongNotes) {
   EXPECT_EQ(told.lines.at(0), "the header is taken from row 4 of sheet 'Data', rows before it are not read");
 }
 
+// Rows from `first` on of times that go on, in the columns B to D.
+std::string numbers_from(int first, int count, double time) {
+  std::string text;
+  for (int k = 0; k < count; ++k) {
+    const std::string n = std::to_string(first + k);
+    text += row({"<c r=\"B" + n + "\"><v>" + std::to_string(time + 0.1 * k) + "</v></c>",
+                 "<c r=\"C" + n + "\"><v>" + std::to_string(k % 5) + "</v></c>",
+                 "<c r=\"D" + n + "\"><v>" + std::to_string(k % 3) + "</v></c>"},
+                n);
+  }
+  return text;
+}
+std::string names_at(const std::string& n) {
+  const auto name = [&](const std::string& column, const std::string& word) {
+    return "<c r=\"" + column + n + "\" t=\"inlineStr\"><is><t>" + word + "</t></is></c>";
+  };
+  return row({name("B", "time"), name("C", "disp"), name("D", "force")}, n);
+}
+
+TEST(Xlsx, AnEmptyRowEndsNoRecordingWithoutAWord) {
+  const auto read_sheet = [](const std::string& below, std::vector<std::string>& lines) {
+    Told told;
+    const Recording r =
+        read("xlsx", zip_of(workbook_parts({{"A", names_at("1") + numbers_from(2, 20, 0.0) + below}})), told.options);
+    lines = told.lines;
+    std::erase_if(lines,
+                  [](const std::string& line) { return !line.starts_with("row ") && !line.starts_with("the table"); });
+    return r.size();
+  };
+  std::vector<std::string> lines;
+  const std::string read_on = "row 22 of sheet 'A' is empty and the numbers go on below: they are read";
+  EXPECT_EQ(read_sheet(numbers_from(23, 10, 5.0), lines), 30U);
+  EXPECT_EQ(lines, std::vector<std::string>{read_on});
+  EXPECT_EQ(read_sheet(row({}, "22") + numbers_from(23, 10, 5.0) + numbers_from(40, 4, 9.0), lines), 34U);
+  EXPECT_EQ(lines, std::vector<std::string>{read_on});
+  // Another table, and a row of what somebody made of this one.
+  EXPECT_EQ(read_sheet(names_at("23") + numbers_from(24, 10, 0.0), lines), 20U);
+  EXPECT_EQ(lines, std::vector<std::string>{
+                       "the table ends with row 21 of sheet 'A', the numbers from row 24 on are not read"});
+  std::string mean = numbers_from(23, 1, 9.0);
+  mean.insert(mean.find("<c "), "<c r=\"A23\" t=\"inlineStr\"><is><t>mean</t></is></c>");
+  EXPECT_EQ(read_sheet(mean, lines), 20U);
+  EXPECT_TRUE(lines.empty());
+}
+
 TEST(Xlsx, WrongCellsAreToldByTheirRow) {
   const std::string head = row({cell("time"), cell("disp"), cell("force")});
   const auto refused = [&](const std::string& second) {

@@ -322,6 +322,24 @@ std::optional<Table> table_of(const Sheet& sheet, std::uint32_t skip) {
   return std::nullopt;
 }
 
+// Whether a row holds numbers of the table: one in every column in which the row before has one, and no words where
+// that has none, as beside a maximum or a mean.
+bool goes_on(const Sheet& sheet, const SheetRow& row, const SheetRow& before,
+             const std::vector<std::uint32_t>& columns) {
+  const std::span<const Cell> cells = sheet.cells_of(row);
+  const std::span<const Cell> above = sheet.cells_of(before);
+  const auto has = [](std::span<const Cell> of, const Cell& like) {
+    return std::ranges::any_of(of,
+                               [&](const Cell& cell) { return cell.column == like.column && cell.kind == like.kind; });
+  };
+  return std::ranges::none_of(cells,
+                              [&](const Cell& cell) { return cell.kind == Cell::Kind::text && !has(above, cell); }) &&
+         std::ranges::all_of(above, [&](const Cell& cell) {
+           return cell.kind != Cell::Kind::number || !std::ranges::binary_search(columns, cell.column) ||
+                  has(cells, cell);
+         });
+}
+
 // A cell as a field between semicolons, without what would end one.
 void append_field(std::string& text, const Sheet& sheet, const Cell& cell) {
   std::string_view content = sheet.text(cell);
@@ -333,16 +351,43 @@ void append_field(std::string& text, const Sheet& sheet, const Cell& cell) {
   }
 }
 
-// The table as text: row N of the sheet is line N, what is not of the table is left out.
-std::string text_of(const Sheet& sheet, const Table& table) {
+// The table as text, row N of the sheet is line N, what is not of the table is left out; and what of the sheet was not
+// taken as it stands.
+struct TableText {
   std::string text;
+  std::vector<std::string> remarks;
+};
+TableText text_of(const Sheet& sheet, const Table& table) {
+  TableText result;
+  std::string& text = result.text;
   std::uint32_t line = 1;
+  std::size_t before = table.header;  // the last row that was taken
+  bool gone_on = false;
   for (std::size_t r = table.header; r < sheet.rows.size(); ++r) {
     const SheetRow& row = sheet.rows[r];
     const std::span<const Cell> cells = sheet.cells_of(row);
     const bool empty = std::ranges::none_of(
         cells, [&](const Cell& cell) { return std::ranges::binary_search(table.columns, cell.column); });
-    if (empty || (r > table.header && row.number != line)) break;
+    if (empty) continue;
+    if (r > table.header && row.number != line) {
+      // Below an empty row stand more numbers of the recording, or what somebody wrote about it.
+      if (!goes_on(sheet, row, sheet.rows[before], table.columns)) {
+        for (std::size_t k = r; k < sheet.rows.size(); ++k) {
+          if (!goes_on(sheet, sheet.rows[k], sheet.rows[before], table.columns)) continue;
+          result.remarks.push_back("the table ends with row " + std::to_string(line - 1) + " of sheet " +
+                                   in_quotes(sheet.name) + ", the numbers from row " +
+                                   std::to_string(sheet.rows[k].number) + " on are not read");
+          break;
+        }
+        break;
+      }
+      if (!gone_on) {
+        result.remarks.push_back("row " + std::to_string(line) + " of sheet " + in_quotes(sheet.name) +
+                                 " is empty and the numbers go on below: they are read");
+      }
+      gone_on = true;
+    }
+    before = r;
     text.append(row.number - line, '\n');
     auto cell = cells.begin();
     for (std::size_t k = 0; k < table.columns.size(); ++k) {
@@ -353,7 +398,7 @@ std::string text_of(const Sheet& sheet, const Table& table) {
     text += '\n';
     line = row.number + 1;
   }
-  return text;
+  return result;
 }
 
 // Whether a header names a channel, by itself or by a mapping.
@@ -467,7 +512,11 @@ class WorkbookReader {
                        "the header is taken from row " + std::to_string(row) + " of sheet " + in_quotes(sheet.name) +
                            ", rows before it are not read"});
     }
-    return parse_csv(text_of(sheet, table), file_, options_);
+    const TableText table_text = text_of(sheet, table);
+    for (const std::string& remark : table_text.remarks) {
+      if (options_.remark) options_.remark({file_, Remark::Kind::dialect, "empty row", remark});
+    }
+    return parse_csv(table_text.text, file_, options_);
   }
 
   Archive archive_;
