@@ -16,6 +16,7 @@
 #include "io/conditions.hpp"
 #include "io/decimal_mark.hpp"
 #include "io/file.hpp"
+#include "io/header_row.hpp"
 #include "io/plausible.hpp"
 #include "io/sha256.hpp"
 #include "io/text.hpp"
@@ -79,14 +80,6 @@ bool is_number(std::string_view field) {
   double value = 0.0;
   const auto error = parse_number(unquoted(field), true, value);
   return error != NumberError::not_a_number && error != NumberError::empty;
-}
-
-std::string_view without_brackets(std::string_view unit) {
-  if (unit.size() >= 2 &&
-      ((unit.front() == '[' && unit.back() == ']') || (unit.front() == '(' && unit.back() == ')'))) {
-    return trimmed(unit.substr(1, unit.size() - 2));
-  }
-  return unit;
 }
 
 // What is to be known of a text before its first line is read.
@@ -223,13 +216,14 @@ class CsvReader {
     }
   }
 
-  // Cells of the next line by a delimiter, an empty last one left out; none at the end of the text.
+  // Cells of the next line by a delimiter, without quotes, an empty last one left out; none at the end of the text.
   std::vector<std::string_view> next_cells(char delimiter) {
     std::vector<std::string_view> cells;
     std::string_view line;
     if (!next_line(line)) return cells;
     split(line, delimiter, cells);
     if (cells.size() > 1 && unquoted(cells.back()).empty()) cells.pop_back();
+    std::ranges::transform(cells, cells.begin(), unquoted);
     return cells;
   }
 
@@ -243,7 +237,7 @@ class CsvReader {
     };
     const auto names_a_channel = [](const std::vector<std::string_view>& cells) {
       return std::ranges::any_of(
-          cells, [](std::string_view cell) { return quantity_of_name(split_column(unquoted(cell)).name).has_value(); });
+          cells, [](std::string_view cell) { return quantity_of_name(split_column(cell).name).has_value(); });
     };
     const auto begin = position_;
     const auto before = line_;
@@ -256,18 +250,21 @@ class CsvReader {
       position_ = here;
       line_ = number;
       const std::vector<std::string_view> names = next_cells(delimiter);
-      if (mostly_numbers(names)) break;
       const auto behind = position_;
       const auto at = line_;
       std::vector<std::string_view> below = next_cells(delimiter);
-      // A row of units below the names, or words where numbers are expected, which is said then: no title above a
-      // header. Names of another language are names too where units stand below.
-      const bool units = std::ranges::all_of(
-          below, [](std::string_view cell) { return is_any_unit(without_brackets(unquoted(cell))); });
-      if (below.size() == names.size() && !mostly_numbers(below) && (names_a_channel(names) || units)) {
+      // The rows have begun; a title may hold a number, too.
+      const bool begun = mostly_numbers(names);
+      if (begun && mostly_numbers(below)) break;
+      // A row of units below the names, or words where numbers are expected, which is said then. Names of another
+      // language are names too where units stand below.
+      const bool units =
+          std::ranges::all_of(below, [](std::string_view cell) { return is_any_unit(without_brackets(cell)); });
+      if (below.size() == names.size() && !mostly_numbers(below) && (names_a_channel(names) || units) &&
+          !names_columns(below)) {
         below = next_cells(delimiter);
       }
-      if (names.size() > 1 && below.size() == names.size() && mostly_numbers(below)) {
+      if (!begun && names.size() > 1 && below.size() == names.size() && mostly_numbers(below)) {
         position_ = here;
         line_ = number;
         if (k > 0 && options_.remark) {

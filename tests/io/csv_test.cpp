@@ -64,6 +64,11 @@ TEST(Csv, LinesBeforeTheHeaderAreNotRead) {
   const std::string ten = ten_rows();
   const std::string said = "the header is taken from line 5, lines before it are not read\n";
   EXPECT_EQ(remarks_of("Station: 3\nOperator: Jane\n3/2/2024, 12:40, wet\n\n" + header + ten), said);
+  const std::string second = "the header is taken from line 2, lines before it are not read\n";
+  for (const char* title : {"Force,Damper 7,wet\n", "Load,12,7\n", "Load test,7\n"}) {
+    EXPECT_EQ(remarks_of(title + header + ten), second) << title;
+    EXPECT_EQ(remarks_of(title + std::string("t,x,F\ns,mm,N\n") + ten), second) << title;
+  }
 }
 
 // Names of another language are told by the row of units below them, and mapped by their names.

@@ -881,6 +881,25 @@ TEST(Xlsx, AnEmptyRowEndsNoRecordingWithoutAWord) {
   EXPECT_TRUE(lines.empty());
 }
 
+TEST(Xlsx, ATitleRightAboveTheNamesIsPassedOver) {
+  const std::string title = row({"<c/>", cell("Load test"), cell("Damper 7"), cell("J. Doe")}, "1");
+  const auto header_of = [&](const std::string& sheet, const ReadOptions& columns = {}) {
+    Told told;
+    told.options.columns = columns.columns;
+    EXPECT_EQ(read("xlsx", zip_of(workbook_parts({{"A", sheet}})), told.options).size(), 20U);
+    return told.lines.at(0);
+  };
+  const std::string second = "the header is taken from row 2 of sheet 'A', rows before it are not read";
+  EXPECT_EQ(header_of(title + names_at("2") + numbers_from(3, 20, 0.0)), second);
+  const std::string units = row({"<c/>", cell("s"), cell("mm"), cell("N")}, "3");
+  EXPECT_EQ(header_of(title + names_at("2") + units + numbers_from(4, 20, 0.0)), second);
+  // Names nobody knows.
+  const std::string others = row({"<c/>", cell("Zeit"), cell("Weg"), cell("Kraft")}, "2");
+  ReadOptions columns;
+  columns.columns = {{"time", "Zeit"}, {"displacement", "Weg"}, {"force", "Kraft"}};
+  EXPECT_EQ(header_of(title + others + numbers_from(3, 20, 0.0), columns), second);
+}
+
 TEST(Xlsx, WrongCellsAreToldByTheirRow) {
   const std::string head = row({cell("time"), cell("disp"), cell("force")});
   const auto refused = [&](const std::string& second) {

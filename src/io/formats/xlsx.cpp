@@ -18,6 +18,7 @@
 #include "io/bytes.hpp"
 #include "io/csv.hpp"
 #include "io/format.hpp"
+#include "io/header_row.hpp"
 #include "io/text.hpp"
 #include "io/xml.hpp"
 
@@ -302,6 +303,19 @@ std::size_t numbers_in(const Sheet& sheet, const SheetRow& row, const std::vecto
   }));
 }
 
+// Whether the row below one of words holds the names of the numbers that follow.
+bool is_title_above(const Sheet& sheet, const SheetRow& row, const SheetRow& below) {
+  const auto words_of = [&](const SheetRow& of) {
+    std::vector<std::string_view> words;
+    for (const Cell& cell : sheet.cells_of(of)) {
+      if (cell.kind == Cell::Kind::text) words.push_back(sheet.text(cell));
+    }
+    return words;
+  };
+  const std::vector<std::string_view> words = words_of(below);
+  return names_columns(words) || (!names_columns(words_of(row)) && !has_a_unit(words));
+}
+
 // The first row with two names or more that has numbers below half of them, next to it or below a row of units.
 std::optional<Table> table_of(const Sheet& sheet, std::uint32_t skip) {
   constexpr std::size_t most_rows_before = 200;
@@ -316,7 +330,8 @@ std::optional<Table> table_of(const Sheet& sheet, std::uint32_t skip) {
     if (table.columns.size() < 2) continue;
     for (std::size_t below = r + 1; below < std::min(r + 3, sheet.rows.size()); ++below) {
       const std::size_t numbers = numbers_in(sheet, sheet.rows[below], table.columns);
-      if (numbers >= 2 && 2 * numbers >= table.columns.size()) return table;
+      if (numbers < 2 || 2 * numbers < table.columns.size()) continue;
+      if (below == r + 1 || !is_title_above(sheet, sheet.rows[r], sheet.rows[r + 1])) return table;
     }
   }
   return std::nullopt;
