@@ -25,6 +25,47 @@ constexpr std::size_t least_values = 150;
 constexpr double least_silent = 0.1;
 constexpr std::size_t fewest_silent = 100;
 
+// A channel is frozen while the other one rises and falls by this part of its span ...
+constexpr double goes_on = 0.25;
+// ... and holds any other value for this part of the time at most: one of few values holds many of them so.
+constexpr double held_else = 0.25;
+
+// A force that relaxes to nothing while the motion rests loses less than half of itself in the last three quarters of
+// that time, whatever its time constant: less than a quarter of its span. One that turns round in its middle loses
+// more.
+constexpr double turns = 0.25;
+
+// Calls `visit(first, count)` for all stretches of one value.
+template <class Visit>
+void for_each_run(const std::vector<double>& values, Visit visit) {
+  for (std::size_t first = 0; first < values.size();) {
+    std::size_t last = first;
+    while (last + 1 < values.size() && values[last + 1] == values[first]) ++last;
+    visit(first, last + 1 - first);
+    first = last + 1;
+  }
+}
+
+double span_of(const std::vector<double>& values) {
+  const auto [low, high] = std::ranges::minmax(values);
+  return high - low;
+}
+
+// The smaller of how far the values rise and how far they fall, between any two of them in their order.
+double rises_and_falls(const std::vector<double>& values, std::size_t first, std::size_t count) {
+  double low = values[first];
+  double high = values[first];
+  double rise = 0.0;
+  double fall = 0.0;
+  for (std::size_t n = first; n < first + count; ++n) {
+    low = std::min(low, values[n]);
+    high = std::max(high, values[n]);
+    rise = std::max(rise, values[n] - low);
+    fall = std::max(fall, high - values[n]);
+  }
+  return std::min(rise, fall);
+}
+
 std::vector<double> thinned(const std::vector<double>& values) {
   const std::size_t stride = values.size() / most_looked_at + 1;
   std::vector<double> some;
@@ -69,6 +110,38 @@ std::optional<FlatEnd> flat_end_of(const std::vector<double>& values) {
   const std::optional<FlatEnd> above = flat_end(values, high - low, 1.0);
   const std::optional<FlatEnd> below = flat_end(values, high - low, -1.0);
   return above && (!below || above->share >= below->share) ? above : below;
+}
+
+std::optional<Stretch> frozen_stretch_of(const std::vector<double>& values, const std::vector<double>& other) {
+  if (values.empty() || values.size() != other.size()) return std::nullopt;
+  const double enough = goes_on * span_of(other);
+  if (!(enough > 0.0)) return std::nullopt;
+  Stretch frozen;
+  std::size_t longest = 0;  // of the others
+  for_each_run(values, [&](std::size_t first, std::size_t count) {
+    if (rises_and_falls(other, first, count) < enough) {
+      longest = std::max(longest, count);
+    } else if (count > frozen.count) {
+      frozen = {first, count};
+    }
+  });
+  const bool alone = frozen.count == values.size();
+  const bool finer = longest > 0 && static_cast<double>(longest) <= held_else * static_cast<double>(frozen.count);
+  return frozen.count > 0 && (alone || finer) ? std::optional(frozen) : std::nullopt;
+}
+
+bool force_turns_at(double end, const std::vector<double>& displacement, const std::vector<double>& force) {
+  if (displacement.size() != force.size() || force.empty()) return false;
+  const double enough = turns * span_of(force);
+  const bool upper = std::ranges::max(displacement) == end;
+  std::size_t turned = 0;
+  std::size_t rested = 0;
+  for_each_run(displacement, [&](std::size_t first, std::size_t count) {
+    if (displacement[first] != end || count < least_run) return;
+    const double change = force[first + count - 1] - force[first + count / 4];
+    ((upper ? -change : change) > enough ? turned : rested) += 1;
+  });
+  return turned > rested;
 }
 
 std::optional<Silence> silence_of(const std::vector<double>& values) {

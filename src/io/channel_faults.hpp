@@ -1,5 +1,5 @@
-// What a channel shows of its own faults, whatever was measured: an end of its range at which it stays, and silence.
-// Samples that stand out alone: io/outliers.hpp.
+// What a channel shows of its own faults: an end of its range at which it stays, silence, and, beside another channel,
+// a value that it holds while the other goes on. Samples that stand out alone: io/outliers.hpp.
 #pragma once
 
 #include <cstddef>
@@ -23,5 +23,18 @@ struct Silence {
   std::size_t count = 0;
 };
 std::optional<Silence> silence_of(const std::vector<double>& values);
+
+// The longest stretch in which the channel holds one value while `other` rises and falls by a quarter of its span and
+// more, as it does not where the damper rests or yields: a channel that froze. Nothing where the channel has so few
+// values that it holds others as long.
+struct Stretch {
+  std::size_t first = 0;
+  std::size_t count = 0;
+};
+std::optional<Stretch> frozen_stretch_of(const std::vector<double>& values, const std::vector<double>& other);
+
+// Whether the force turns round while the displacement stays at an end of its range, as under a motion that goes on
+// beyond it. Where the motion rests there the force relaxes, or stays.
+bool force_turns_at(double end, const std::vector<double>& displacement, const std::vector<double>& force);
 
 }  // namespace hysteron

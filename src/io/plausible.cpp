@@ -8,6 +8,7 @@
 #include <tuple>
 #include <vector>
 
+#include "core/drive.hpp"
 #include "io/channel_faults.hpp"
 #include "io/outliers.hpp"
 #include "io/text.hpp"
@@ -168,6 +169,49 @@ bool drives_its_rig(const Recording& r) {
   return both < 0.0 && v_left > rounding * vv && f_left > rounding * ff && both * both > share * v_left * f_left;
 }
 
+// A channel that stays while the other one goes on.
+void tell_of_motion_and_force(const Recording& recording, Remarks& remarks) {
+  const auto tell_frozen = [&](const std::string& name, double value, const std::string& unit, const Stretch& stretch,
+                               const std::string& other) {
+    if (stretch.count == recording.size()) {
+      remarks.tell("frozen " + name, fmt::format("the {} is {:.4g} {} throughout and the {} changes: a channel that "
+                                                 "was not connected looks so",
+                                                 name, value, unit, other));
+      return;
+    }
+    remarks.tell(
+        "frozen " + name,
+        fmt::format("the {} stays at exactly {:.4g} {} from {:.4g} to {:.4g} s while the {} goes on: a channel "
+                    "that froze looks so; cut these samples",
+                    name, value, unit, recording.time[stretch.first], recording.time[stretch.first + stretch.count - 1],
+                    other));
+  };
+  // No force at all is that of a play, or silence.
+  if (const auto frozen = frozen_stretch_of(recording.force, recording.displacement);
+      frozen && recording.force[frozen->first] != 0.0) {
+    tell_frozen("force", recording.force[frozen->first], "N", *frozen, "motion");
+  }
+  if (const auto frozen = frozen_stretch_of(recording.displacement, recording.force)) {
+    // A drive that is switched changes the force of a damper at rest.
+    std::vector<double> drive;
+    if (!recording.drive.empty()) {
+      const auto first = recording.drive.begin() + static_cast<std::ptrdiff_t>(frozen->first);
+      drive.assign(first, first + static_cast<std::ptrdiff_t>(frozen->count));
+    }
+    if (!varies(drive)) {
+      tell_frozen("displacement", 1e3 * recording.displacement[frozen->first], "mm", *frozen, "force");
+    }
+  }
+  if (const auto end = flat_end_of(recording.displacement);
+      end && force_turns_at(end->value, recording.displacement, recording.force)) {
+    remarks.tell("flat displacement",
+                 fmt::format("the displacement stays at exactly {:.4g} mm, an end of its range, for {:.0f} % of the "
+                             "samples while the force turns round: a channel that saturates looks so, and the motion "
+                             "beyond is not known",
+                             1e3 * end->value, 100.0 * end->share));
+  }
+}
+
 }  // namespace
 
 void remark_on_sizes(const Recording& recording, const Sources& sources, const std::vector<Column>& columns,
@@ -245,6 +289,8 @@ void remark_on_sizes(const Recording& recording, const Sources& sources, const s
                              "or a file that was padded looks so; cut them",
                              recording.time[silence->first], recording.time[last], silence->count));
   }
+  // A mass may rest while the force on it changes, and swing under one that does not.
+  if (options.force_required && !recording.force.empty()) tell_of_motion_and_force(recording, remarks);
   const Range ratio = recording.velocity_measured ? velocity_over_slope(recording) : Range{1.0, 1.0};
   // Where the velocity has the wrong sign the force may well follow the displacement.
   if (ratio.low > 0.0 && options.force_required && !recording.force.empty() && drives_its_rig(recording)) {

@@ -144,6 +144,82 @@ TEST(Plausible, AForceThatWasOff) {
   EXPECT_TRUE(remarks_on([](int n, double force) { return n < 370 ? force : 0.0; }).empty());
 }
 
+// What is remarked of a displacement and a force made of the phase, 400 samples over 24 rad.
+std::vector<std::string> remarks_on_both(const std::function<double(int sample, double phase)>& displacement,
+                                         const std::function<double(int sample, double phase)>& force,
+                                         const std::string& drive = "") {
+  std::string text = "time [s],displacement [mm],force [N]" + std::string(drive.empty() ? "" : ",current [A]") + "\n";
+  for (int n = 0; n < 400; ++n) {
+    const double phase = 12.0 * 0.005 * n;
+    text += std::to_string(0.005 * n) + "," + std::to_string(displacement(n, phase)) + "," +
+            std::to_string(force(n, phase)) +
+            (drive.empty() ? ""
+             : n % 40 < 20 ? "," + drive
+                           : ",0") +
+            "\n";
+  }
+  std::vector<std::string> said;
+  ReadOptions options;
+  options.remark = [&](const Remark& remark) { said.push_back(remark.text); };
+  (void)parse_csv(text, "a.csv", options);
+  return said;
+}
+double sine(int /*sample*/, double phase) { return 10.0 * std::sin(phase); }
+double viscous(int /*sample*/, double phase) { return 800.0 * std::cos(phase); }
+double friction(int /*sample*/, double phase) { return std::cos(phase) > 0.0 ? 500.0 : -500.0; }
+
+TEST(Plausible, AForceThatFroze) {
+  const auto frozen = [](int n, double phase) { return viscous(n, n < 250 ? phase : 15.0); };
+  expect_one(remarks_on_both(sine, frozen),
+             "the force stays at exactly -607.8 N from 1.25 to 1.995 s while the motion goes on: a channel that froze");
+  expect_one(remarks_on_both(sine, [](int, double) { return 37.0; }), "the force is 37 N throughout and the motion");
+  EXPECT_TRUE(remarks_on_both(sine, friction).empty()) << "it yields";
+  // Of a play in which nothing is felt.
+  EXPECT_TRUE(remarks_on_both(sine, [](int n, double phase) {
+                return std::fabs(std::sin(phase)) > 0.9 ? viscous(n, phase) + 4000.0 * std::sin(phase) : 0.0;
+              }).empty());
+}
+
+TEST(Plausible, ADisplacementThatFroze) {
+  const auto frozen = [](int n, double phase) { return sine(n, n < 250 ? phase : 15.0); };
+  for (const auto& force : {viscous, friction}) {
+    const auto said = remarks_on_both(frozen, force);
+    ASSERT_FALSE(said.empty());
+    EXPECT_TRUE(
+        said[0].starts_with("the displacement stays at exactly 6.503 mm from 1.25 to 1.995 s while the force "
+                            "goes on: a channel that froze"))
+        << said[0];
+  }
+  expect_one(remarks_on_both([](int, double) { return 3.0; }, viscous), "the displacement is 3 mm throughout and the");
+  EXPECT_TRUE(
+      remarks_on_both([](int, double) { return 3.0; }, [](int n, double) { return n % 40 < 20 ? 700.0 : 90.0; }, "2")
+          .empty())
+      << "a current that is switched";
+}
+
+TEST(Plausible, ADisplacementThatSaturates) {
+  const auto cut = [](int n, double phase) { return std::clamp(sine(n, phase), -9.0, 9.0); };
+  for (const auto& force : {viscous, friction}) {
+    expect_one(remarks_on_both(cut, force), "the displacement stays at exactly ");
+  }
+  // A motion that rests at its ends: the force stays, drops or relaxes.
+  const auto trapezoid = [](int, double phase) {
+    return std::clamp(20.0 * std::asin(std::sin(phase)) / std::numbers::pi, -6.0, 6.0);
+  };
+  const auto moves = [](double phase) { return std::fabs(std::asin(std::sin(phase))) < 0.3 * std::numbers::pi; };
+  EXPECT_TRUE(
+      remarks_on_both(trapezoid, [&](int n, double phase) { return moves(phase) ? friction(n, phase) : 0.0; }).empty());
+  const auto relaxing = remarks_on_both(trapezoid, [&](int, double phase) {
+    // Since the rest began.
+    const double rest = std::fmod(phase + 0.2 * std::numbers::pi, std::numbers::pi);
+    const double sign = std::sin(phase) > 0.0 ? 1.0 : -1.0;
+    const double towards = std::cos(phase) > 0.0 ? 1.0 : -1.0;
+    return moves(phase) ? (500.0 + 20.0 * std::cos(phase)) * towards
+                        : 500.0 * sign * std::exp(-3.0 * (rest - 0.5 * std::numbers::pi));
+  });
+  EXPECT_TRUE(relaxing.empty()) << relaxing.front();
+}
+
 // A converter of few steps holds its crest for several samples too.
 TEST(Plausible, CoarseStepsAreNoSaturation) {
   for (const double step : {1.0, 10.0, 40.0, 100.0, 160.0, 170.0, 300.0}) {
