@@ -8,6 +8,7 @@
 
 #include "core/printable.hpp"
 #include "io/campaign.hpp"
+#include "task/beside_others.hpp"
 
 namespace hysteron {
 namespace {
@@ -35,6 +36,8 @@ Loaded load_with_remarks(const std::vector<std::string>& data, ReadOptions optio
     remarks.push_back({copy, Remark::Kind::implausible, "copy",
                        "holds the same bytes as " + original + ", so that neither is held out from the other"});
   }
+  const std::vector<Remark> units = remarks_beside_others(campaign.recordings);
+  remarks.insert(remarks.end(), units.begin(), units.end());
   return {std::move(campaign), std::move(remarks)};
 }
 

@@ -1,0 +1,152 @@
+#include "task/beside_others.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+#include "fit/layout.hpp"
+
+namespace hysteron {
+namespace {
+
+constexpr double thousand = 1e3;
+// What is farther than this from the others is nearer to a thousand times their size.
+const double far = std::sqrt(thousand);
+// A recording of the right unit lies within the range of the others, or not far from it: by a factor of two.
+constexpr double near = 2.0;
+constexpr std::size_t fewest_alike = 2;
+
+enum Figure : std::size_t { stroke, speed, force, frequency, step, figure_count };
+using Figures = std::array<double, figure_count>;  // 0: not known
+
+struct Range {
+  double low = 0.0;
+  double high = 0.0;
+  [[nodiscard]] bool holds(double value, double factor) const {
+    return value * factor >= low && value <= factor * high;
+  }
+};
+
+// A channel, the power of its unit in every figure, and the figure that is told.
+struct Suspect {
+  std::string_view channel;
+  std::array<int, figure_count> powers;
+  Figure told;
+  std::string_view what;
+  double factor;  // to the unit told
+  std::string_view unit;
+};
+constexpr std::array<Suspect, 3> suspects = {{
+    {"displacement", {1, 1, 0, 0, 0}, stroke, "stroke", 1e3, "mm"},
+    {"time", {0, -1, 0, -1, 1}, frequency, "main frequency", 1.0, "Hz"},
+    {"force", {0, 0, 1, 0, 0}, force, "force", 1.0, "N"},
+}};
+
+double span_of(const std::vector<double>& values) {
+  if (values.empty()) return 0.0;
+  const auto [low, high] = std::ranges::minmax(values);
+  return high - low;
+}
+
+double largest(const std::vector<double>& values) {
+  double result = 0.0;
+  for (const double value : values) result = std::max(result, std::fabs(value));
+  return result;
+}
+
+Figures figures_of(const Recording& recording) {
+  Figures result{};
+  result[stroke] = span_of(recording.displacement);
+  // A recorded one has a unit of its own, and is held against the slope of the displacement.
+  result[speed] = recording.velocity_measured ? 0.0 : largest(recording.velocity);
+  result[force] = largest(recording.force);
+  if (recording.timed) {
+    result[frequency] = dominant_frequency(recording);
+    result[step] = (recording.time.back() - recording.time.front()) / static_cast<double>(recording.size() - 1);
+  }
+  return result;
+}
+
+std::optional<double> median_of(const std::vector<Figures>& all, std::size_t figure) {
+  std::vector<double> values;
+  for (const Figures& one : all) {
+    if (one[figure] > 0.0) values.push_back(one[figure]);
+  }
+  if (values.empty()) return std::nullopt;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::ranges::nth_element(values, middle);
+  return *middle;
+}
+
+// The ranges of the recordings that are near the median in all figures; nothing where these are not most of them.
+std::optional<std::array<Range, figure_count>> ranges_of_most(const std::vector<Figures>& all) {
+  std::array<std::optional<double>, figure_count> medians;
+  for (std::size_t f = 0; f < figure_count; ++f) medians[f] = median_of(all, f);
+  std::array<Range, figure_count> ranges;
+  std::size_t alike = 0;
+  for (const Figures& one : all) {
+    bool is_near = true;
+    for (std::size_t f = 0; f < figure_count; ++f) {
+      is_near = is_near && (one[f] == 0.0 || Range{*medians[f], *medians[f]}.holds(one[f], far));
+    }
+    if (!is_near) continue;
+    ++alike;
+    for (std::size_t f = 0; f < figure_count; ++f) {
+      if (one[f] == 0.0) continue;
+      ranges[f].low = ranges[f].low == 0.0 ? one[f] : std::min(ranges[f].low, one[f]);
+      ranges[f].high = std::max(ranges[f].high, one[f]);
+    }
+  }
+  return alike >= fewest_alike && 2 * alike > all.size() ? std::optional(ranges) : std::nullopt;
+}
+
+// Whether the suspect explains the figures with its unit `factor` times too large.
+bool explains(const Suspect& suspect, double factor, const Figures& figures,
+              const std::array<Range, figure_count>& ranges) {
+  if (figures[suspect.told] == 0.0 || ranges[suspect.told].high == 0.0) return false;
+  for (std::size_t f = 0; f < figure_count; ++f) {
+    if (figures[f] == 0.0 || ranges[f].high == 0.0) continue;
+    const int power = suspect.powers[f];
+    if (power == 0 && f == step) continue;  // rates differ as they like
+    if (power != 0 && ranges[f].holds(figures[f], far)) return false;
+    if (!ranges[f].holds(figures[f] * std::pow(factor, -power), near)) return false;
+  }
+  return true;
+}
+
+std::string text_of(const Suspect& suspect, double value, const Range& others) {
+  const auto number = [&](double figure) { return fmt::format("{:.3g}", suspect.factor * figure); };
+  const std::string low = number(others.low);
+  const std::string high = number(others.high);
+  return fmt::format(
+      "a {} of {} {}, and {} {} in the other recordings, a factor of a thousand: check the unit of the {}",
+      suspect.what, number(value), suspect.unit, low == high ? low : low + " to " + high, suspect.unit,
+      suspect.channel);
+}
+
+}  // namespace
+
+std::vector<Remark> remarks_beside_others(const std::vector<Recording>& recordings) {
+  std::vector<Figures> all;
+  for (const Recording& recording : recordings) all.push_back(figures_of(recording));
+  std::vector<Remark> remarks;
+  const auto ranges = ranges_of_most(all);
+  if (!ranges) return remarks;
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    for (const Suspect& suspect : suspects) {
+      if (!explains(suspect, thousand, all[k], *ranges) && !explains(suspect, 1.0 / thousand, all[k], *ranges))
+        continue;
+      remarks.push_back({recordings[k].file, Remark::Kind::implausible, "unit of " + std::string(suspect.channel),
+                         text_of(suspect, all[k][suspect.told], (*ranges)[suspect.told])});
+    }
+  }
+  return remarks;
+}
+
+}  // namespace hysteron

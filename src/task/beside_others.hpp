@@ -1,0 +1,15 @@
+// A recording among others of a campaign whose unit is another: seen alone, it may well be of a damper.
+#pragma once
+
+#include <vector>
+
+#include "core/recording.hpp"
+#include "io/channels.hpp"
+
+namespace hysteron {
+
+// Remarks of recordings of which one channel (displacement, time or force), a thousand times as large or as small, has
+// the figures of most others, and as it is has not: metres among millimetres, microseconds among milliseconds.
+std::vector<Remark> remarks_beside_others(const std::vector<Recording>& recordings);
+
+}  // namespace hysteron
