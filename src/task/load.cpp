@@ -4,27 +4,13 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <map>
 
 #include "core/printable.hpp"
 #include "io/campaign.hpp"
 #include "task/beside_others.hpp"
+#include "task/copies.hpp"
 
 namespace hysteron {
-namespace {
-
-// Recordings whose file is that of an earlier one, by name.
-std::vector<std::pair<std::string, std::string>> copies_in(const Campaign& campaign) {
-  std::map<std::string, std::string> first;
-  std::vector<std::pair<std::string, std::string>> copies;
-  for (const Recording& recording : campaign.recordings) {
-    const auto [known, fresh] = first.emplace(recording.sha256, recording.file);
-    if (!fresh && !recording.sha256.empty()) copies.emplace_back(recording.file, known->second);
-  }
-  return copies;
-}
-
-}  // namespace
 
 Loaded load_with_remarks(const std::vector<std::string>& data, ReadOptions options, Required required) {
   options.force_required = required == Required::motion_and_force;
@@ -32,12 +18,9 @@ Loaded load_with_remarks(const std::vector<std::string>& data, ReadOptions optio
   std::vector<Remark> remarks;
   options.remark = [&](const Remark& remark) { remarks.push_back(remark); };
   Campaign campaign = load_campaign(data, options);
-  for (const auto& [copy, original] : copies_in(campaign)) {
-    remarks.push_back({copy, Remark::Kind::implausible, "copy",
-                       "holds the same bytes as " + original + ", so that neither is held out from the other"});
+  for (const auto& of_campaign : {remarks_beside_others(campaign.recordings), remarks_on_copies(campaign.recordings)}) {
+    remarks.insert(remarks.end(), of_campaign.begin(), of_campaign.end());
   }
-  const std::vector<Remark> units = remarks_beside_others(campaign.recordings);
-  remarks.insert(remarks.end(), units.begin(), units.end());
   return {std::move(campaign), std::move(remarks)};
 }
 

@@ -106,5 +106,28 @@ TEST_F(CampaignRemarks, OneRecordingInAnotherUnit) {
   EXPECT_EQ(said([](Sine& test) { test.amplitude = 0.0003; }), "");
 }
 
+TEST_F(CampaignRemarks, NearCopiesAreTold) {
+  const Sine first{.noise = 5.0, .seed = 7};
+  Sine rounded = first;
+  rounded.digits = 4;
+  const auto told = [](const std::string& said) {
+    return said.starts_with("warning: b.csv: differs from a.csv by ") &&
+           said.find(" as a copy does: neither is held out from the other\n") != std::string::npos;
+  };
+  EXPECT_TRUE(told(said_of({csv_of(first), csv_of(rounded)})));
+  // Noise beside that of the recording.
+  Sine noisy = first;
+  noisy.noise = 7.0;
+  EXPECT_TRUE(told(said_of({csv_of(first), csv_of(noisy)}))) << "the same draws, two fifths larger";
+  // The same test made twice, and the same motion at another current.
+  Sine again = first;
+  again.seed = 8;
+  EXPECT_EQ(said_of({csv_of(first), csv_of(again)}), "");
+  std::string other = csv_of(first);
+  Sine stronger = first;
+  stronger.force_unit = 0.5;
+  EXPECT_EQ(said_of({other, csv_of(stronger)}), "");
+}
+
 }  // namespace
 }  // namespace hysteron

@@ -1,0 +1,16 @@
+// Recordings of a campaign that are one: a held-out error on a copy of what was fitted would be none.
+#pragma once
+
+#include <vector>
+
+#include "core/recording.hpp"
+#include "io/channels.hpp"
+
+namespace hysteron {
+
+// Remarks of recordings whose file holds the bytes of an earlier one, and of those whose displacement and force, sample
+// by sample, are nearer to an earlier one than two tests come: by a thousandth, as rounded numbers, or by less than the
+// noise of two.
+std::vector<Remark> remarks_on_copies(const std::vector<Recording>& recordings);
+
+}  // namespace hysteron
