@@ -16,8 +16,8 @@ struct Loaded {
   Campaign campaign;
   std::vector<Remark> remarks;
 };
-// As load_campaign, with the channels required; `options.remark` is not called. Recordings of another
-// unit than the others, and copies, are remarked too.
+// As load_campaign, with the channels required; `options.remark` is not called. Recordings of too few samples a period,
+// of another unit than the others, and copies are remarked too.
 Loaded load_with_remarks(const std::vector<std::string>& data, ReadOptions options, Required required);
 
 // Of recordings alike the first remark, whose text counts the others.

@@ -129,5 +129,13 @@ TEST_F(CampaignRemarks, NearCopiesAreTold) {
   EXPECT_EQ(said_of({other, csv_of(stronger)}), "");
 }
 
+TEST_F(CampaignRemarks, FewSamplesAPeriodAreTold) {
+  EXPECT_EQ(said_of({csv_of({.samples = 80})}), "");
+  EXPECT_EQ(
+      said_of({csv_of({.samples = 40})}),
+      "warning: a.csv: 10.0 samples a period of its main frequency, 1 Hz: what happens at a reversal lies between "
+      "them, and parameters may be off by a third; record 50 or more a period\n");
+}
+
 }  // namespace
 }  // namespace hysteron
