@@ -197,6 +197,7 @@ void run(const Options& options) {
   }
   for (Compared& model : models) {
     warn_of(guesses_of(model.stored, model.label, campaign.recordings));
+    warn_of(beyond_fitted(model.stored, model.label, campaign.recordings));
     std::vector<std::size_t> seen;
     std::vector<std::size_t> unseen;
     for (const std::size_t r : all) {

@@ -117,6 +117,9 @@ void run(Options& options) {
   excitation.conditions = condition_signals(recording, periodic);
   options.respond.stopped = interrupted;
   const MassMotion response = respond(oscillator, excitation, options.respond);
+  as_motion.displacement = response.displacement;
+  as_motion.velocity = response.velocity;
+  warn_of(beyond_fitted(stored, options.model, {as_motion}));
 
   std::string text = "time [s],displacement [m],velocity [m/s],acceleration [m/s^2],force [N]";
   text += excitation.drive ? (recording.drive_kind == DriveKind::voltage ? ",voltage [V]" : ",current [A]") : "";

@@ -3,13 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
 
 #include "fit/layout.hpp"
 
 namespace hysteron {
 namespace {
 
-constexpr double far_beyond = 0.1;  // of what laws were fitted over
+constexpr double far_beyond = 0.1;  // of what was fitted
 
 std::string alike(std::size_t count) {
   return count < 2 ? "" : fmt::format(" ({} more recording{} alike)", count - 1, count > 2 ? "s" : "");
@@ -23,10 +26,14 @@ struct Farthest {
   std::size_t count = 0;
 
   void look(const std::pair<double, double>& range, const std::string& name, double low, double high) {
+    look(range, name, low, high, range.second - range.first);
+  }
+  // `size` is that of the range.
+  void look(const std::pair<double, double>& range, const std::string& name, double low, double high, double size) {
     const double below = range.first - low;
     const double above = high - range.second;
     const double out = std::max(below, above);
-    if (!(out > far_beyond * (range.second - range.first))) return;
+    if (!(out > far_beyond * size)) return;
     ++count;
     if (out <= by) return;
     file = name;
@@ -42,6 +49,17 @@ struct Farthest {
         fmt::format("{}: a {} of {:.3g}{}, and the laws of {} were fitted from {:.3g} to {:.3g}{}: what they say "
                     "beyond is a guess{}",
                     file, what, value, behind, path, range.first, range.second, behind, alike(count)));
+  }
+
+  // `factor` is to the unit told.
+  void tell_of_model(const std::pair<double, double>& range, const std::string& path, const std::string& what,
+                     double factor, const std::string& unit, std::vector<std::string>& remarks) const {
+    if (count == 0) return;
+    const std::string low = fmt::format("{:.3g}", factor * range.first);
+    const std::string high = fmt::format("{:.3g}", factor * range.second);
+    remarks.push_back(fmt::format("{}: a {} of {:.3g} {}, and {} was fitted {} {}: what it says beyond is a guess{}",
+                                  file, what, factor * value, unit, path,
+                                  low == high ? "at " + low : "from " + low + " to " + high, unit, alike(count)));
   }
 };
 
@@ -85,6 +103,39 @@ std::vector<std::string> guesses_of(const StoredModel& stored, const std::string
     }
     farthest.tell(range, path, condition.name, condition.unit, remarks);
   }
+  return remarks;
+}
+
+std::vector<std::string> beyond_fitted(const StoredModel& stored, const std::string& path,
+                                       const std::vector<Recording>& recordings) {
+  const FittedOver& over = stored.fitted_over;
+  std::vector<std::string> remarks;
+  Farthest displacement;
+  Farthest velocity;
+  Farthest drive;
+  const auto look = [](Farthest& farthest, const std::optional<std::pair<double, double>>& range,
+                       const std::string& file, const std::vector<double>& values) {
+    if (!range || values.empty()) return;
+    const auto [low, high] = std::ranges::minmax(values);
+    farthest.look(*range, file, low, high);
+  };
+  for (const Recording& recording : recordings) {
+    look(displacement, over.displacement, recording.file, recording.displacement);
+    // A made time has made speeds.
+    if (recording.timed) look(velocity, over.velocity, recording.file, recording.velocity);
+    if (over.drive && stored.drive == DriveKind::none && recording.drive_kind == over.drive_kind) {
+      // Of a constant one, what it is.
+      const double size = std::max(
+          {over.drive->second - over.drive->first, std::fabs(over.drive->first), std::fabs(over.drive->second)});
+      const auto [low, high] = std::ranges::minmax(recording.drive);
+      drive.look(*over.drive, recording.file, low, high, size);
+    }
+  }
+  displacement.tell_of_model(over.displacement.value_or(std::pair(0.0, 0.0)), path, "displacement", 1e3, "mm", remarks);
+  velocity.tell_of_model(over.velocity.value_or(std::pair(0.0, 0.0)), path, "velocity", 1.0, "m/s", remarks);
+  const bool voltage = over.drive_kind == DriveKind::voltage;
+  drive.tell_of_model(over.drive.value_or(std::pair(0.0, 0.0)), path, voltage ? "voltage" : "current", 1.0,
+                      voltage ? "V" : "A", remarks);
   return remarks;
 }
 

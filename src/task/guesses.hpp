@@ -15,4 +15,9 @@ namespace hysteron {
 std::vector<std::string> guesses_of(const StoredModel& stored, const std::string& path,
                                     const std::vector<Recording>& recordings);
 
+// Remarks where displacement, velocity or a drive that no law follows lie as far beyond those that the model was fitted
+// on. The displacement is the damper's own: of a response, what was worked out.
+std::vector<std::string> beyond_fitted(const StoredModel& stored, const std::string& path,
+                                       const std::vector<Recording>& recordings);
+
 }  // namespace hysteron

@@ -39,6 +39,43 @@ json by_json(const Layout& layout) {
   return result;
 }
 
+// Lowest and highest of a channel over the fitted recordings; null where one of them has none.
+template <class Channel>
+json range_of(const std::vector<std::size_t>& fitted, const Campaign& campaign, Channel channel) {
+  json result;
+  for (const std::size_t k : fitted) {
+    const std::vector<double>& values = channel(campaign.recordings[k]);
+    if (values.empty()) return nullptr;
+    const auto [low, high] = std::ranges::minmax(values);
+    result = result.is_null() ? json{low, high}
+                              : json{std::min(low, result[0].get<double>()), std::max(high, result[1].get<double>())};
+  }
+  return result;
+}
+
+constexpr const char* drive_key(DriveKind kind) { return kind == DriveKind::voltage ? "voltage_v" : "current_a"; }
+
+json fitted_over_json(const std::vector<std::size_t>& fitted, const Campaign& campaign) {
+  json result = {
+      {"displacement_m",
+       range_of(fitted, campaign, [](const Recording& r) -> const std::vector<double>& { return r.displacement; })},
+      {"velocity_m_s",
+       range_of(fitted, campaign, [](const Recording& r) -> const std::vector<double>& { return r.velocity; })}};
+  // A time that was made for the want of one makes speeds that say nothing.
+  if (std::ranges::any_of(fitted, [&](std::size_t k) { return !campaign.recordings[k].timed; })) {
+    result["velocity_m_s"] = nullptr;
+  }
+  // Of two kinds there is no range.
+  const DriveKind kind = fitted.empty() ? DriveKind::none : campaign.recordings[fitted.front()].drive_kind;
+  const bool one = kind != DriveKind::none && std::ranges::all_of(fitted, [&](std::size_t k) {
+                     return campaign.recordings[k].drive_kind == kind;
+                   });
+  if (one)
+    result[drive_key(kind)] =
+        range_of(fitted, campaign, [](const Recording& r) -> const std::vector<double>& { return r.drive; });
+  return result;
+}
+
 json powers_json(const Term& term, const Layout& layout) {
   json result = json::object();
   for (std::size_t c = 0; c < term.condition_powers.size(); ++c) {
@@ -102,6 +139,7 @@ json model_json(const Identification& result, const Campaign& campaign, const Id
                {"by_current", options.layout.by_current},
                {"by_frequency", options.layout.by_frequency},
                {"laws_fitted_over", range},
+               {"fitted_over", fitted_over_json(result.fitted, campaign)},
                {"parameters", parameters},
                {"fitted_on", fitted},
                {"nrmse",
@@ -134,15 +172,30 @@ int power_of(const json& entry, const char* key, const std::string& name) {
   return power.get<int>();
 }
 
-// [lowest, highest] of what laws were fitted over, if the file states it.
-std::optional<std::pair<double, double>> stated_range(const json& root, const char* key) {
-  if (!root.contains("laws_fitted_over") || !root.at("laws_fitted_over").contains(key)) return std::nullopt;
-  const json& ends = root.at("laws_fitted_over").at(key);
-  if (!ends.is_array() || ends.size() != 2 || !ends[0].is_number() || !ends[1].is_number() || !(ends[0] < ends[1])) {
-    throw InputError(std::string("laws_fitted_over, ") + key + ", is " + ends.dump() +
+// [lowest, highest] in a member of the file, if it states it.
+std::optional<std::pair<double, double>> stated_range(const json& root, const char* member, const char* key) {
+  if (!root.contains(member) || !root.at(member).contains(key) || root.at(member).at(key).is_null())
+    return std::nullopt;
+  const json& ends = root.at(member).at(key);
+  if (!ends.is_array() || ends.size() != 2 || !ends[0].is_number() || !ends[1].is_number() || ends[0] > ends[1]) {
+    throw InputError(std::string(member) + ", " + key + ", is " + ends.dump() +
                      ", expected the lowest and the highest value");
   }
   return std::pair(ends[0].get<double>(), ends[1].get<double>());
+}
+
+FittedOver stated_fitted_over(const json& root) {
+  FittedOver result{stated_range(root, "fitted_over", "displacement_m"),
+                    stated_range(root, "fitted_over", "velocity_m_s"),
+                    {},
+                    DriveKind::none};
+  for (const DriveKind kind : {DriveKind::current, DriveKind::voltage}) {
+    const auto range = stated_range(root, "fitted_over", drive_key(kind));
+    if (!range) continue;
+    result.drive = range;
+    result.drive_kind = kind;
+  }
+  return result;
 }
 
 // Order of a parameter's law in by_current or by_frequency, if the file states one.
@@ -319,8 +372,9 @@ StoredModel parse_model(std::string_view text, const std::string& path) {
         result.fitted_on.insert(entry.at("sha256").get<std::string>());
       }
     }
-    result.drive_range = stated_range(root, "drive");
-    result.frequency_range = stated_range(root, "frequency_hz");
+    result.drive_range = stated_range(root, "laws_fitted_over", "drive");
+    result.frequency_range = stated_range(root, "laws_fitted_over", "frequency_hz");
+    result.fitted_over = stated_fitted_over(root);
     check_terms(root, result);
   } catch (const json::exception&) {
     throw wrong("not a complete model, expected the members model and parameters of hysteron.model/1");

@@ -15,6 +15,14 @@
 
 namespace hysteron {
 
+// Lowest and highest of what a model was fitted on; none of files that do not say it.
+struct FittedOver {
+  std::optional<std::pair<double, double>> displacement;  // m
+  std::optional<std::pair<double, double>> velocity;      // m/s
+  std::optional<std::pair<double, double>> drive;         // A or V
+  DriveKind drive_kind = DriveKind::none;                 // of `drive`
+};
+
 struct StoredModel {
   CompositeModel model;
   std::vector<double> held;
@@ -26,6 +34,7 @@ struct StoredModel {
   // Where the laws were fitted, lowest and highest; none of files without laws and of those that do not say it.
   std::optional<std::pair<double, double>> drive_range;      // A or V
   std::optional<std::pair<double, double>> frequency_range;  // Hz
+  FittedOver fitted_over;
 };
 
 // `command` is what made it, for its provenance.

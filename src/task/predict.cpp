@@ -1,5 +1,7 @@
 #include "task/predict.hpp"
 
+#include <iterator>
+
 #include "fit/predict.hpp"
 #include "fit/start.hpp"
 #include "task/finite.hpp"
@@ -7,6 +9,10 @@
 
 namespace hysteron {
 namespace {
+
+void append(std::vector<std::string>& remarks, std::vector<std::string> more) {
+  remarks.insert(remarks.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
+}
 
 std::vector<double> force_on(const StoredModel& stored, const std::string& path, const Recording& recording,
                              const ObjectiveOptions& objective) {
@@ -29,6 +35,7 @@ std::vector<double> simulated_force(StoredModel stored, const std::string& path,
   check_rate(stored, {motion});
   follow_conditions(stored, {motion});
   remarks = guesses_of(stored, path, {motion});
+  append(remarks, beyond_fitted(stored, path, {motion}));
   return force_on(stored, path, motion, objective);
 }
 
@@ -38,6 +45,7 @@ CampaignScore score_campaign(StoredModel stored, const std::string& path, const 
   check_rate(stored, recordings);
   follow_conditions(stored, recordings);
   remarks = guesses_of(stored, path, recordings);
+  append(remarks, beyond_fitted(stored, path, recordings));
   for (const Recording& recording : recordings) {
     const std::vector<double> force = force_on(stored, path, recording, objective);
     result.recordings.push_back(score(force, recording, objective.normalisation));

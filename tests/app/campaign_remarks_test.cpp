@@ -137,5 +137,47 @@ TEST_F(CampaignRemarks, FewSamplesAPeriodAreTold) {
       "them, and parameters may be off by a third; record 50 or more a period\n");
 }
 
+TEST_F(CampaignRemarks, AModelUsedBeyondItsMotionIsTold) {
+  write(folder_ / "fitted_on.csv", csv_of({}));
+  ASSERT_EQ(run({"fit", "fitted_on.csv", "--model", "viscous", "--budget", "100", "--quiet", "--out", "f"}).status, 0);
+  const json over = json::parse(read(folder_ / "f/model.json")).at("fitted_over");
+  EXPECT_NEAR(over.at("displacement_m").at(1), 0.02, 1e-6);
+  EXPECT_NEAR(over.at("velocity_m_s").at(0), -0.1257, 1e-3);
+  EXPECT_EQ(over.at("current_a"), json({0.5, 0.5}));
+  write(folder_ / "near.csv", csv_of({.amplitude = 0.022}));
+  write(folder_ / "wide.csv", csv_of({.amplitude = 0.05, .frequency = 0.4}));
+  write(folder_ / "fast.csv", csv_of({.frequency = 3.0}));
+  write(folder_ / "strong.csv", csv_of({.current = 2.0}));
+  const std::string wide =
+      "warning: wide.csv: a displacement of 50 mm, and f/model.json was fitted from -20 to 20 mm: what it says beyond "
+      "is "
+      "a guess\n";
+  EXPECT_EQ(run({"score", "f/model.json", "near.csv"}).err, "");
+  EXPECT_EQ(run({"score", "f/model.json", "wide.csv"}).err, wide);
+  EXPECT_EQ(run({"simulate", "f/model.json", "wide.csv", "--out", "s.csv"}).err, wide);
+  // By its label.
+  EXPECT_EQ(run({"compare", "f/model.json", "wide.csv", "--quiet", "--out", "c"}).err,
+            "warning: wide.csv: a displacement of 50 mm, and viscous was fitted from -20 to 20 mm: what it says beyond "
+            "is a guess\n");
+  const std::string fast = run({"score", "f/model.json", "fast.csv"}).err;
+  EXPECT_TRUE(fast.starts_with("warning: fast.csv: a velocity of ")) << fast;
+  EXPECT_NE(fast.find(" m/s, and f/model.json was fitted from -0.126 to 0.126 m/s: what it says"), std::string::npos)
+      << fast;
+  EXPECT_EQ(run({"score", "f/model.json", "strong.csv"}).err,
+            "warning: strong.csv: a current of 2 A, and f/model.json was fitted at 0.5 A: what it says beyond is a "
+            "guess\n");
+  // The motion that was worked out.
+  write(
+      folder_ / "push.csv", "time [s],force [N],current [A]\n" + [] {
+        std::string text;
+        for (int n = 0; n < 400; ++n) text += fmt::format("{},{},0.5\n", 0.01 * n, 2000.0 * std::sin(2.0 * 0.01 * n));
+        return text;
+      }());
+  const std::string pushed = run({"respond", "f/model.json", "push.csv", "--mass", "1", "--out", "r.csv"}).err;
+  EXPECT_TRUE(pushed.starts_with("warning: push.csv: a displacement of ")) << pushed;
+  // A model that does not say what it was fitted on.
+  EXPECT_EQ(run({"score", "model.json", "wide.csv"}).err, "");
+}
+
 }  // namespace
 }  // namespace hysteron
