@@ -19,6 +19,13 @@ function fmt(v, digits = 4) {
   return text.replace("-", "−");
 }
 
+// The two ends of an interval, with as many more digits as tell them apart.
+function fmtEnds(low, high, digits) {
+  if (!isNumber(low) || !isNumber(high)) return [fmt(low, digits), fmt(high, digits)];
+  while (low < high && digits < 17 && fmt(low, digits) === fmt(high, digits)) ++digits;
+  return [fmt(low, digits), fmt(high, digits)];
+}
+
 const esc = (text) => String(text).replace(/[&<>"']/g, (c) => `&#${c.charCodeAt(0)};`);
 
 function el(tag, attributes, ...children) {
@@ -83,5 +90,5 @@ function logTicks(lo, hi) {
 
 const css = (name) => getComputedStyle(root).getPropertyValue(name).trim();
 
-return { root, isNumber, superscript, fmt, esc, el, section, css, decimalsOf, linearTicks, logTicks };
+return { root, isNumber, superscript, fmt, fmtEnds, esc, el, section, css, decimalsOf, linearTicks, logTicks };
 })();

@@ -3,7 +3,7 @@
 (function () {
 "use strict";
 
-const { root, isNumber, superscript, fmt, esc, el, section, css, decimalsOf, linearTicks, logTicks } = common;
+const { root, isNumber, superscript, fmt, fmtEnds, esc, el, section, css, decimalsOf, linearTicks, logTicks } = common;
 const report = JSON.parse(document.getElementById("report-data").textContent);
 const list = (value) => (Array.isArray(value) ? value : []);
 const recordings = list(report.recordings);
@@ -702,11 +702,11 @@ function modelSection() {
   const model = report.model || {};
   const columns = [{ title: "Parameter", head: true }, { title: "Meaning and remarks", text: true }, { title: "Value", num: true }, { title: "Unit", nowrap: true },
     { title: "Std. error", num: true }, { title: "95 % interval", num: true, pair: true }, { title: "Bounds", num: true, pair: true }, { title: "Within bounds" }];
-  const interval = (pair, text) => (Array.isArray(pair) && pair.some(isNumber) ? `${text(pair[0])}\u00a0… ${text(pair[1])}`.replace(/ × /g, "\u00a0×\u00a0") : "–");
+  const interval = (pair, texts) => (Array.isArray(pair) && pair.some(isNumber) ? texts(...pair).join("\u00a0… ").replace(/ × /g, "\u00a0×\u00a0") : "–");
   const rows = parameters.map((p) => [
     p.symbol && p.symbol !== p.name ? el("span", {}, el("code", {}, printedTerm(p)), ` ${p.symbol}`) : el("code", {}, printedTerm(p)),
     el("span", {}, p.meaning || "", " ", parameterRemarks(p)),
-    fmt(p.value, 4), printedUnit(p.unit), fmt(p.std_error, 2), interval(p.ci95, (v) => fmt(v, 3)), interval([p.lower, p.upper], brief), withinBounds(p),
+    fmt(p.value, 4), printedUnit(p.unit), fmt(p.std_error, 2), interval(p.ci95, (low, high) => fmtEnds(low, high, 3)), interval([p.lower, p.upper], (low, high) => [brief(low), brief(high)]), withinBounds(p),
   ]);
   return section("model", "Model and parameters",
     el("p", {}, model.title || model.id || "", model.id && model.title ? [" (", el("code", {}, model.id), ")"] : ""),
@@ -940,7 +940,7 @@ function effectBlock(e, d) {
     el("h4", {}, e.in_place_of ? "or " : "", el("code", {}, e.id), isNumber(e.confidence) ? `, confidence ${rounded(e.confidence)}${list(e.indistinguishable_from).length ? ` that it is this or ${e.indistinguishable_from.join(" or ")}` : ""}` : "", e.family ? el("span", { class: "muted" }, `, family ${e.family}`) : ""),
     e.sentence ? el("p", {}, prose(e.sentence)) : null,
     list(e.parameters).length ? plainTable(`Parameters of ${e.id}`, [{ title: "Parameter", head: true }, { title: "Value", num: true }, { title: "95 % interval", num: true }, { title: "Unit" }],
-      e.parameters.map((p) => [p.name, fmt(p.value, 4), Array.isArray(p.ci95) ? `${fmt(p.ci95[0], 3)} … ${fmt(p.ci95[1], 3)}` : "–", unitText(p.unit)])) : null,
+      e.parameters.map((p) => [p.name, fmt(p.value, 4), Array.isArray(p.ci95) ? fmtEnds(p.ci95[0], p.ci95[1], 3).join(" … ") : "–", unitText(p.unit)])) : null,
     el("dl", { class: "facts" }, facts),
     el("div", { class: "plots" }, lookPlot(e, c), c ? contrastPlot(c) : null));
 }

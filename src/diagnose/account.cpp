@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "core/interval_text.hpp"
 #include "diagnose/judge/speaking.hpp"
 #include "diagnose/search/relatives.hpp"
 #include "diagnose/search/wording.hpp"
@@ -40,8 +41,8 @@ std::string interval_text(const ParameterInterval& p) {
     return value +
            (p.bound.empty() ? " (not told by these recordings)" : " (the " + p.bound + " end of what was searched)");
   }
-  std::string low = size_text(p.value - *p.half_width, p.unit, digits);
-  const std::string high = size_text(p.value + *p.half_width, p.unit, digits);
+  auto [low, high] = interval_ends(p.value - *p.half_width, p.value + *p.half_width, digits,
+                                   [&](double end, int digits_of_it) { return size_text(end, p.unit, digits_of_it); });
   const std::size_t space = low.find(' ');
   if (space != std::string::npos && high.ends_with(low.substr(space))) {
     low.resize(space);

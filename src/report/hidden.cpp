@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "core/interval_text.hpp"
 #include "report/markdown.hpp"
 
 namespace hysteron {
@@ -13,6 +14,14 @@ namespace {
 using nlohmann::json;
 
 std::string number(const json& value) { return value.is_number() ? fmt::format("{:.3g}", value.get<double>()) : "-"; }
+
+std::string interval(const json& ends) {
+  if (!ends.is_array() || !ends[0].is_number() || !ends[1].is_number()) return "-";
+  const auto [low, high] = interval_ends(ends[0].get<double>(), ends[1].get<double>(), 3, [](double value, int digits) {
+    return fmt::format("{:.{}g}", value, digits);
+  });
+  return low + " to " + high;
+}
 
 std::string list(const json& names) {
   std::string text;
@@ -84,9 +93,8 @@ std::string hidden_markdown(const json& result) {
                       row.at("outcome"), number(row.at("nrmse_heldout_before")),
                       number(row.at("nrmse_heldout_after"))});
     for (const json& p : row.at("parameters")) {
-      parameters.push_back(
-          {id + " " + p.at("name").get<std::string>(), p.at("unit"), number(p.at("value")), number(p.at("found")),
-           p.at("ci95").is_array() ? number(p.at("ci95")[0]) + " to " + number(p.at("ci95")[1]) : "-"});
+      parameters.push_back({id + " " + p.at("name").get<std::string>(), p.at("unit"), number(p.at("value")),
+                            number(p.at("found")), interval(p.at("ci95"))});
     }
   }
   if (!hidden.empty()) {
