@@ -8,8 +8,10 @@
 #include "app/result.hpp"
 #include "app/values.hpp"
 #include "core/error.hpp"
+#include "export/names.hpp"
 #include "export/targets.hpp"
 #include "io/output.hpp"
+#include "report/terminal.hpp"
 #include "task/model_file.hpp"
 
 namespace hysteron::app {
@@ -23,7 +25,7 @@ struct Options {
   std::string motion;
   DataOptions data;
   double tolerance = 1e-4;
-  int most_substeps = 65536;
+  int most_substeps = default_most_substeps;
   int substeps = 0;
 };
 
@@ -42,6 +44,28 @@ Recording motion_of(const Options& options) {
   return campaign.recordings[0];
 }
 
+// As --name says, else as the file that is written, else as the law.
+std::string name_of(const Options& options, const StoredModel& stored, const std::string& file) {
+  if (!options.name.empty()) {
+    refuse_name("--name", options.name);
+    return options.name;
+  }
+  const std::string name = identifier(file.empty() ? stored.model.law->id : file);
+  refuse_name("--out", name);
+  return name;
+}
+
+// What the steps asked for cost; empty where they are those of simulate.
+std::string about_steps(const TestVector& vector) {
+  if (!vector.off_simulate) {
+    return "";
+  }
+  return wrapped(fmt::format(
+      "In these steps the force differs from that of `simulate` by up to {:.2g} % of the largest force, on the "
+      "motion of the test vector.",
+      100.0 * *vector.off_simulate));
+}
+
 void run(const Options& options) {
   const ExportTarget& target = export_target(options.to);
   refuse_inputs(options.out, {options.model, options.motion});
@@ -54,11 +78,7 @@ void run(const Options& options) {
   const std::filesystem::path out(options.out);
   const bool one_file = !target.extension.empty() && out.extension() == target.extension;
   const std::filesystem::path folder = one_file ? out.parent_path() : out;
-  if (exported.name.empty()) {
-    exported.name = identifier(one_file ? out.stem().string() : std::string(stored.model.law->id));
-  } else if (exported.name != identifier(exported.name)) {
-    throw InputError("--name: '" + exported.name + "' is not an identifier, expected letters, digits and underscores");
-  }
+  exported.name = name_of(options, stored, one_file ? out.stem().string() : "");
   const TestVector vector = test_vector(exported, motion_of(options));
   const Export result = target.write(exported, vector);
   if (is_standard_output(options.out)) {
@@ -70,7 +90,7 @@ void run(const Options& options) {
       refuse_standard_output(options.out, names);
     }
     write_result(options.out, result.files.begin()->second);
-    say_beside(options.out, result.note + "\n");
+    say_beside(options.out, result.note + "\n" + about_steps(vector));
     return;
   }
   if (!folder.empty()) {
@@ -84,7 +104,7 @@ void run(const Options& options) {
     write_file_atomically(path, text);
     fmt::print("{}\n", path.string());
   }
-  fmt::print("{}\n", result.note);
+  fmt::print("{}\n{}", result.note, about_steps(vector));
 }
 
 }  // namespace
@@ -98,7 +118,8 @@ void add_export(CLI::App& program) {
       ->add_option("--out", options->out,
                    "folder, or the file (.c, .fmu, .py) with its companions beside it; -: standard output for one file")
       ->required();
-  command->add_option("--name", options->name, "name in the code; default that of the file or the law");
+  command->add_option("--name", options->name,
+                      "identifier in the code, in any of the languages; default that of the file or the law");
   command->add_option(
       "--motion", options->motion,
       "recording whose motion the test vector replays; default a motion of 10 mm and a drive about 0.5");
@@ -108,12 +129,12 @@ void add_export(CLI::App& program) {
       ->check(real_number(1e-10, 1e-2))
       ->capture_default_str();
   command->add_option("--most-substeps", options->most_substeps, "steps of the integration between two samples at most")
-      ->check(CLI::Range(1, 65536))
+      ->check(CLI::Range(1, default_most_substeps))
       ->capture_default_str();
   command
       ->add_option("--substeps", options->substeps,
                    "always so many steps between two samples, for a fixed time a sample; 0: as the stiffness asks")
-      ->check(CLI::Range(0, 65536))
+      ->check(CLI::Range(0, default_most_substeps))
       ->capture_default_str();
   command->footer(
       "Examples:\n"

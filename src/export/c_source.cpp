@@ -349,6 +349,7 @@ ExportedFiles c_files(const ExportedModel& exported, const TestVector& vector) {
     return text;
   };
   std::string test = with_name(runtime::test_c(), exported.name);
+  test = replaced(test, "@allowed@", literal(vector.allowed()));
   test = replaced(test, "@frequency@", literal(vector.frequency));
   test = replaced(test, "@lead_in_count@", std::to_string(vector.lead_in.size()));
   test = replaced(test, "@lead_in@", vector.lead_in.empty() ? "    {0, 0, 0, 0, 0, 0, 0},\n" : table(vector.lead_in));

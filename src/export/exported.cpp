@@ -1,13 +1,17 @@
 #include "export/exported.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <numbers>
 #include <set>
 
 #include "core/error.hpp"
+#include "export/fixed_steps.hpp"
+#include "export/names.hpp"
 #include "fit/objective.hpp"
+#include "fit/predict.hpp"
 #include "fit/start.hpp"
 
 namespace hysteron {
@@ -26,17 +30,6 @@ bool ExportedModel::follows_drive() const {
 
 bool ExportedModel::follows_frequency() const {
   return std::ranges::any_of(terms, [](const Term& term) { return term.frequency_power > 0; });
-}
-
-std::string identifier(std::string_view text) {
-  std::string result;
-  for (const char letter : text) {
-    result += std::isalnum(static_cast<unsigned char>(letter)) != 0 ? letter : '_';
-  }
-  if (result.empty() || std::isdigit(static_cast<unsigned char>(result[0])) != 0) {
-    result.insert(0, "m_");
-  }
-  return result;
 }
 
 std::vector<ExportedLink> links_of(const ExportedModel& exported) {
@@ -117,7 +110,49 @@ std::vector<TestSample> samples_of(const Motion& motion) {
   return result;
 }
 
+double peak_of(const std::vector<double>& force) {
+  double result = 0.0;
+  for (const double value : force) {
+    result = std::max(result, std::fabs(value));
+  }
+  return result;
+}
+
+// Whether it marches as simulate does.
+bool in_its_own_steps(const ExportedModel& exported) {
+  return exported.substeps == 0 && exported.most_substeps == default_most_substeps;
+}
+
+// In the steps that the exported code takes.
+std::vector<double> force_as_exported(const ExportedModel& exported, Target& target) {
+  if (exported.substeps > 0) {
+    return force_in_fixed_steps(exported, target);
+  }
+  target.motion.most_substeps = exported.most_substeps;
+  target.lead_in.most_substeps = exported.most_substeps;
+  return predict(exported.model, exported.held, exported.terms, target);
+}
+
+// Steps with which the march stays finite, as it does with as many as simulate takes.
+int enough_steps(ExportedModel exported, Target& target, const Recording& recording) {
+  int& steps = exported.substeps > 0 ? exported.substeps : exported.most_substeps;
+  while (2 * steps < default_most_substeps) {
+    steps *= 2;
+    if (!diverges_at(force_as_exported(exported, target), recording)) {
+      return steps;
+    }
+  }
+  return default_most_substeps;
+}
+
 }  // namespace
+
+double TestVector::allowed() const {
+  constexpr double rounding = 1e-6;
+  // Steps that hardly hold the equations let rounding grow: two runs then agree to a part of what either is off.
+  constexpr double of_the_error = 0.01;
+  return std::max(rounding, of_the_error * off_simulate.value_or(0.0));
+}
 
 TestVector test_vector(const ExportedModel& exported, const Recording& motion) {
   Recording recording = motion;
@@ -125,7 +160,7 @@ TestVector test_vector(const ExportedModel& exported, const Recording& motion) {
   recording.force.clear();
   ObjectiveOptions options;
   options.tolerance = exported.tolerance;
-  const Target target = make_target(recording, options);
+  Target target = make_target(recording, options, false);
   TestVector result;
   result.frequency = target.frequency;
   result.samples = samples_of(target.motion);
@@ -133,6 +168,32 @@ TestVector test_vector(const ExportedModel& exported, const Recording& motion) {
     result.lead_in = samples_of(target.lead_in);
   }
   result.force = predict(exported.model, exported.held, exported.terms, target);
+  if (const auto time = diverges_at(result.force, recording)) {
+    throw WorkError(fmt::format(
+        "export: the force of the model does not stay finite on the {} from {:g} s on, so that there is "
+        "nothing to check an exported copy with; expected --motion with a recording that the model holds for",
+        recording.file, *time));
+  }
+  if (in_its_own_steps(exported)) {
+    return result;
+  }
+  const std::vector<double> wanted = std::move(result.force);
+  result.force = force_as_exported(exported, target);
+  if (const auto time = diverges_at(result.force, recording)) {
+    const bool fixed = exported.substeps > 0;
+    const int steps = fixed ? exported.substeps : exported.most_substeps;
+    throw InputError(fmt::format(
+        "{} {}: too few steps between two samples, the force does not stay finite on the {} from {:g} s on; "
+        "expected {} or more{}",
+        fixed ? "--substeps" : "--most-substeps", steps, recording.file, *time,
+        enough_steps(exported, target, recording), fixed ? ", or 0 for as many as the stiffness asks for" : ""));
+  }
+  double apart = 0.0;
+  for (std::size_t n = 0; n < wanted.size(); ++n) {
+    apart = std::max(apart, std::fabs(result.force[n] - wanted[n]));
+  }
+  const double peak = peak_of(wanted);
+  result.off_simulate = peak > 0.0 ? apart / peak : 0.0;
   return result;
 }
 

@@ -1,6 +1,7 @@
 // What every target of `export` starts from: an identified model, and a motion with its force to check a copy with.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,14 +11,17 @@
 
 namespace hysteron {
 
+// Between two samples, where the stiffness of the equations is not asked for more or fewer.
+inline constexpr int default_most_substeps = 65536;
+
 struct ExportedModel {
   CompositeModel model;
   std::vector<double> held;
   std::vector<Term> terms;
-  std::string name;           // an identifier of C, Python and Modelica
-  double tolerance = 1e-4;    // of the integration, as in simulate
-  int most_substeps = 65536;  // between two samples
-  int substeps = 0;           // always so many; 0: as many as the stiffness asks for
+  std::string name;         // as names.hpp wants it
+  double tolerance = 1e-4;  // of the integration, as in simulate
+  int most_substeps = default_most_substeps;
+  int substeps = 0;  // always so many; 0: as many as the stiffness asks for
 
   [[nodiscard]] std::string title() const;
   [[nodiscard]] bool follows_drive() const;
@@ -50,14 +54,18 @@ struct TestVector {
   double frequency = 0.0;           // Hz
   std::vector<TestSample> lead_in;  // marched beforehand, where the recording begins in mid-motion
   std::vector<TestSample> samples;
-  std::vector<double> force;  // N, by simulate; one a sample
+  std::vector<double> force;  // N, one a sample: by simulate, but in the steps that the exported code takes
+  // Largest difference to what simulate gives, as a share of its largest force; none where the steps are its own.
+  std::optional<double> off_simulate;
+
+  // By which a replay may differ, as a share of the largest force.
+  [[nodiscard]] double allowed() const;
 };
+// InputError where the steps asked for are too few for the integration to stay finite, WorkError where the force does
+// not stay finite whatever the steps.
 TestVector test_vector(const ExportedModel& exported, const Recording& motion);
 
 // A motion from rest with two tones, 10 mm, and a drive that swings about 0.5.
 Recording motion_for_testing();
-
-// "bouc-wen" -> "bouc_wen".
-std::string identifier(std::string_view text);
 
 }  // namespace hysteron

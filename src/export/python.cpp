@@ -170,6 +170,7 @@ Export export_python(const ExportedModel& exported, const TestVector& vector) {
   }
   std::string test(runtime::python_test_py());
   test = replaced(test, "@name@", exported.name);
+  test = replaced(test, "@allowed@", literal(vector.allowed()));
   test = replaced(test, "@frequency@", literal(vector.frequency));
   test = replaced(test, "@lead_in@", rows(vector.lead_in));
   test = replaced(test, "@samples@", rows(vector.samples));

@@ -1,11 +1,18 @@
 #include "fit/predict.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 
 #include "fit/march_target.hpp"
 
 namespace hysteron {
+namespace {
+
+// No force; its square is still a number.
+constexpr double beyond_n = 1e100;
+
+}  // namespace
 
 std::vector<double> predict(const CompositeModel& model, const std::vector<double>& held,
                             const std::vector<Term>& terms, const Target& target) {
@@ -21,6 +28,13 @@ std::vector<double> predict(const CompositeModel& model, const std::vector<doubl
       },
       [](std::size_t, std::size_t, const double*) {});
   return force;
+}
+
+std::optional<double> diverges_at(const std::vector<double>& force, const Recording& recording) {
+  for (std::size_t n = 0; n < force.size(); ++n) {
+    if (!(std::fabs(force[n]) < beyond_n)) return recording.time[n];
+  }
+  return std::nullopt;
 }
 
 }  // namespace hysteron

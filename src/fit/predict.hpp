@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "fit/layout.hpp"
@@ -10,5 +11,8 @@ namespace hysteron {
 // Predicted force of one parameter set on a recording's motion.
 std::vector<double> predict(const CompositeModel& model, const std::vector<double>& held,
                             const std::vector<Term>& terms, const Target& target);
+
+// The time from which on the force of a recording is no longer finite.
+[[nodiscard]] std::optional<double> diverges_at(const std::vector<double>& force, const Recording& recording);
 
 }  // namespace hysteron

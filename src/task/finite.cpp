@@ -7,19 +7,6 @@
 #include "core/error.hpp"
 
 namespace hysteron {
-namespace {
-
-// No force; its square is still a number.
-constexpr double beyond_n = 1e100;
-
-}  // namespace
-
-std::optional<double> diverges_at(const std::vector<double>& force, const Recording& recording) {
-  for (std::size_t n = 0; n < force.size(); ++n) {
-    if (!(std::fabs(force[n]) < beyond_n)) return recording.time[n];
-  }
-  return std::nullopt;
-}
 
 std::string percent_text(double percent) {
   constexpr double readable = 1e5;

@@ -1,16 +1,13 @@
 // A simulation that does not stay finite is a failure, told as one.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/recording.hpp"
+#include "fit/predict.hpp"
 
 namespace hysteron {
-
-// The time from which on the force of a recording is no longer finite.
-[[nodiscard]] std::optional<double> diverges_at(const std::vector<double>& force, const Recording& recording);
 
 // WorkError naming the recording and the time where a force is not finite.
 void require_finite(const std::vector<double>& force, const Recording& recording);

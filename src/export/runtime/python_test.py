@@ -1,4 +1,4 @@
-"""Replays a motion and compares the force with that of `hysteron simulate`; then times the steps.
+"""Replays a motion, compares the force with what `hysteron` gives in the same steps, and times the steps.
 
     python3 @name@_test.py
 """
@@ -33,7 +33,7 @@ def main():
     seconds = time.perf_counter() - begun
     difference = max(abs(a - b) for a, b in zip(force, FORCE))
     peak = max(abs(f) for f in FORCE)
-    right = difference <= 1e-6 * peak
+    right = difference <= @allowed@ * peak
     print(f"{len(force)} samples, largest difference {difference:.3g} N, {difference / peak if peak else 0.0:.3g} of the "
           f"largest force: {'right' if right else 'WRONG'}")
     print(f"{1e6 * seconds / (len(LEAD_IN) + len(MOTION)):.0f} us a step")

@@ -1,0 +1,70 @@
+// What `export` refuses: in one line, with nothing written.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "app/program_fixture.hpp"
+
+namespace hysteron {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::Outcome;
+using testing::Program;
+
+class Exported : public Program {
+ protected:
+  void SetUp() override {
+    Program::SetUp();
+    fit();
+  }
+
+  // One line that holds these words, and nothing written.
+  void refused(const std::vector<std::string>& words, const std::string& expected, int status = 2) const {
+    const Outcome outcome = run(words);
+    EXPECT_EQ(outcome.status, status) << outcome.out;
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_NE(outcome.err.find(expected), std::string::npos) << outcome.err;
+    EXPECT_EQ(std::ranges::count(outcome.err, '\n'), 1) << outcome.err;
+    EXPECT_FALSE(fs::exists(folder_ / "out"));
+    EXPECT_FALSE(fs::exists(folder_ / "class.py"));
+  }
+};
+
+TEST_F(Exported, AModelWithoutAFiniteForceIsRefused) {
+  const fs::path path = folder_ / "fitted/model.json";
+  nlohmann::json model = nlohmann::json::parse(testing::read(path));
+  for (nlohmann::json& parameter : model["parameters"]) {
+    if (parameter["name"].get<std::string>().starts_with("c0")) parameter["value"] = 1.7e308;
+  }
+  testing::write(path, model.dump());
+  for (const char* target : {"c", "python", "fmu", "simulink", "modelica"}) {
+    refused({"export", "fitted/model.json", "--to", target, "--out", "out"},
+            "expected --motion with a recording that the model holds for", 1);
+  }
+}
+
+TEST_F(Exported, StepsThatAreTooFewAreRefusedAndOthersSayWhatTheyCost) {
+  const Outcome outcome = run({"export", "fitted/model.json", "--to", "c", "--substeps", "64", "--out", "fixed"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("differs from that of `simulate`"), std::string::npos) << outcome.out;
+  const Outcome free = run({"export", "fitted/model.json", "--to", "c", "--out", "free"});
+  EXPECT_EQ(free.out.find("differs from that of `simulate`"), std::string::npos) << free.out;
+}
+
+TEST_F(Exported, NamesThatNoLanguageTakesAreRefused) {
+  const auto named = [](const std::string& name) {
+    return std::vector<std::string>{"export", "fitted/model.json", "--to", "c", "--name", name, "--out", "out"};
+  };
+  refused(named("class"), "error: --name: 'class' is a word of C++, Python and Modelica, expected another name");
+  refused(named("2nd"), "error: --name: '2nd' is not an identifier, expected a letter, then letters, digits and");
+  refused({"export", "fitted/model.json", "--to", "python", "--out", "class.py"},
+          "error: --out: 'class' is a word of C++, Python and Modelica, expected another file or --name NAME");
+}
+
+}  // namespace
+}  // namespace hysteron
