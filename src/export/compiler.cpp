@@ -71,8 +71,8 @@ std::optional<std::string> shared_library(const std::map<std::string, std::strin
   for (const auto& [name, text] : files) {
     std::ofstream(folder.path() / name, std::ios::binary) << text;
   }
-  std::vector<std::string> words = {"cc",      "-std=c99",         "-O2", "-fPIC",
-                                    "-shared", "-DDISABLE_PREFIX", "-o",  "library.so"};
+  std::vector<std::string> words = {"cc", "-std=c99",  "-O2", "-fPIC", "-shared", "-DFMI2_OVERRIDE_FUNCTION_PREFIX",
+                                    "-o", "library.so"};
   words.insert(words.end(), sources.begin(), sources.end());
   words.emplace_back("-lm");
   if (!runs(words, folder.path())) {

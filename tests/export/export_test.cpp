@@ -395,6 +395,31 @@ TEST(ExportFmu, StepsCanBeTakenBack) {
   EXPECT_EQ(co_simulated(fmu, guid, vector, true), co_simulated(fmu, guid, vector, false));
 }
 
+// As the headers of FMI 2.0 have it: the name of the model in front, unless what builds the sources overrides that.
+TEST(ExportFmu, SourcesHonourTheOverrideOfTheirPrefix) {
+  const TemporaryFolder folder;
+  const ExportedModel exported = model_of({"bouc-wen", {}});
+  const TestVector vector = test_vector(exported, first_samples(motion_for_testing(), 50));
+  write(unzipped(export_fmu(exported, vector).files.at("bouc_wen.fmu")), folder.path());
+  const auto steps_named = [&](const std::string& defined) {
+    const Outcome built = shell(strict + defined + " -c sources/fmu.c -o fmu.o && nm fmu.o", folder.path());
+    EXPECT_EQ(built.status, 0) << built.err;
+    std::istringstream lines(built.out);
+    std::string found;
+    for (std::string line; std::getline(lines, line);) {
+      const std::string name = line.substr(line.rfind(' ') + 1);
+      if (name.ends_with("fmi2DoStep")) found += name + " ";
+    }
+    return found;
+  };
+  EXPECT_EQ(steps_named(""), "bouc_wen_fmi2DoStep ");
+  EXPECT_EQ(steps_named("-DFMI2_FUNCTION_PREFIX=mine_"), "mine_fmi2DoStep ");
+  EXPECT_EQ(steps_named("-DFMI2_OVERRIDE_FUNCTION_PREFIX"), "fmi2DoStep ");
+  EXPECT_EQ(steps_named("-DFMI2_OVERRIDE_FUNCTION_PREFIX="), "fmi2DoStep ");
+  EXPECT_EQ(steps_named("-DFMI2_OVERRIDE_FUNCTION_PREFIX -DFMI2_ACTUAL_FUNCTION_PREFIX=mine_"), "mine_fmi2DoStep ");
+  EXPECT_EQ(steps_named("-DDISABLE_PREFIX"), "fmi2DoStep ");
+}
+
 TEST(ExportFmu, DescriptionKeepsTheRulesAndBytesRepeat) {
   const TemporaryFolder folder;
   const ExportedModel exported = model_of({"bouc-wen", {"compliance", "coil-lag"}});

@@ -34,4 +34,25 @@ typedef struct {
   fmi2ComponentEnvironment componentEnvironment;
 } fmi2CallbackFunctions;
 
+/* Functions are named FMI2_FUNCTION_PREFIX and their own name. Where FMI2_OVERRIDE_FUNCTION_PREFIX is defined,
+ * FMI2_ACTUAL_FUNCTION_PREFIX takes its place or, undefined, none does. Those without a prefix are exported. */
+#if !defined(FMI2_OVERRIDE_FUNCTION_PREFIX) && defined(FMI2_FUNCTION_PREFIX)
+#define FMI2_ACTUAL_FUNCTION_PREFIX FMI2_FUNCTION_PREFIX
+#endif
+#if defined(FMI2_ACTUAL_FUNCTION_PREFIX)
+#define fmi2Paste(a, b) a##b
+#define fmi2PasteB(a, b) fmi2Paste(a, b)
+#define fmi2FullName(name) fmi2PasteB(FMI2_ACTUAL_FUNCTION_PREFIX, name)
+#define FMI2_Export
+#else
+#define fmi2FullName(name) name
+#if defined(_WIN32) || defined(__CYGWIN__)
+#define FMI2_Export __declspec(dllexport)
+#elif defined(__GNUC__)
+#define FMI2_Export __attribute__((visibility("default")))
+#else
+#define FMI2_Export
+#endif
+#endif
+
 #endif

@@ -4,24 +4,23 @@
  * at the next one is that of the inputs set after the step, or, before any are set, of the motion carried on from the
  * last sample with its velocity and acceleration.
  *
- * Without DISABLE_PREFIX the functions carry the model's name, as the specification wants it of source code.
+ * The functions carry the model's name, as the specification wants it of source code; for a binary, and wherever they
+ * are to have their plain names, FMI2_OVERRIDE_FUNCTION_PREFIX is defined, or DISABLE_PREFIX, as some tools do.
  */
+#if defined(DISABLE_PREFIX) && !defined(FMI2_OVERRIDE_FUNCTION_PREFIX)
+#define FMI2_OVERRIDE_FUNCTION_PREFIX
+#endif
+#ifndef FMI2_FUNCTION_PREFIX
+#define FMI2_FUNCTION_PREFIX @name@_
+#endif
 #include "fmi2.h"
 
 #include <string.h>
 
 #include "@name@.h"
 
-#if defined(_WIN32)
-#define EXPORT __declspec(dllexport)
-#else
-#define EXPORT
-#endif
-#ifdef DISABLE_PREFIX
-#define NAMED(name) name
-#else
-#define NAMED(name) @name@_##name
-#endif
+#define EXPORT FMI2_Export
+#define NAMED(name) fmi2FullName(name)
 #define GUID "@guid@"
 
 enum { DISPLACEMENT = 1, VELOCITY, DRIVE, SLOPE, ACCELERATION, JERK, FORCE, FREQUENCY };
