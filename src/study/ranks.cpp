@@ -138,6 +138,13 @@ SignedRank signed_rank_test(const std::vector<double>& differences, double zero)
   return result;
 }
 
+std::size_t pairs_to_tell(std::size_t tests, double level) {
+  // Of the 2^n ways in which n differences can be signed two are as far out as all of one sign.
+  std::size_t pairs = 1;
+  while (static_cast<double>(tests) * std::exp2(1.0 - static_cast<double>(pairs)) >= level) ++pairs;
+  return pairs;
+}
+
 std::vector<double> holm(const std::vector<double>& p) {
   std::vector<std::size_t> order(p.size());
   std::iota(order.begin(), order.end(), std::size_t{0});

@@ -21,6 +21,10 @@ struct SignedRank {
 // left; beyond it the normal approximation with the correction for ties and for continuity.
 [[nodiscard]] SignedRank signed_rank_test(const std::vector<double>& differences, double zero = 0.0);
 
+// Pairs without which signed_rank_test shows nothing, whatever they are: with fewer, even differences that all have one
+// sign give a p of `level` or more after Holm's correction over so many tests.
+[[nodiscard]] std::size_t pairs_to_tell(std::size_t tests, double level);
+
 // Holm's step-down correction (Scand. J. Stat. 6 (1979) 65-70): adjusted p values in the order given.
 [[nodiscard]] std::vector<double> holm(const std::vector<double>& p);
 

@@ -14,6 +14,7 @@
 #include "report/terminal.hpp"
 #include "study/analysis.hpp"
 #include "study/quantile.hpp"
+#include "study/ranks.hpp"
 
 namespace hysteron::reproduce {
 
@@ -225,6 +226,10 @@ void say_common(const Plan& plan, Reproduction& result) {
   pso::say_of_data(plan, result);
 }
 
+std::string counted(std::size_t count, const std::string& what) {
+  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
 std::string p_text(double p) { return p < 1e-4 ? "< 0.0001" : format_number(p, 2); }
 
 // The recording's name out of a label like "twin/2.0Hz_1.0A".
@@ -243,6 +248,35 @@ Study pso_table_v(const ReproduceOptions& options) {
   return study;
 }
 
+namespace {
+
+// What all conditions together say of "PSO is ahead of GA", by the row of that pair.
+std::string claim_of_table_v(const json& pair, const json& analysis, std::size_t seeds) {
+  const bool of_seeds = analysis.at("ranking").at("block") == "seed";  // one condition, whose seeds are the pairs
+  const auto pairs = pair.at("pairs").get<std::size_t>();
+  const std::string over = counted(pairs, of_seeds ? "seed" : "condition");
+  const std::string ratio = fmt::format("Over {}, the median ratio PSO as published / GA is {}",
+                                        of_seeds ? over + " of the one condition" : over + ", each with its medians",
+                                        format_number(pair.at("median_ratio").get<double>(), 3));
+  if (const std::size_t needed = pairs_to_tell(analysis.at("pairs").size(), analysis.at("alpha").get<double>());
+      pairs < needed) {
+    return fmt::format(
+        "{}: so few cannot show a difference, whatever they are, which takes {} {}; of the paper's claim "
+        "this says nothing.",
+        ratio, needed, of_seeds ? "seeds" : "conditions");
+  }
+  const std::string verdict = pair.at("verdict");
+  return fmt::format("{} (Wilcoxon p = {}): {}", ratio, p_text(pair.at("p").get<double>()),
+                     verdict == "a" ? "PSO is ahead, as the paper claims."
+                     : verdict == "b"
+                         ? "GA is ahead, against the paper's claim."
+                         : fmt::format("no difference is shown, which with {} a condition neither confirms "
+                                       "the paper's claim nor refutes it.",
+                                       counted(seeds, "seed")));
+}
+
+}  // namespace
+
 Reproduction pso_table_v_result(const Plan& plan, const std::vector<RunRecord>& records) {
   Reproduction result;
   const json analysis = analyse(plan_json(plan), records);
@@ -258,6 +292,9 @@ Reproduction pso_table_v_result(const Plan& plan, const std::vector<RunRecord>& 
       "pairs of seeds, Holm over all pairs of the three solvers.",
       {"condition", "published PSO", "published GA", "PSO as published", "GA", "p Holm", "verdict", "PSO as shipped"},
       {}};
+  const double level = analysis.at("alpha").get<double>();
+  const std::size_t seeds = plan.study.seeds.size();
+  const std::size_t seeds_to_tell = pairs_to_tell(analysis.at("problem_pairs").size(), level);
   std::size_t pso_ahead = 0;
   std::size_t shipped_ahead = 0;
   std::size_t shown_pso = 0;
@@ -273,7 +310,9 @@ Reproduction pso_table_v_result(const Plan& plan, const std::vector<RunRecord>& 
                                  "-",
                                  "-",
                                  spread(plan, records, problem, shipped_after_ga)};
-    if (const auto test = tests.find(problem); test != tests.end()) {
+    if (seeds < seeds_to_tell) {
+      row[6] = "cannot tell";
+    } else if (const auto test = tests.find(problem); test != tests.end()) {
       row[5] = p_text(test->second.at("p_holm").get<double>());
       const std::string verdict = test->second.at("verdict");
       row[6] = verdict == "tie" ? "tie" : verdict == "a" ? "PSO better" : "GA better";
@@ -295,23 +334,19 @@ Reproduction pso_table_v_result(const Plan& plan, const std::vector<RunRecord>& 
     for (std::size_t p = 0; p < plan.problems.size(); ++p) add(data_name(plan.problems[p].data), "-", "-", p);
   }
   result.tables.push_back(std::move(table));
+  const std::string of_one_case =
+      seeds < seeds_to_tell
+          ? fmt::format("of a single case {} cannot show a difference, whatever they are, which takes {} seeds",
+                        counted(seeds, "seed"), seeds_to_tell)
+          : fmt::format("shown after Holm's correction: PSO better in {}, GA better in {}, {} ties", shown_pso,
+                        shown_ga, compared - shown_pso - shown_ga);
   result.findings.push_back(
-      fmt::format("PSO as published has the lower median in {} of {} cases (published: in all 10); shown after Holm's "
-                  "correction: PSO "
-                  "better in {}, GA better in {}, {} ties. PSO as shipped has a lower median than the GA in {}.",
-                  pso_ahead, compared, shown_pso, shown_ga, compared - shown_pso - shown_ga, shipped_ahead));
+      fmt::format("PSO as published has the lower median in {} of {} cases (published: in all 10); {}. PSO as shipped "
+                  "has a lower median than the GA in {}.",
+                  pso_ahead, compared, of_one_case, shipped_ahead));
   if (const auto found = std::ranges::find_if(analysis.at("pairs"), of_the_paper);
       found != analysis.at("pairs").end()) {
-    const json& pair = *found;
-    const std::string verdict = pair.at("verdict");
-    result.findings.push_back(
-        fmt::format("Over {} conditions, each with its medians, the median ratio PSO as published / GA is {} (Wilcoxon "
-                    "p = {}): {}",
-                    pair.at("pairs").get<std::size_t>(), format_number(pair.at("median_ratio").get<double>(), 3),
-                    p_text(pair.at("p").get<double>()),
-                    verdict == "a"   ? "PSO is ahead, as the paper claims."
-                    : verdict == "b" ? "GA is ahead, against the paper's claim."
-                                     : "no difference is shown, and the paper's claim is not confirmed."));
+    result.findings.push_back(claim_of_table_v(*found, analysis, seeds));
     if (on_twin(plan) && plan.study.budgets.front() < published_budget) {
       result.findings.push_back(
           "At this budget neither has converged (the twin's noise is 0.010): this says nothing of the published 10,000 "

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <tuple>
 
 #include "datasets/support/stepped_voltage.hpp"
 #include "presets/support/rd8040_polynomials.hpp"
@@ -51,6 +52,42 @@ INSTANTIATE_TEST_SUITE_P(All, Table,
 
 // What `list tables` names is what is tested above.
 TEST(Tables, AreAllTested) { EXPECT_EQ(published_tables().size(), 9U); }
+
+// Table V of so many conditions and seeds, by runs that are far too short.
+Reproduction table_v_of(std::size_t conditions, std::size_t seeds) {
+  const PublishedTable* entry = find_published_table("table-v");
+  Study study = entry->study({seeds, 12, {}});
+  study.data.front().only.resize(conditions);
+  const Plan plan = make_plan(study, "test");
+  Store store = Store::memory();
+  EXPECT_EQ(run_plan(plan, store, {}, {}, {}).done, plan.runs.size());
+  return entry->result(plan, store.records());
+}
+
+// Two seeds of a case give a p of 0.5 at best: that nothing is shown says nothing.
+TEST(TableV, SaysThatFewSeedsOrConditionsCannotTell) {
+  for (const auto& [conditions, seeds, says] :
+       {std::tuple{std::size_t{1}, std::size_t{2}, "Over 2 seeds of the one condition"},
+        std::tuple{std::size_t{6}, std::size_t{2}, "Over 6 conditions, each with its medians"}}) {
+    const Reproduction result = table_v_of(conditions, seeds);
+    EXPECT_NE(result.findings[0].find("of a single case 2 seeds cannot show a difference"), std::string::npos);
+    EXPECT_TRUE(result.findings[1].starts_with(says)) << result.findings[1];
+    EXPECT_NE(result.findings[1].find("so few cannot show a difference, whatever they are, which takes 7"),
+              std::string::npos)
+        << result.findings[1];
+    for (const std::string& finding : result.findings) EXPECT_EQ(finding.find("not confirmed"), std::string::npos);
+    for (const auto& row : result.tables.front().rows) {
+      EXPECT_EQ(row[5], "-");
+      EXPECT_EQ(row[6], "cannot tell");
+    }
+  }
+}
+
+TEST(TableV, TestsWhatCanBeTold) {
+  const Reproduction result = table_v_of(1, 7);
+  EXPECT_NE(result.findings[0].find("after Holm's correction"), std::string::npos) << result.findings[0];
+  EXPECT_NE(result.findings[1].find("(Wilcoxon p = "), std::string::npos) << result.findings[1];
+}
 
 // One current of the round trip without noise: the published parameters must come back.
 TEST(RoundTrip, BringsThePublishedParametersBack) {

@@ -93,6 +93,18 @@ TEST(Wilcoxon, ApproximationAgreesWithTheExactDistribution) {
   EXPECT_FALSE(signed_rank_test(d).exact);
 }
 
+TEST(Wilcoxon, NeedsSoManyPairsToShowAnything) {
+  for (const std::size_t tests : {std::size_t{1}, std::size_t{3}, std::size_t{30}}) {
+    const std::size_t pairs = pairs_to_tell(tests, 0.05);
+    const auto least = [&](std::size_t count) {
+      return static_cast<double>(tests) * signed_rank_test(std::vector<double>(count, 1.0)).p;
+    };
+    EXPECT_LT(least(pairs), 0.05);
+    EXPECT_GE(least(pairs - 1), 0.05);
+  }
+  EXPECT_EQ(pairs_to_tell(1, 0.05), 6U);
+}
+
 TEST(Holm, StepsDownAndStaysMonotone) {
   const std::vector<double> adjusted = holm({0.01, 0.04, 0.03, 0.005});
   EXPECT_DOUBLE_EQ(adjusted[3], 0.02);
