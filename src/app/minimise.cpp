@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 
 #include "app/command.hpp"
 #include "app/result.hpp"
@@ -11,6 +12,7 @@
 #include "core/error.hpp"
 #include "core/suggest.hpp"
 #include "external/answers.hpp"
+#include "external/cost_range.hpp"
 #include "external/line_program.hpp"
 #include "fit/driver.hpp"
 #include "report/terminal.hpp"
@@ -90,30 +92,43 @@ class Objective {
     }
     program_.write(json{{"evaluate", points}}.dump());
     Response response;
-    response.cost = objective_answer(program_.read(), points.size());
+    for (const std::optional<double>& cost : objective_answer(program_.read(), points.size())) {
+      response.cost.push_back(cost ? range_.told(*cost) : diverged_cost);
+    }
     return response;
+  }
+
+  // The program's own value of the lowest cost of a run, now or at an improvement; none where no point had one.
+  [[nodiscard]] std::optional<double> value_of(double cost) const {
+    return cost < diverged_cost ? std::optional(range_.value_of(cost)) : std::nullopt;
   }
 
  private:
   const std::vector<Coordinate>& box_;
   LineProgram program_;
+  CostRange range_;
 };
 
-json record_of(const RunResult& run, const std::vector<Coordinate>& box) {
+json record_of(const RunResult& run, const Objective& objective, const std::vector<Coordinate>& box) {
   json parameters = json::object();
   for (std::size_t c = 0; c < run.best.size(); ++c) parameters[box[c].name] = box[c].at(run.best[c]);
   json trace = json::array();
   for (const TracePoint& point : run.trace) {
-    if (point.best < diverged_cost) trace.push_back({point.evaluations, point.best});
+    if (const auto value = objective.value_of(point.best)) trace.push_back({point.evaluations, *value});
   }
-  const bool found = !run.best.empty() && run.cost < diverged_cost;
+  const std::optional<double> cost = objective.value_of(run.cost);
+  const bool found = !run.best.empty() && cost;
   return {{"solver", run.solver},
-          {"cost", found ? json(run.cost) : json()},
+          {"cost", found ? json(*cost) : json()},
           {"parameters", found ? parameters : json::object()},
           {"evaluations", run.evaluations},
           {"without_cost", run.diverged},
           {"stopped", run.stopped},
           {"trace", trace}};
+}
+
+std::string cost_text(const std::optional<double>& cost, int digits) {
+  return cost ? fmt::format("{:.{}g}", *cost, digits) : std::string("none");
 }
 
 void run(const Options& options) {
@@ -152,13 +167,14 @@ void run(const Options& options) {
         *entry, problem, [&](const Request& request) { return objective.evaluate(request); },
         [&](const RunResult& now) {
           progress.show(std::string(entry->id), static_cast<double>(now.evaluations) / static_cast<double>(now.budget),
-                        fmt::format("{} of {} evaluations, best {:.6g}", now.evaluations, now.budget, now.cost));
+                        fmt::format("{} of {} evaluations, best {}", now.evaluations, now.budget,
+                                    cost_text(objective.value_of(now.cost), 6)));
           return !interrupted();
         });
     progress.finish();
-    record["runs"].push_back(record_of(result, box));
+    record["runs"].push_back(record_of(result, objective, box));
     const json& parameters = record["runs"].back()["parameters"];
-    std::vector<std::string> row{result.solver, parameters.empty() ? "none" : fmt::format("{:.9g}", result.cost),
+    std::vector<std::string> row{result.solver, cost_text(objective.value_of(result.cost), 9),
                                  std::to_string(result.evaluations)};
     for (const Coordinate& one : box) {
       row.push_back(parameters.empty() ? "" : fmt::format("{:.9g}", parameters.at(one.name).get<double>()));

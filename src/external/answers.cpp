@@ -1,11 +1,9 @@
 #include "external/answers.hpp"
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
 #include "external/line_program.hpp"
-#include "fit/solver.hpp"
 
 namespace hysteron {
 
@@ -39,7 +37,7 @@ SolverAnswer solver_answer(const std::string& line, const std::string& id, std::
   return result;
 }
 
-std::vector<double> objective_answer(const std::string& line, std::size_t points) {
+std::vector<std::optional<double>> objective_answer(const std::string& line, std::size_t points) {
   const json answer = json::parse(line, nullptr, false);
   const auto wrong = [&](const std::string& expected) {
     return WorkError("the objective " + printed(line) + ", expected " + expected);
@@ -51,10 +49,10 @@ std::vector<double> objective_answer(const std::string& line, std::size_t points
   if (costs.size() != points) {
     throw wrong(std::to_string(points) + " costs, got " + std::to_string(costs.size()));
   }
-  std::vector<double> result;
+  std::vector<std::optional<double>> result;
   for (const json& cost : costs) {
     if (!cost.is_number() && !cost.is_null()) throw wrong("numbers, or null where there is no cost");
-    result.push_back(cost.is_null() ? diverged_cost : std::min(cost.get<double>(), diverged_cost));
+    result.push_back(cost.is_null() ? std::nullopt : std::optional(cost.get<double>()));
   }
   return result;
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,6 @@ struct SolverAnswer {
 [[nodiscard]] SolverAnswer solver_answer(const std::string& line, const std::string& id, std::size_t dimension);
 
 // Of an objective: as many costs as there are points, null being a point that has none.
-[[nodiscard]] std::vector<double> objective_answer(const std::string& line, std::size_t points);
+[[nodiscard]] std::vector<std::optional<double>> objective_answer(const std::string& line, std::size_t points);
 
 }  // namespace hysteron

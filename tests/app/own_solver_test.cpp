@@ -175,6 +175,29 @@ TEST_F(Minimise, PointsWithoutACostAreNoSuccess) {
   EXPECT_EQ(json::parse(read(folder_ / "found.json")).at("runs").at(0).at("cost"), json());
 }
 
+// Energies in joule, squares of forces in newton: what counts as a cost is not for the program to say.
+TEST_F(Minimise, AnyFiniteValueIsACost) {
+  write(
+      folder_ / "large.py",
+      "import json, sys\n"
+      "sys.stdin.readline()\n"
+      "for line in sys.stdin:\n"
+      "    points = json.loads(line)['evaluate']\n"
+      "    print(json.dumps({'costs': [(1 + (x - 0.3) ** 2) * float(sys.argv[1]) for (x,) in points]}), flush=True)\n");
+  for (const std::string scale : {"1e10", "3e100", "1e307"}) {
+    const Outcome outcome = run({"minimise", "--objective", "python3 large.py " + scale, "--box", "x=0:1", "--solver",
+                                 "cma-es,nelder-mead", "--budget", "300", "--quiet", "--out", "found.json"});
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    const json found = json::parse(read(folder_ / "found.json"));
+    for (const json& one : found.at("runs")) {
+      EXPECT_NEAR(one.at("parameters").at("x").get<double>(), 0.3, 1e-5) << scale;
+      EXPECT_NEAR(one.at("cost").get<double>() / std::stod(scale), 1.0, 1e-9) << scale;
+      EXPECT_EQ(one.at("trace").back().at(1), one.at("cost"));
+      EXPECT_EQ(one.at("without_cost"), 0);
+    }
+  }
+}
+
 TEST_F(Minimise, WrongWordsAreRefused) {
   const std::string objective = "python3 " + examples + "objective.py";
   const std::vector<std::vector<std::string>> cases = {
