@@ -1,8 +1,10 @@
 // hysteron profile: where the time of a fit goes.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <memory>
+#include <optional>
 
 #include "app/command.hpp"
 #include "app/values.hpp"
@@ -70,6 +72,38 @@ Times timed(const Layout& layout, const std::vector<Recording>& recordings, cons
   return times;
 }
 
+// Of what the threads offered; none where there was no work.
+std::optional<double> idle_share(const Times& alone, const Times& together, int threads) {
+  const double offered = static_cast<double>(threads) * together.wall;
+  if (alone.evaluations == 0 || !(offered > 0.0)) {
+    return std::nullopt;
+  }
+  // The same work, so what one thread needs for it is what the team was busy.
+  return std::max(0.0, 1.0 - (alone.evaluating() + together.solver()) / offered);
+}
+
+std::string words_of(const std::string& model, const std::string& solver, const Times& alone, const Times& together,
+                     int threads, const std::optional<double>& idle, std::size_t budget) {
+  if (alone.evaluations == 0) {
+    return wrapped(
+        fmt::format("{}, {}: no evaluation, since the first that the solver asks for counts as more than the "
+                    "budget of {}",
+                    model, solver, budget),
+        2);
+  }
+  const auto share = [&](double part) { return fmt::format("{:.1f}", 100.0 * part / alone.wall); };
+  std::string text = fmt::format("{}, {}: {} evaluations, {} us each\n", model, solver, alone.evaluations,
+                                 format_number(1e6 * alone.evaluating() / static_cast<double>(alone.evaluations), 3));
+  text +=
+      fmt::format("  1 thread: {} s, of which solver {} %, simulation {} %,\n    derivatives {} %, screening {} %\n",
+                  format_number(alone.wall, 3), share(alone.solver()), share(alone.simulation),
+                  share(alone.derivatives), share(alone.screening));
+  if (threads > 1 && idle) {
+    text += fmt::format("  {} threads: {} s, idle {:.1f} %\n", threads, format_number(together.wall, 3), 100.0 * *idle);
+  }
+  return text;
+}
+
 void run(const Options& options) {
   const Campaign campaign = options.data.data.empty()
                                 ? find_dataset("rd8040-twin")->generate(Stream(1).child("rd8040-twin"))
@@ -104,30 +138,19 @@ void run(const Options& options) {
       if (interrupted()) {
         return;
       }
-      // The same work, so what one thread needs for it is what the team was busy.
-      const double offered = static_cast<double>(threads) * together.wall;
-      const double idle = std::max(0.0, 1.0 - (alone.evaluating() + together.solver()) / offered);
-      const auto share = [&](double part) { return fmt::format("{:.1f}", 100.0 * part / alone.wall); };
-      text += fmt::format("{}, {}: {} evaluations, {} us each\n", name, id, alone.evaluations,
-                          format_number(1e6 * alone.evaluating() / static_cast<double>(alone.evaluations), 3));
-      text += fmt::format(
-          "  1 thread: {} s, of which solver {} %, simulation {} %,\n    derivatives {} %, screening {} %\n",
-          format_number(alone.wall, 3), share(alone.solver()), share(alone.simulation), share(alone.derivatives),
-          share(alone.screening));
-      if (threads > 1) {
-        text +=
-            fmt::format("  {} threads: {} s, idle {:.1f} %\n", threads, format_number(together.wall, 3), 100.0 * idle);
-      }
-      rows.push_back({{"model", name},
-                      {"solver", id},
-                      {"evaluations", alone.evaluations},
-                      {"one_thread",
-                       {{"wall_s", alone.wall},
-                        {"solver_s", alone.solver()},
-                        {"simulation_s", alone.simulation},
-                        {"derivatives_s", alone.derivatives},
-                        {"screening_s", alone.screening}}},
-                      {"team", {{"threads", threads}, {"wall_s", together.wall}, {"idle_share", idle}}}});
+      const std::optional<double> idle = idle_share(alone, together, threads);
+      text += words_of(name, id, alone, together, threads, idle, options.budget);
+      rows.push_back(
+          {{"model", name},
+           {"solver", id},
+           {"evaluations", alone.evaluations},
+           {"one_thread",
+            {{"wall_s", alone.wall},
+             {"solver_s", alone.solver()},
+             {"simulation_s", alone.simulation},
+             {"derivatives_s", alone.derivatives},
+             {"screening_s", alone.screening}}},
+           {"team", {{"threads", threads}, {"wall_s", together.wall}, {"idle_share", idle ? json(*idle) : json()}}}});
     }
   }
   if (options.json) {
