@@ -176,6 +176,7 @@ void run(const Options& options) {
     stored.push_back(&model.stored);
   }
   data.conditions = conditions_of(stored);
+  refuse_unfollowed(stored, numbers_at(data));
   const Campaign campaign = load(data);
   for (Compared& model : models) {
     check_rate(model.stored, campaign.recordings);

@@ -34,6 +34,7 @@ struct Options {
 Recording read_excitation(const Options& options, const StoredModel& stored) {
   DataOptions data = options.data;
   data.conditions = conditions_of({&stored});
+  refuse_unfollowed({&stored}, numbers_at(data));
   const Campaign campaign = load(data, Required::nothing);
   if (campaign.recordings.size() != 1) {
     throw InputError(options.data.data[0] + ": holds " + std::to_string(campaign.recordings.size()) +

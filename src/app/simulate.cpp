@@ -179,7 +179,10 @@ void add_simulate(CLI::App& program) {
       stored = read_model(options->words[0]);
     }
     options->data.data = {options->words.back()};
-    if (!preset) options->data.conditions = conditions_of({&stored});
+    if (!preset) {
+      options->data.conditions = conditions_of({&stored});
+      refuse_unfollowed({&stored}, numbers_at(options->data));
+    }
     const Campaign campaign = load(options->data, Required::motion);
     if (campaign.recordings.size() != 1) {
       throw InputError(options->data.data[0] + ": holds " + std::to_string(campaign.recordings.size()) +

@@ -394,6 +394,19 @@ std::vector<std::string> conditions_of(const std::vector<const StoredModel*>& mo
 
 namespace {
 
+// What --at gives but none of these names.
+void refuse_others(const std::map<std::string, ConditionNumber>& values, const std::vector<std::string>& followed) {
+  for (const auto& [name, number] : values) {
+    if (std::ranges::find(followed, name) != followed.end()) continue;
+    std::string expected;
+    for (const std::string& one : followed) {
+      expected += (expected.empty() ? "" : &one == &followed.back() ? " or " : ", ") + one;
+    }
+    throw InputError("--at: no parameter of the model follows '" + name + "', expected " +
+                     (expected.empty() ? "no --at, since they follow nothing that it gives" : expected));
+  }
+}
+
 // Terms that followed `from` and now follow `to`, which holds them all.
 void reorder(StoredModel& stored, const std::vector<ConditionRange>& to) {
   for (Term& term : stored.terms) {
@@ -415,6 +428,17 @@ void refuse_other_unit(const ConditionRange& condition, const std::string& unit,
 }
 
 }  // namespace
+
+void refuse_unfollowed(const std::vector<const StoredModel*>& models,
+                       const std::map<std::string, ConditionNumber>& values) {
+  std::vector<std::string> followed = conditions_of(models);
+  for (const auto& [drive, name] : {std::pair{DriveKind::current, "current"}, {DriveKind::voltage, "voltage"}}) {
+    if (std::ranges::any_of(models, [&](const StoredModel* model) { return model->drive == drive; })) {
+      followed.emplace_back(name);
+    }
+  }
+  refuse_others(values, followed);
+}
 
 void follow_conditions(StoredModel& stored, const std::vector<Recording>& recordings) {
   if (recordings.empty()) return;
@@ -453,11 +477,7 @@ void hold_conditions(StoredModel& stored, const std::map<std::string, ConditionN
     refuse_other_unit(condition, found->second.unit, "--at");
     at.push_back(found->second.value);
   }
-  for (const auto& [name, number] : values) {
-    if (std::ranges::find(stored.conditions, name, &ConditionRange::name) == stored.conditions.end()) {
-      throw InputError("--at: no parameter of the model follows '" + name + "'");
-    }
-  }
+  refuse_others(values, conditions_of({&stored}));  // drive and frequency stay inputs
   if (stored.conditions.empty()) return;
   std::vector<Term> held;
   for (Term& term : stored.terms) {

@@ -49,11 +49,14 @@ StoredModel parse_model(std::string_view text, const std::string& path);
 
 // Names of the conditions that the laws of models follow, to be read with recordings.
 std::vector<std::string> conditions_of(const std::vector<const StoredModel*>& models);
+// InputError where --at gives a number for what no parameter of the models follows, which would change nothing.
+void refuse_unfollowed(const std::vector<const StoredModel*>& models,
+                       const std::map<std::string, ConditionNumber>& values);
 // The terms follow the conditions of the recordings, in their order. Throws InputError where a recording lacks one of
 // the model, has it in another unit, or has others than the first.
 void follow_conditions(StoredModel& stored, const std::vector<Recording>& recordings);
 // Terms at constant values of all conditions, which they then no longer follow. Throws InputError for a condition
-// without a value, or with one in another unit. `command` opens the message.
+// without a value, or with one in another unit, and for a value of anything else. `command` opens the message.
 void hold_conditions(StoredModel& stored, const std::map<std::string, ConditionNumber>& values,
                      const std::string& command);
 

@@ -111,7 +111,7 @@ TEST_F(Pressed, WhatIsWrongIsSaidInOneLine) {
   refused({"simulate", "a/model.json", "bare.csv", "--at", "pressure=2 mm", "--out", "o.csv"}, "expected 'Pa'");
   refused({"export", "a/model.json", "--to", "c", "--out", "c"}, "expected its value by --at \"pressure=NUMBER Pa\"");
   refused({"export", "a/model.json", "--to", "c", "--at", "pressure=1", "--at", "valve=2", "--out", "c"},
-          "follows 'valve'");
+          "--at: no parameter of the model follows 'valve', expected pressure");
   refused({"fit", "column", "--model", "viscous", "--by", "valve=c0:1", "--out", "o"}, "no column 'valve'");
   refused({"fit", "column", "--model", "viscous", "--by", "force=c0:1", "--out", "o"}, "is the force of the recording");
   refused({"fit", "column", "--model", "viscous", "--by", "pressure", "--out", "o"}, "expected NAME=PARAMETER:ORDER");
@@ -124,6 +124,46 @@ TEST_F(Pressed, WhatIsWrongIsSaidInOneLine) {
   model["by"] = json::object();
   write(folder_ / "m.json", model.dump());
   refused({"score", "m.json", "column"}, "which is not in by");
+}
+
+TEST_F(Pressed, ANumberThatNothingFollowsIsRefusedWithWhatIsFollowed) {
+  ASSERT_EQ(fit({"column", "--by", "pressure=c0:1"}, "a").status, 0);
+  ASSERT_EQ(
+      run({"fit", "data", "--model", "viscous", "--by-current", "c0:1", "--budget", "300", "--quiet", "--out", "b"})
+          .status,
+      0);
+  ASSERT_EQ(run({"fit", "data", "--model", "viscous", "--budget", "300", "--quiet", "--out", "c"}).status, 0);
+  struct Case {
+    std::string model;
+    std::string data;
+    std::string at;
+    std::string expected;
+  };
+  const Case cases[] = {
+      {"a", "column/r1.csv", "valve=2", "'valve', expected pressure"},
+      {"a", "column/r1.csv", "current=2", "'current', expected pressure"},
+      {"b", "data/r1.csv", "pressure=2 bar", "'pressure', expected current"},
+      {"b", "data/r1.csv", "voltage=2", "'voltage', expected current"},
+      {"c", "data/r1.csv", "pressure=2 bar", "'pressure', expected no --at, since they follow nothing that it gives"},
+  };
+  for (const Case& one : cases) {
+    const std::string model = one.model + "/model.json";
+    for (const std::vector<std::string>& words : {std::vector<std::string>{"simulate", model, one.data, "--out", "o"},
+                                                  {"score", model, one.data},
+                                                  {"compare", model, one.data, "--out", "o"},
+                                                  {"respond", model, one.data, "--mass", "20", "--out", "o"},
+                                                  {"export", model, "--to", "c", "--out", "o"}}) {
+      if (words[0] == "export" && one.model == "b") continue;  // the current stays an input
+      std::vector<std::string> given = words;
+      if (words[0] == "export" && one.model == "a") given.insert(given.end(), {"--at", "pressure=1 bar"});
+      given.insert(given.end(), {"--at", one.at});
+      const Outcome outcome = run(given);
+      EXPECT_EQ(outcome.status, 2) << words[0];
+      EXPECT_EQ(outcome.out, "") << words[0];
+      EXPECT_EQ(outcome.err, "error: --at: no parameter of the model follows " + one.expected + "\n") << words[0];
+      EXPECT_FALSE(std::filesystem::exists(folder_ / "o")) << words[0];
+    }
+  }
 }
 
 TEST_F(Pressed, ByCurrentAndByFrequencyAreTwoCasesOfIt) {
