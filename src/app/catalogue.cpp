@@ -8,6 +8,7 @@
 
 #include "app/command.hpp"
 #include "app/figure.hpp"
+#include "app/values.hpp"
 #include "core/error.hpp"
 #include "core/unit_text.hpp"
 #include "datasets/dataset.hpp"
@@ -117,7 +118,7 @@ void add_catalogue(CLI::App& program) {
   auto list_options = std::make_shared<Options>();
   CLI::App* list = program.add_subcommand("list", "models, solvers, effects, datasets or tables there are");
   list->add_option("KIND", list_options->word, "models, solvers, effects, datasets or tables")
-      ->check(CLI::IsMember({"models", "solvers", "effects", "datasets", "tables"}));
+      ->check(one_of({"models", "solvers", "effects", "datasets", "tables"}));
   list->add_flag("--json", list_options->json, "JSON on standard output");
   list->footer("Example:\n  hysteron list models");
   list->callback([list_options] {

@@ -248,7 +248,7 @@ void add_challenge(CLI::App& program) {
       ->capture_default_str()
       ->needs(data);
   command->add_option("--placebos", options->placebos, "with --in: number of placebos; default 60, none with --effect")
-      ->check(CLI::Range(0, 9000))
+      ->transform(whole_number(0, 9000))
       ->needs(data);
   command->add_option("--campaigns", options->campaigns, "number of campaigns")
       ->transform(whole_number(1, 9999))

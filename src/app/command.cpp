@@ -169,7 +169,7 @@ void add_common_options(CLI::App& command, CommonOptions& options) {
   command
       .add_option("--weighting", options.weighting,
                   "per-recording: each recording weighs the same; pooled: each sample")
-      ->check(CLI::IsMember({"per-recording", "pooled"}))
+      ->check(one_of({"per-recording", "pooled"}))
       ->capture_default_str();
   command.add_option("--tolerance", options.tolerance, "relative force error allowed to the integration")
       ->check(real_number(1e-10, 1e-2))
@@ -255,5 +255,9 @@ void remember_command(int count, char** arguments) {
 }
 
 const std::string& command_line() { return typed; }
+
+std::vector<const CLI::App*> commands_of(const CLI::App& program) {
+  return program.get_subcommands([](const CLI::App* command) { return !command->get_name().empty(); });
+}
 
 }  // namespace hysteron::app

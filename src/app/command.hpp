@@ -89,6 +89,9 @@ nlohmann::json environment(int threads, double seconds);
 void remember_command(int count, char** arguments);
 const std::string& command_line();
 
+// Of the program, in the order of --help.
+std::vector<const CLI::App*> commands_of(const CLI::App& program);
+
 void add_fit(CLI::App& program);
 void add_simulate(CLI::App& program);
 void add_score(CLI::App& program);

@@ -129,12 +129,12 @@ void add_export(CLI::App& program) {
       ->check(real_number(1e-10, 1e-2))
       ->capture_default_str();
   command->add_option("--most-substeps", options->most_substeps, "steps of the integration between two samples at most")
-      ->check(CLI::Range(1, default_most_substeps))
+      ->transform(whole_number(1, default_most_substeps))
       ->capture_default_str();
   command
       ->add_option("--substeps", options->substeps,
                    "always so many steps between two samples, for a fixed time a sample; 0: as the stiffness asks")
-      ->check(CLI::Range(0, default_most_substeps))
+      ->transform(whole_number(0, default_most_substeps))
       ->capture_default_str();
   command->footer(
       "Examples:\n"

@@ -221,7 +221,7 @@ void add_fit(CLI::App& program) {
   command
       ->add_option("--stages", options->stages,
                    "two: also the laws through the values of conditions fitted freely, beside the joint fit")
-      ->check(CLI::IsMember({"one", "two"}))
+      ->check(one_of({"one", "two"}))
       ->capture_default_str();
   command->add_option("--fix", options->fix, "PARAMETER=VALUE held, SI units; repeatable")
       ->delimiter(',')
@@ -249,12 +249,12 @@ void add_fit(CLI::App& program) {
       ->add_option("--excitation", options->excitation,
                    "force: on the mass; base: displacement of what it stands on; auto: what the files hold; with "
                    "--response")
-      ->check(CLI::IsMember({"auto", "force", "base"}))
+      ->check(one_of({"auto", "force", "base"}))
       ->needs(response);
   command
       ->add_option("--interpolation", options->interpolation,
                    "of force or base between the samples: linear, cubic, band-limited; with --response")
-      ->check(CLI::IsMember({"linear", "cubic", "band-limited"}))
+      ->check(one_of({"linear", "cubic", "band-limited"}))
       ->needs(response);
   response->needs(command->get_option("--mass"));
   command

@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "app/command.hpp"
+#include "app/complaint.hpp"
 #include "app/mistyped.hpp"
 #include "core/error.hpp"
 #include "core/printable.hpp"
@@ -84,9 +85,7 @@ int run(int count, char** arguments) {
   } catch (const CLI::Success& success) {
     return program.exit(success);
   } catch (const CLI::ParseError& error) {
-    std::string message = error.what();
-    std::ranges::replace(message, '\n', ' ');
-    complain(message + " (" + app::see_help(program) + ")");
+    complain(app::complaint(program, error));
     return 2;
   } catch (const InputError& error) {
     complain(error.what());

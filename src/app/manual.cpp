@@ -6,15 +6,12 @@
 #include <memory>
 
 #include "app/command.hpp"
+#include "app/values.hpp"
 #include "fit/solver.hpp"
 #include "simulate/part.hpp"
 
 namespace hysteron::app {
 namespace {
-
-std::vector<const CLI::App*> commands_of(const CLI::App& program) {
-  return program.get_subcommands([](const CLI::App* command) { return !command->get_name().empty(); });
-}
 
 // --- the manual page
 
@@ -206,7 +203,7 @@ void add_manual(CLI::App& program) {
   CLI::App* completion = program.add_subcommand("completion", "prints the completion of commands for a shell");
   completion->add_option("SHELL", *shell, "bash, zsh or fish")
       ->required()
-      ->check(CLI::IsMember({"bash", "zsh", "fish"}));
+      ->check(one_of({"bash", "zsh", "fish"}));
   completion->footer("Example:\n  source <(hysteron completion bash)");
   completion->callback([&program, shell] {
     fmt::print("{}", *shell == "bash" ? bash_of(program) : *shell == "zsh" ? zsh_of(program) : fish_of(program));

@@ -1,18 +1,18 @@
 #include "app/mistyped.hpp"
 
 #include <algorithm>
+#include <cctype>
 
+#include "app/command.hpp"
 #include "core/error.hpp"
 #include "core/suggest.hpp"
 
 namespace hysteron::app {
 namespace {
 
-std::vector<std::string> commands_of(const CLI::App& program) {
+std::vector<std::string> names_of_commands(const CLI::App& program) {
   std::vector<std::string> result;
-  for (const CLI::App* command : program.get_subcommands([](const CLI::App*) { return true; })) {
-    result.push_back(command->get_name());
-  }
+  for (const CLI::App* command : commands_of(program)) result.push_back(command->get_name());
   return result;
 }
 
@@ -27,23 +27,49 @@ std::vector<std::string> options_of(const CLI::App& command) {
 }
 
 void refuse_unknown_command(const CLI::App& program, const std::string& word) {
-  std::vector<std::string> known = commands_of(program);
+  std::vector<std::string> known = names_of_commands(program);
   known.insert(known.end(), {"help", "version"});
   if (std::ranges::find(known, word) == known.end()) {
     throw InputError("there is no command '" + word + "'" + suggestion(word, known) + ", see hysteron --help");
   }
 }
 
+// "--budget" of "--budget=5"; empty for words that are no options: values, negative numbers, and "-", the standard
+// output. Words of one dash and a letter are none but -h.
+std::string option_in(const std::string& word) {
+  const bool dashed = word.starts_with("--") ||
+                      (word.size() > 1 && word[0] == '-' && std::isalpha(static_cast<unsigned char>(word[1])) != 0);
+  return dashed ? word.substr(0, word.find('=')) : std::string();
+}
+
+bool knows(const CLI::App& command, const std::string& option) {
+  const std::vector<std::string> known = options_of(command);
+  return option == "-h" || std::ranges::find(known, option) != known.end();
+}
+
 // Words behind the command. A value that begins with two dashes is written --option=VALUE.
 void refuse_unknown_options(const CLI::App& command, const std::vector<std::string>& words, std::size_t from) {
-  const std::vector<std::string> known = options_of(command);
   for (std::size_t k = from; k < words.size() && words[k] != "--"; ++k) {
-    const std::string option = words[k].substr(0, words[k].find('='));
-    if (option.starts_with("--") && std::ranges::find(known, option) == known.end()) {
-      throw InputError(command.get_name() + " has no option '" + option + "'" + suggestion(option, known) +
-                       ", see hysteron " + command.get_name() + " --help");
+    const std::string option = option_in(words[k]);
+    if (!option.empty() && !knows(command, option)) {
+      throw InputError(command.get_name() + " has no option '" + option + "'" +
+                       suggestion(option, options_of(command)) + ", see hysteron " + command.get_name() + " --help");
     }
   }
+}
+
+// A word in front of the command, or without one.
+void refuse_unknown_option(const CLI::App& program, const std::string& word) {
+  const std::string option = option_in(word);
+  if (option.empty() || knows(program, option)) return;
+  for (const CLI::App* command : commands_of(program)) {
+    if (knows(*command, option)) {
+      throw InputError("'" + option + "' stands before a command, expected it behind one that has it, as in hysteron " +
+                       command->get_name() + " " + option);
+    }
+  }
+  throw InputError("hysteron has no option '" + option + "'" + suggestion(option, options_of(program)) +
+                   ", see hysteron --help");
 }
 
 }  // namespace
@@ -52,6 +78,7 @@ std::vector<std::string> understood(const CLI::App& program, int count, char** a
   std::vector<std::string> words(arguments + 1, arguments + count);
   std::size_t k = 0;
   while (k < words.size() && words[k].starts_with("-")) {
+    refuse_unknown_option(program, words[k]);
     k += words[k] == "--plugin" ? 2 : 1;
   }
   if (words.empty()) {

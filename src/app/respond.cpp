@@ -172,17 +172,17 @@ void add_respond(CLI::App& program) {
   command
       ->add_option("--excitation", options->excitation,
                    "force: on the mass; base: displacement of the ground; auto: what the file holds")
-      ->check(CLI::IsMember({"auto", "force", "base"}))
+      ->check(one_of({"auto", "force", "base"}))
       ->capture_default_str();
   command
       ->add_option("--interpolation", options->interpolation,
                    "of the excitation between its samples: linear, cubic, band-limited")
-      ->check(CLI::IsMember({"linear", "cubic", "band-limited"}))
+      ->check(one_of({"linear", "cubic", "band-limited"}))
       ->capture_default_str();
   command
       ->add_option("--periods", options->periods,
                    "the excitation is one period: it is repeated so many times and the last response is written")
-      ->check(CLI::Range(0, 10000));
+      ->transform(whole_number(0, 10000));
   command->add_option("--x0", options->respond.displacement, "displacement at the start, m, relative to the base")
       ->check(real_number(-farthest_motion, farthest_motion));
   command->add_option("--v0", options->respond.velocity, "velocity at the start, m/s, relative to the base")

@@ -2,12 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <limits>
 #include <optional>
 
 #include "core/error.hpp"
+#include "core/suggest.hpp"
 
 namespace hysteron::app {
 namespace {
@@ -65,6 +67,20 @@ CLI::Validator real_number(double low, double high) {
             return good ? std::string{} : fmt::format("'{}' is not a number from {}", text, range);
           },
           range};
+}
+
+CLI::Validator one_of(const std::vector<std::string>& words) {
+  std::string list;
+  std::string expected;
+  for (const std::string& word : words) {
+    list += (list.empty() ? "" : ",") + word;
+    expected += (expected.empty() ? "" : &word == &words.back() ? " or " : ", ") + word;
+  }
+  return {[=](std::string& text) {
+            if (std::ranges::find(words, text) != words.end()) return std::string{};
+            return fmt::format("'{}' is not known{}, expected {}", text, suggestion(text, words), expected);
+          },
+          "{" + list + "}"};
 }
 
 double parse_number(const std::string& option, const std::string& text) {

@@ -21,6 +21,9 @@ namespace hysteron::app {
 // A finite number from `low` to `high`.
 [[nodiscard]] CLI::Validator real_number(double low, double high);
 
+// One of these words, named by --help and completion; the nearest is offered for another.
+[[nodiscard]] CLI::Validator one_of(const std::vector<std::string>& words);
+
 // "NAME=VALUE" -> its two halves, the name not empty; `expected` ends the message.
 std::pair<std::string, std::string> split_pair(const std::string& option, const std::string& text,
                                                const std::string& expected);

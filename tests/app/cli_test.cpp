@@ -291,7 +291,13 @@ TEST_F(Program, MistypedWordsAreToldWithTheNearestOne) {
        "error: fit has no option '--budgt' (did you mean '--budget'?), see hysteron fit --help\n"},
       {{"fit", "data", "--budgt=5"},
        "error: fit has no option '--budgt' (did you mean '--budget'?), see hysteron fit --help\n"},
-      {{"fit", "data"}, "error: --out is required (see hysteron fit --help)\n"},
+      {{"--foo"}, "error: hysteron has no option '--foo', see hysteron --help\n"},
+      {{"--verson"}, "error: hysteron has no option '--verson' (did you mean '--version'?), see hysteron --help\n"},
+      {{"--foo", "fit", "data"}, "error: hysteron has no option '--foo', see hysteron --help\n"},
+      {{"-x"}, "error: hysteron has no option '-x', see hysteron --help\n"},
+      {{"fit", "data", "-q"}, "error: fit has no option '-q', see hysteron fit --help\n"},
+      {{"--mass", "5", "respond", "m.json"},
+       "error: '--mass' stands before a command, expected it behind one that has it, as in hysteron fit --mass\n"},
   };
   for (const Typed& typed : cases) {
     const Outcome outcome = run(typed.words);
