@@ -34,7 +34,21 @@ std::string hash_of(const Recording& recording) {
   return sha256_hex(bytes);
 }
 
-Campaign load(const DataSpec& spec, std::vector<Remark>& remarks) {
+// What is wrong with a path that a study names, rather than with a file in it, is said with the study's line.
+Campaign load_paths(const DataSpec& spec, const std::string& file, const ReadOptions& read) {
+  try {
+    return load_campaign(spec.paths, read);
+  } catch (const InputError& error) {
+    const std::string message = error.what();
+    if (spec.paths_line > 0 &&
+        std::ranges::any_of(spec.paths, [&](const std::string& path) { return message.starts_with(path + ": "); })) {
+      throw InputError(file, spec.paths_line, "recordings: " + message);
+    }
+    throw;
+  }
+}
+
+Campaign load(const DataSpec& spec, const std::string& file, std::vector<Remark>& remarks) {
   if (!spec.made.empty()) {
     Campaign campaign;
     campaign.recordings = spec.made;
@@ -45,7 +59,7 @@ Campaign load(const DataSpec& spec, std::vector<Remark>& remarks) {
   if (spec.dataset.empty()) {
     ReadOptions read;
     read.remark = [&](const Remark& remark) { remarks.push_back(remark); };
-    return load_campaign(spec.paths, read);
+    return load_paths(spec, file, read);
   }
   const DatasetEntry* entry = find_dataset(spec.dataset);
   if (entry == nullptr) throw InputError("unknown dataset '" + spec.dataset + "', see `hysteron list datasets`");
@@ -62,6 +76,23 @@ bool named_by(const std::vector<std::string>& parts, const Recording& recording)
                              [&](const std::string& part) { return recording.file.find(part) != std::string::npos; });
 }
 
+std::string listed(const std::vector<std::string>& words, const std::string& between) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "'" : between + "'") + word + "'";
+  return text;
+}
+
+// The first of the recordings, by name.
+std::string names_in(const Campaign& campaign) {
+  constexpr std::size_t most = 3;
+  std::vector<std::string> names;
+  for (const Recording& recording : campaign.recordings) {
+    if (names.size() < most) names.push_back(recording.file);
+  }
+  const std::size_t others = campaign.recordings.size() - names.size();
+  return listed(names, ", ") + (others == 0 ? "" : " or " + std::to_string(others) + " others");
+}
+
 struct DataGroup {
   std::string label;
   std::vector<Recording> fitted;
@@ -69,7 +100,7 @@ struct DataGroup {
 };
 
 std::vector<DataGroup> groups_of(const DataSpec& spec, const std::string& file, std::vector<Remark>& remarks) {
-  const Campaign campaign = load(spec, remarks);
+  const Campaign campaign = load(spec, file, remarks);
   DataGroup all{spec.label, {}, {}};
   std::vector<DataGroup> each;
   for (std::size_t k = 0; k < campaign.recordings.size(); ++k) {
@@ -85,7 +116,9 @@ std::vector<DataGroup> groups_of(const DataSpec& spec, const std::string& file, 
     (judges ? all.heldout : all.fitted).push_back(recording);
   }
   if (all.fitted.empty() && all.heldout.empty()) {
-    throw InputError(file, spec.line, "no recording of '" + spec.label + "' has a name that contains one of 'only'");
+    throw InputError(file, spec.line,
+                     "no recording of '" + spec.label + "' has a name that contains " + listed(spec.only, " or ") +
+                         " of 'only', expected a part of " + names_in(campaign));
   }
   if (spec.each) return each;
   if (all.fitted.empty()) {
@@ -95,7 +128,8 @@ std::vector<DataGroup> groups_of(const DataSpec& spec, const std::string& file, 
   for (const std::string& part : spec.validate) {
     if (std::ranges::none_of(all.heldout, [&](const Recording& recording) { return named_by({part}, recording); })) {
       throw InputError(file, spec.line,
-                       "no recording of '" + spec.label + "' has a name that contains '" + part + "' of 'validate'");
+                       "no recording of '" + spec.label + "' has a name that contains '" + part +
+                           "' of 'validate', expected a part of " + names_in(campaign));
     }
   }
   return {all};

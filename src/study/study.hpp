@@ -34,6 +34,7 @@ struct DataSpec {
   // Recordings whose name contains one of these are scored, not fitted; empty: those the campaign says. Not with
   // `each`.
   std::vector<std::string> validate = {};
+  int paths_line = 0;  // of `paths` in the study's file; 0: they are of a command line
 };
 
 struct SolverSpec {

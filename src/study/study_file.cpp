@@ -89,17 +89,40 @@ class Parser : private TomlReader {
     return *node;
   }
 
+  // A value as it is written, for messages; lists and tables by their kind.
+  static std::string said(const toml::node& node) {
+    if (const auto* text = node.as_string()) return in_quotes(text->get());
+    if (const auto* whole = node.as_integer()) return std::to_string(whole->get());
+    if (const auto* number = node.as_floating_point()) return brief(number->get());
+    if (const auto* truth = node.as_boolean()) return truth->get() ? "true" : "false";
+    if (const auto* list = node.as_array()) return list->empty() ? "an empty list" : "a list";
+    return node.is_table() ? "a table" : "a time";
+  }
+
   // Text that is not empty.
   [[nodiscard]] std::string word_of(const toml::node& node, const std::string& name) const {
-    std::string text = text_of(node, name);
-    if (text.empty()) fail(node, "'" + name + "' is not text, expected a string in double quotes");
-    return text;
+    if (!node.is_string() || node.as_string()->get().empty()) {
+      fail(node, "'" + name + "' is " + said(node) + ", expected text in double quotes");
+    }
+    return node.as_string()->get();
+  }
+
+  [[nodiscard]] bool truth_of(const toml::node& node, const std::string& name) const {
+    if (!node.is_boolean()) fail(node, "'" + name + "' is " + said(node) + ", expected true or false");
+    return node.as_boolean()->get();
+  }
+
+  [[nodiscard]] const toml::table& table_of(const toml::node& node, const std::string& name,
+                                            const std::string& example) const {
+    const auto* table = node.as_table();
+    if (table == nullptr) fail(node, "'" + name + "' is " + said(node) + ", expected for example " + example);
+    return *table;
   }
 
   [[nodiscard]] double number_of(const toml::node& node, const std::string& name, double low, double high) const {
     const auto value = node.value<double>();
     if (!node.is_number() || !value || !(*value >= low) || !(*value <= high)) {
-      fail(node, "'" + name + "' is not a number from " + brief(low) + " to " + brief(high));
+      fail(node, "'" + name + "' is " + said(node) + ", expected a number from " + brief(low) + " to " + brief(high));
     }
     return *value;
   }
@@ -120,7 +143,8 @@ class Parser : private TomlReader {
                                       std::int64_t high) const {
     const auto* value = node.as_integer();
     if (value == nullptr || value->get() < low || value->get() > high) {
-      fail(node, "'" + name + "' is not a whole number from " + std::to_string(low) + " to " + std::to_string(high));
+      fail(node, "'" + name + "' is " + said(node) + ", expected a whole number from " + std::to_string(low) + " to " +
+                     std::to_string(high));
     }
     return value->get();
   }
@@ -128,7 +152,8 @@ class Parser : private TomlReader {
   [[nodiscard]] const toml::array& array_of(const toml::node& node, const std::string& name,
                                             const std::string& example) const {
     const auto* array = node.as_array();
-    if (array == nullptr || array->empty()) fail(node, "'" + name + "' is not a list, expected for example " + example);
+    if (array == nullptr || array->empty())
+      fail(node, "'" + name + "' is " + said(node) + ", expected for example " + example);
     return *array;
   }
 
@@ -153,7 +178,7 @@ class Parser : private TomlReader {
     const auto add = [&](const toml::node& one) {
       const auto value = static_cast<std::size_t>(whole_of(one, "budgets", 1, largest_budget));
       if (std::ranges::find(result, value) != result.end())
-        fail(one, "budget " + std::to_string(value) + " is given twice");
+        fail(one, "budget " + std::to_string(value) + " is given twice, expected each once");
       result.push_back(value);
     };
     if (node.is_integer()) {
@@ -176,17 +201,16 @@ class Parser : private TomlReader {
     for (const auto& element : array_of(node, "seeds", "seeds = 31, which means 1 to 31, or seeds = [1, 2, 3]")) {
       const auto seed =
           static_cast<std::uint64_t>(whole_of(element, "seeds", 0, std::numeric_limits<std::int64_t>::max()));
-      if (!seen.insert(seed).second) fail(element, "seed " + std::to_string(seed) + " is given twice");
+      if (!seen.insert(seed).second)
+        fail(element, "seed " + std::to_string(seed) + " is given twice, expected each once");
       result.push_back(seed);
     }
     return result;
   }
 
   [[nodiscard]] std::map<std::string, int> orders_of(const toml::node& node, const std::string& name) const {
-    const auto* table = node.as_table();
-    if (table == nullptr) fail(node, "'" + name + "' is not a table, expected " + name + " = { alpha = 1 }");
     std::map<std::string, int> result;
-    for (const auto& [key, value] : *table) {
+    for (const auto& [key, value] : table_of(node, name, name + " = { alpha = 1 }")) {
       result[std::string(key.str())] = static_cast<int>(whole_of(value, std::string(key.str()), 0, highest_order));
     }
     return result;
@@ -206,7 +230,7 @@ class Parser : private TomlReader {
       }
     } else {
       const auto* table = node.as_table();
-      if (table == nullptr) fail(node, "a model is a name or a table, expected for example \"bouc-wen+offset-force\"");
+      if (table == nullptr) fail(node, "a model is " + said(node) + ", expected for example \"bouc-wen+offset-force\"");
       check_keys(*table, {"id", "label", "effects", "by_current", "by_frequency", "fix", "bounds"}, " of a model");
       const auto* id = table->get("id");
       if (id == nullptr) fail(node, "a model without 'id', expected for example id = \"bouc-wen\"");
@@ -219,23 +243,23 @@ class Parser : private TomlReader {
       if (const auto* orders = table->get("by_frequency"))
         spec.layout.by_frequency = orders_of(*orders, "by_frequency");
       if (const auto* fix = table->get("fix")) {
-        if (!fix->is_table()) fail(*fix, "'fix' is not a table, expected fix = { n = 1.0 }");
-        for (const auto& [key, value] : *fix->as_table()) {
+        for (const auto& [key, value] : table_of(*fix, "fix", "fix = { n = 1.0 }")) {
           spec.layout.fix[std::string(key.str())] = number_of(value, std::string(key.str()), -1e300, 1e300);
         }
       }
       if (const auto* bounds = table->get("bounds")) {
-        if (!bounds->is_table()) fail(*bounds, "'bounds' is not a table, expected bounds = { k0 = [-1e4, 1e4] }");
-        for (const auto& [key, value] : *bounds->as_table()) {
+        for (const auto& [key, value] : table_of(*bounds, "bounds", "bounds = { k0 = [-1e4, 1e4] }")) {
           const auto* pair = value.as_array();
           if (pair == nullptr || pair->size() != 2) {
-            fail(value,
-                 "the bounds of '" + std::string(key.str()) + "' are not a pair, expected [LOWER, UPPER] in SI units");
+            fail(value, "the bounds of '" + std::string(key.str()) + "' are " +
+                            (pair == nullptr ? said(value) : std::to_string(pair->size()) + " in number") +
+                            ", expected [LOWER, UPPER] in SI units");
           }
           const double low = number_of(*pair->get(0), std::string(key.str()), -1e300, 1e300);
           const double high = number_of(*pair->get(1), std::string(key.str()), -1e300, 1e300);
           if (!(low < high))
-            fail(value, "the bounds of '" + std::string(key.str()) + "' are empty, expected LOWER below UPPER");
+            fail(value, "the bounds of '" + std::string(key.str()) + "' are " + brief(low) + " and " + brief(high) +
+                            ", expected LOWER below UPPER");
           spec.layout.bounds[std::string(key.str())] = {low, high};
         }
       }
@@ -283,14 +307,15 @@ class Parser : private TomlReader {
         root, "data", "data", "[[data]] with dataset = \"rd8040-twin\" or recordings = [\"FOLDER\"]", study.data,
         [&](const toml::node& node) {
           const auto* table = node.as_table();
-          if (table == nullptr) fail(node, "data is not a table, expected [[data]]");
+          if (table == nullptr) fail(node, "'data' is " + said(node) + ", expected [[data]]");
           check_keys(*table, {"dataset", "recordings", "label", "seed", "only", "validate", "each"}, " of [[data]]");
           DataSpec spec;
           spec.line = line_of(node);
           const auto* dataset = table->get("dataset");
           const auto* recordings = table->get("recordings");
           if ((dataset == nullptr) == (recordings == nullptr)) {
-            fail(node, "[[data]] needs either dataset = \"ID\" or recordings = [\"FILE OR FOLDER\"]");
+            fail(node, std::string("[[data]] has ") + (dataset == nullptr ? "neither" : "both") +
+                           ", expected either dataset = \"ID\" or recordings = [\"FILE OR FOLDER\"]");
           }
           if (dataset != nullptr) {
             spec.dataset = word_of(*dataset, "dataset");
@@ -307,6 +332,7 @@ class Parser : private TomlReader {
                        "fit --response`");
             }
           } else {
+            spec.paths_line = line_of(*recordings);
             for (const std::string& name : texts_of(*recordings, "recordings")) {
               const fs::path path(name);
               spec.paths.push_back(path.is_absolute() ? path.string() : (path_.parent_path() / path).string());
@@ -317,17 +343,20 @@ class Parser : private TomlReader {
           }
           if (const auto* value = table->get("label")) spec.label = word_of(*value, "label");
           if (const auto* value = table->get("seed")) {
-            if (dataset == nullptr) fail(*value, "'seed' is the noise of a shipped dataset, not of recordings");
+            if (dataset == nullptr) {
+              fail(*value, "'seed' is the noise of a shipped dataset, expected none beside recordings");
+            }
             spec.seed =
                 static_cast<std::uint64_t>(whole_of(*value, "seed", 0, std::numeric_limits<std::int64_t>::max()));
           }
           if (const auto* value = table->get("only")) spec.only = texts_of(*value, "only");
           if (const auto* value = table->get("validate")) spec.validate = texts_of(*value, "validate");
           if (const auto* value = table->get("each")) {
-            if (!value->is_boolean()) fail(*value, "'each' is not true or false");
-            spec.each = value->as_boolean()->get();
+            spec.each = truth_of(*value, "each");
             if (spec.each && !spec.validate.empty()) {
-              fail(*value, "'each' makes every recording a problem, so that 'validate' has none to judge by");
+              fail(*value,
+                   "'each' makes every recording a problem, so that 'validate' has none to judge by, expected one "
+                   "of the two");
             }
           }
           return spec;
@@ -344,21 +373,19 @@ class Parser : private TomlReader {
         spec.label = spec.id;
       } else {
         const auto* table = node.as_table();
-        if (table == nullptr) fail(node, "a solver is a name or a table, expected for example \"pso\"");
+        if (table == nullptr) fail(node, "a solver is " + said(node) + ", expected for example \"pso\"");
         check_keys(*table, {"id", "label", "settings", "project"}, " of a solver");
         const auto* id = table->get("id");
         if (id == nullptr) fail(node, "a solver without 'id', expected for example id = \"pso\"");
         spec.id = word_of(*id, "id");
         spec.label = spec.id;
         if (const auto* value = table->get("project")) {
-          if (!value->is_boolean()) fail(*value, "'project' is not true or false");
-          spec.project = value->as_boolean()->get();
+          spec.project = truth_of(*value, "project");
           if (spec.project) spec.label += " (projected)";
         }
         if (const auto* label = table->get("label")) spec.label = word_of(*label, "label");
         if (const auto* value = table->get("settings")) {
-          settings = value->as_table();
-          if (settings == nullptr) fail(*value, "'settings' is not a table, expected settings = { population = 100 }");
+          settings = &table_of(*value, "settings", "settings = { population = 100 }");
         }
       }
       const SolverEntry* entry = find_solver(spec.id);

@@ -94,19 +94,35 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"zero_budget",
               head + "budgets = 0\nmodels = [\"viscous\"]\nsolvers = [\"pso\"]\nseeds = 1\n[[data]]\ndataset = "
                      "\"rd8040-twin\"\n",
-              2, "whole number from 1"},
+              2, "'budgets' is 0, expected a whole number from 1 to "},
         Wrong{"negative_seed",
               head + "seeds = [-1]\nmodels = [\"viscous\"]\nsolvers = [\"pso\"]\nbudgets = 1\n[[data]]\ndataset = "
                      "\"rd8040-twin\"\n",
-              2, "whole number from 0"},
+              2, "'seeds' is -1, expected a whole number from 0 to "},
         Wrong{"seed_twice",
               head + "seeds = [1, 1]\nmodels = [\"viscous\"]\nsolvers = [\"pso\"]\nbudgets = 1\n[[data]]\ndataset = "
                      "\"rd8040-twin\"\n",
-              2, "given twice"},
+              2, "seed 1 is given twice, expected each once"},
         Wrong{"text_budget",
               head + "budgets = \"many\"\nmodels = [\"viscous\"]\nsolvers = [\"pso\"]\nseeds = 1\n[[data]]\ndataset = "
                      "\"rd8040-twin\"\n",
-              2, "not a list"},
+              2, "'budgets' is 'many', expected for example budgets = [1000, 10000]"},
+        Wrong{"number_as_name", head + "title = 3\n" + rest, 2, "'title' is 3, expected text in double quotes"},
+        Wrong{"tie_out_of_range", head + "tie = 0.75\n" + rest, 2, "'tie' is 0.75, expected a number from 0 to 0.5"},
+        Wrong{"each_of_text", head + rest + "each = \"yes\"\n", 9, "'each' is 'yes', expected true or false"},
+        Wrong{"empty_list", head + "targets = []\n" + rest, 2, "'targets' is an empty list, expected for example"},
+        Wrong{"bounds_turned",
+              head + "models = [{ id = \"viscous\", bounds = { c0 = [2, 1] } }]\nsolvers = [\"pso\"]\nbudgets = "
+                     "1\nseeds = 1\n[[data]]\ndataset = \"rd8040-twin\"\n",
+              2, "the bounds of 'c0' are 2 and 1, expected LOWER below UPPER"},
+        Wrong{"bounds_alone",
+              head + "models = [{ id = \"viscous\", bounds = { c0 = [2] } }]\nsolvers = [\"pso\"]\nbudgets = "
+                     "1\nseeds = 1\n[[data]]\ndataset = \"rd8040-twin\"\n",
+              2, "the bounds of 'c0' are 1 in number, expected [LOWER, UPPER]"},
+        Wrong{"no_such_folder",
+              head + "models = [\"viscous\"]\nsolvers = [\"pso\"]\nbudgets = 1\nseeds = 1\n[[data]]\nrecordings = "
+                     "\"nowhere\"\n",
+              7, "nowhere: there is no such file, expected a readable file"},
         Wrong{"target_below_one", head + "targets = [0.5]\n" + rest, 2, "from 1 to"},
         Wrong{"no_data", head + "models = [\"viscous\"]\nsolvers = [\"pso\"]\nbudgets = 1\nseeds = 1\n", 1,
               "no 'data'"},
@@ -121,7 +137,7 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"nothing_chosen",
               head + "models = [\"viscous\"]\nsolvers = [\"pso\"]\nbudgets = 1\nseeds = 1\n[[data]]\ndataset = "
                      "\"rd8040-twin\"\nonly = \"9Hz\"\n",
-              6, "contains one of 'only'"},
+              6, "contains '9Hz' of 'only', expected a part of '"},
         Wrong{"unknown_parameter",
               head + "models = [{ id = \"viscous\", by_current = { zeta = 1 } }]\nsolvers = [\"pso\"]\nbudgets = "
                      "1\nseeds = 1\n[[data]]\ndataset = \"rd8040-twin\"\n",
