@@ -97,6 +97,7 @@ void add_simulate(CLI::App& program);
 void add_score(CLI::App& program);
 void add_export(CLI::App& program);
 void add_manual(CLI::App& program);
+void add_completion(CLI::App& program);
 void add_profile(CLI::App& program);
 void add_minimise(CLI::App& program);
 void add_compare(CLI::App& program);

@@ -77,6 +77,7 @@ int run(int count, char** arguments) {
   app::add_minimise(program);
   app::add_profile(program);
   app::add_manual(program);
+  app::add_completion(program);
   try {
     load_plugins(count, arguments);
     std::vector<std::string> words = app::understood(program, count, arguments);

@@ -160,6 +160,19 @@ json catalogue_json(const std::string& kind) {
   return result;
 }
 
+std::vector<std::string> describable_ids() {
+  std::vector<std::string> known;
+  for (const char* kind : {"models", "effects", "solvers", "datasets"}) {
+    for (const CatalogueRow& row : catalogue_rows(kind)) {
+      known.push_back(row.id);
+    }
+  }
+  for (const Preset* preset : preset_catalogue()) {
+    known.emplace_back(preset->id);
+  }
+  return known;
+}
+
 json description_json(const std::string& id) {
   if (const Part* model = find_model(id)) return part_json(*model, "model");
   if (const Part* effect = find_effect(id)) return part_json(*effect, "effect");
@@ -170,16 +183,8 @@ json description_json(const std::string& id) {
   if (find_published_table(id) != nullptr) {
     throw InputError("'" + id + "' is a published table, which `hysteron reproduce " + id + "` makes again");
   }
-  std::vector<std::string> known;
-  for (const char* kind : {"models", "effects", "solvers", "datasets"}) {
-    for (const CatalogueRow& row : catalogue_rows(kind)) {
-      known.push_back(row.id);
-    }
-  }
-  for (const Preset* preset : preset_catalogue()) {
-    known.emplace_back(preset->id);
-  }
-  throw InputError("nothing is called '" + id + "'" + suggestion(id, known) + ", see `hysteron list models`");
+  throw InputError("nothing is called '" + id + "'" + suggestion(id, describable_ids()) +
+                   ", see `hysteron list models`");
 }
 
 }  // namespace hysteron

@@ -20,6 +20,8 @@ std::vector<CatalogueRow> catalogue_rows(const std::string& kind);
 // The same rows, with what is known of effects.
 nlohmann::json catalogue_json(const std::string& kind);
 
+// Whatever description_json takes but families of solvers.
+std::vector<std::string> describable_ids();
 // One model, effect, solver, family of solvers, parameter set or dataset. Throws InputError, with the nearest name,
 // where nothing is called so.
 nlohmann::json description_json(const std::string& id);
