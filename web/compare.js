@@ -112,7 +112,8 @@ function draw() {
           [edge(1), edge(-1), ...models.map((m, k) => ({ x: lags, y: m.residual.autocorrelation, stroke: color(k), dash: dash(k) }))]),
         chart("Histogram of the residual over its root mean square; dashed: normal", "residual / RMS", "density",
           [normal, ...models.map((m, k) => ({ x: centres, y: m.residual.histogram.density, stroke: color(k), dash: dash(k) }))]))),
-      section("recordings", "Recordings", each, el("p", { class: "note" }, "* the model was not fitted on this recording.")),
+      section("recordings", "Recordings", each,
+        data.recordings.every((r) => r.fitted.every(Boolean)) ? [] : el("p", { class: "note" }, "* the model was not fitted on this recording.")),
       section("command", "Command", el("pre", { style: "white-space:pre-wrap;overflow-wrap:anywhere" }, data.command))));
   loops(0);
 }

@@ -337,17 +337,20 @@ void run(const Options& options) {
                          "; lag 1: correlation of neighbouring residuals; not white: lags outside the band of noise") +
                  "\n");
   rows.clear();
+  bool starred = false;
   for (const std::size_t r : all) {
     std::vector<std::string> row = {campaign.recordings[r].file};
     for (const Compared& model : models) {
-      row.push_back(format_number(model.scores[r].nrmse, 4) +
-                    (model.stored.fitted_on.contains(campaign.recordings[r].sha256) ? "" : "*"));
+      const bool unseen = !model.stored.fitted_on.contains(campaign.recordings[r].sha256);
+      row.push_back(format_number(model.scores[r].nrmse, 4) + (unseen ? "*" : ""));
+      starred = starred || unseen;
     }
     rows.push_back(std::move(row));
   }
   std::vector<std::string> head = {"recording"};
   for (std::size_t k = 0; k < models.size(); ++k) head.push_back(fmt::format("NRMSE {}", k + 1));
-  say_beside(options.out, table(head, rows) + "* not fitted on by that model\n" + wrapped(criteria_note));
+  say_beside(options.out,
+             table(head, rows) + (starred ? "* not fitted on by that model\n" : "") + wrapped(criteria_note));
   if (!is_standard_output(options.out)) {
     fmt::print("report: {}\n", (out / "report.html").string());
   }

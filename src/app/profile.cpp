@@ -157,9 +157,15 @@ void run(const Options& options) {
     fmt::print("{}", json_text({{"schema", "hysteron.profile/1"}, {"budget", options.budget}, {"rows", rows}}));
     return;
   }
-  fmt::print("{}\n{}", text,
-             wrapped("Idle is what the threads offered and did not use; an evaluation with derivatives counts as 1 + "
-                     "number of parameters."));
+  std::string notes;
+  const auto any = [&](const auto& has) { return std::ranges::any_of(rows, has); };
+  if (threads > 1 && any([](const json& row) { return row["team"]["idle_share"].is_number(); })) {
+    notes += "Idle is what the threads offered and did not use. ";
+  }
+  if (any([](const json& row) { return row["one_thread"]["derivatives_s"].get<double>() > 0.0; })) {
+    notes += "An evaluation with derivatives counts as 1 + number of parameters.";
+  }
+  fmt::print("{}{}", text, notes.empty() ? "" : "\n" + wrapped(notes));
 }
 
 }  // namespace

@@ -37,5 +37,25 @@ TEST_F(Profile, EverySolverSaysWhatItCanOfTheSmallestBudgets) {
   }
 }
 
+// What is not printed needs no explanation.
+TEST_F(Profile, ExplainsWhatItPrints) {
+  const auto said = [&](const std::string& solver, const std::string& threads) {
+    return run({"profile", "data", "--model", "viscous", "--budget", "200", "--quiet", "--solver", solver, "--threads",
+                threads})
+        .out;
+  };
+  for (const char* solver : {"pso", "multistart-lm"}) {
+    for (const char* threads : {"1", "2"}) {
+      const std::string out = said(solver, threads);
+      EXPECT_EQ(out.find("Idle is") != std::string::npos, out.find(", idle ") != std::string::npos) << out;
+      EXPECT_EQ(out.find("An evaluation with derivatives") != std::string::npos,
+                out.find("derivatives 0.0 %") == std::string::npos)
+          << out;
+    }
+  }
+  EXPECT_EQ(said("pso", "1").find("Idle"), std::string::npos);
+  EXPECT_NE(said("pso", "2").find("Idle"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace hysteron
