@@ -689,6 +689,8 @@ function printedUnit(unit) {
   const head = unit.slice(0, begin).replace(/\^(\d+)/g, (_, power) => superscript(power));
   return [head === "1" ? "" : head, ...[...powers].map(([symbol, power]) => symbol + superscript(-power))].filter(Boolean).join(" ");
 }
+// A unit as the program writes it, with raised powers; it may break before "per" only.
+const unitWords = (unit) => String(unit || "").replace(/\^(-?\d+)/g, (_, power) => superscript(power)).replace(/ (?!per )/g, "\u00a0");
 const printedTerm = (p) => (String(p.unit).includes("/V") ? p.name.replace("*i", "*u") : p.name);
 
 function parameterRemarks(p) {
@@ -706,7 +708,7 @@ function modelSection() {
   const rows = parameters.map((p) => [
     p.symbol && p.symbol !== p.name ? el("span", {}, el("code", {}, printedTerm(p)), ` ${p.symbol}`) : el("code", {}, printedTerm(p)),
     el("span", {}, p.meaning || "", " ", parameterRemarks(p)),
-    fmt(p.value, 4), printedUnit(p.unit), fmt(p.std_error, 2), interval(p.ci95, (low, high) => fmtEnds(low, high, 3)), interval([p.lower, p.upper], (low, high) => [brief(low), brief(high)]), withinBounds(p),
+    fmt(p.value, 4), unitWords(p.unit_text || printedUnit(p.unit)), fmt(p.std_error, 2), interval(p.ci95, (low, high) => fmtEnds(low, high, 3)), interval([p.lower, p.upper], (low, high) => [brief(low), brief(high)]), withinBounds(p),
   ]);
   return section("model", "Model and parameters",
     el("p", {}, model.title || model.id || "", model.id && model.title ? [" (", el("code", {}, model.id), ")"] : ""),

@@ -13,7 +13,6 @@
 #include "app/values.hpp"
 #include "core/error.hpp"
 #include "core/printable.hpp"
-#include "core/unit_text.hpp"
 #include "io/output.hpp"
 #include "report/html.hpp"
 #include "report/terminal.hpp"
@@ -104,7 +103,7 @@ void tell(const FitResult& fit, const FitData& data, const FitOptions& options) 
       remark += (remark.empty() ? "" : ", ") + std::string("not identifiable");
     }
     table_rows.push_back({estimate.name, format_number(estimate.term.value, 4),
-                          estimate.std_error ? format_number(*estimate.std_error, 2) : "-", unit_text(estimate.unit),
+                          estimate.std_error ? format_number(*estimate.std_error, 2) : "-", estimate.unit_text,
                           remark});
   }
   say(fmt::format("{}\n", table({"parameter", "value", "std error", "unit", "remark"}, table_rows)));

@@ -63,4 +63,11 @@ std::string unit_text(const std::string& unit) {
   return result;
 }
 
+std::string per_text(std::string_view unit, std::string_view condition, int power) {
+  std::string result = unit.empty() ? "unit of " + std::string(condition) : unit == "degC" ? "°C" : std::string(unit);
+  if (power == 1) return result;
+  if (result.find_first_of("/ *") != std::string::npos) result = "(" + result + ")";
+  return result + "^" + std::to_string(power);
+}
+
 }  // namespace hysteron

@@ -16,8 +16,11 @@ std::string term_unit(std::string_view unit, int drive_power, int frequency_powe
 // that, as it was.
 std::string unit_over(std::string_view unit, std::string_view by, int power);
 
-// "N/A" -> "N A^-1", "N s/m/Pa/Pa" -> "N s m^-1 Pa^-2", as the pages have it; a unit divided once and not by a drive, and
-// one with a power that is no whole number, as it is.
+// "N/A" -> "N A^-1", "N s/m/Pa/Pa" -> "N s m^-1 Pa^-2", as the pages have it; a unit divided once and not by a drive,
+// and one with a power that is no whole number, as it is.
 std::string unit_text(const std::string& unit);
+
+// What stands behind "per" for a power of a condition: "°C", "Pa^2", "(l/min)^2"; without a unit "unit of valve".
+std::string per_text(std::string_view unit, std::string_view condition, int power);
 
 }  // namespace hysteron

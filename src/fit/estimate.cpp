@@ -158,6 +158,7 @@ void add_estimates(Identification& result, const Uncertainty& uncertainty, const
       estimate.term = term;
       estimate.name = term_name(layout.names()[law.parameter], term, layout.conditions());
       estimate.unit = term_unit(card.unit, term, layout.conditions(), drive_kind);
+      estimate.unit_text = term_unit_text(card.unit, term, layout.conditions(), drive_kind);
       estimate.meaning = std::string(card.meaning);
       estimate.lower = card.box.lower;
       estimate.upper = card.box.upper;

@@ -25,7 +25,8 @@ struct IdentifyOptions {
 struct Estimate {
   Term term;
   std::string name;
-  std::string unit;
+  std::string unit;       // as stored
+  std::string unit_text;  // as people read it
   std::string meaning;
   std::optional<double> std_error;      // absent when the data do not determine it
   std::optional<double> half_width;     // of the 95 % interval, at least 1.96 std_error; absent likewise

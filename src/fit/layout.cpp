@@ -516,4 +516,16 @@ std::string term_unit(std::string_view unit, const Term& term, const std::vector
   return term_unit(result, term.drive_power, term.frequency_power, drive);
 }
 
+std::string term_unit_text(std::string_view unit, const Term& term, const std::vector<ConditionRange>& conditions,
+                           DriveKind drive) {
+  std::string result = unit_text(term_unit(unit, term.drive_power, term.frequency_power, drive));
+  for (std::size_t c = 0; c < term.condition_powers.size(); ++c) {
+    const int power = term.condition_powers[c];
+    if (power == 0) continue;
+    if (result == "1") result.clear();
+    result += (result.empty() ? "per " : " per ") + per_text(conditions[c].unit, conditions[c].name, power);
+  }
+  return result;
+}
+
 }  // namespace hysteron

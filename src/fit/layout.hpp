@@ -146,5 +146,9 @@ std::string term_name(const std::string& parameter, const Term& term, const std:
 // Its unit, that of its parameter over those of what it is multiplied by.
 std::string term_unit(std::string_view unit, const Term& term, const std::vector<ConditionRange>& conditions,
                       DriveKind drive);
+// The same as people read it, told also where the unit of a condition is not known: "N/m per °C", "N per (unit of
+// valve)^2".
+std::string term_unit_text(std::string_view unit, const Term& term, const std::vector<ConditionRange>& conditions,
+                           DriveKind drive);
 
 }  // namespace hysteron

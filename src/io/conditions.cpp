@@ -22,6 +22,14 @@ bool may_be_followed(Quantity quantity) {
                    in_quotes(name) + " is given for " + in_quotes(file) + ", which has a column of it, expected one");
 }
 
+// Of a plain number, which is in SI, where its name says what it is.
+std::string_view unit_of_plain(std::string_view name) {
+  if (name == "pressure") return "Pa";
+  if (name == quantity_name(Quantity::temperature)) return "degC";
+  if (name == quantity_name(Quantity::voltage)) return "V";
+  return {};
+}
+
 // The columns named so: by a mapping, else by their names without case and unit.
 int column_of(const std::string& name, const std::vector<Column>& columns, const ReadOptions& options,
               std::string& unit, const std::string& file, int line) {
@@ -140,6 +148,7 @@ std::vector<ConditionSource> assign_conditions(const std::vector<Column>& column
     if (const auto number = options.numbers.find(name); number != options.numbers.end()) {
       if (recorded) fail_both(number->second, name, file);
       source.number = number->second;
+      if (source.number->unit.empty()) source.number->unit = unit_of_plain(name);
     } else if (!recorded) {
       std::string list;
       std::string likely = "NAME";  // a column of which the name is a part, as "oil temperature" of a temperature

@@ -111,6 +111,7 @@ json estimate_json(const Estimate& estimate, const Layout& layout) {
   json row = {{"name", estimate.name},
               {"symbol", card.symbol},
               {"unit", estimate.unit},
+              {"unit_text", estimate.unit_text},
               {"meaning", estimate.meaning},
               {"value", estimate.term.value},
               {"std_error", nullptr},

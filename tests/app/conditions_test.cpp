@@ -75,6 +75,40 @@ TEST_F(Pressed, ANumberAndAConstantColumnAreTheSame) {
   }
 }
 
+// Plain numbers of campaign.toml have the unit that their name says, and where it says none that is told.
+TEST_F(Pressed, UnitsAreOverThoseOfPlainNumbers) {
+  const auto fitted = [&](const std::string& name) {
+    std::string toml = "schema = \"hysteron.campaign/1\"\n[by." + name + "]\nc0 = 1\n";
+    for (int k = 1; k <= 3; ++k) {
+      toml += "[[recording]]\nfile = \"r" + std::to_string(k) + ".csv\"\n" + name + " = " + std::to_string(k) + "\n";
+    }
+    write(folder_ / "number/campaign.toml", toml);
+    const Outcome outcome = fit({"number"}, name);
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    return outcome.out;
+  };
+  const auto unit_of = [&](const std::string& out, const std::string& parameter, const char* key) {
+    for (const json& row : json::parse(read(folder_ / out / "fit.json"))["parameters"]) {
+      if (row["name"] == parameter) return row[key].get<std::string>();
+    }
+    return std::string();
+  };
+  const std::string temperature = fitted("temperature");
+  EXPECT_NE(temperature.find("N s/m per °C"), std::string::npos) << temperature;
+  EXPECT_EQ(model("temperature")["by"]["temperature"]["unit"], "degC");
+  EXPECT_EQ(unit_of("temperature", "c0*temperature", "unit"), "N s/m/degC");
+  EXPECT_EQ(unit_of("temperature", "c0*temperature", "unit_text"), "N s/m per °C");
+  fitted("pressure");
+  EXPECT_EQ(unit_of("pressure", "c0*pressure", "unit_text"), "N s/m per Pa");
+  const std::string valve = fitted("valve");
+  EXPECT_NE(valve.find("N s/m per unit of valve"), std::string::npos) << valve;
+  // What is stored has no unit that nobody gave.
+  EXPECT_EQ(unit_of("valve", "c0*valve", "unit"), "N s/m");
+  EXPECT_EQ(unit_of("valve", "c0", "unit_text"), "N s/m");
+  const Outcome scored = run({"score", "valve/model.json", "number"});
+  EXPECT_EQ(scored.status, 0) << scored.err;
+}
+
 TEST_F(Pressed, TheModelIsUsedAtOtherValues) {
   ASSERT_EQ(fit({"column", "--by", "pressure=c0:1"}, "a").status, 0);
   write(folder_ / "new.csv", pressed(2.2, 2.5, true));

@@ -25,5 +25,13 @@ TEST(UnitText, NewtonsPerAmpereAreNotNotAvailable) {
   for (const char* stays : {"N/m^x/A", "N/m^/A", "N/m^-2/A", "N/m^99999999999/A"}) EXPECT_EQ(unit_text(stays), stays);
 }
 
+TEST(UnitText, OfAConditionStandsBehindPer) {
+  EXPECT_EQ(per_text("degC", "temperature", 1), "°C");
+  EXPECT_EQ(per_text("Pa", "pressure", 2), "Pa^2");
+  EXPECT_EQ(per_text("l/min", "flow", 2), "(l/min)^2");
+  EXPECT_EQ(per_text("", "valve", 1), "unit of valve");
+  EXPECT_EQ(per_text("", "valve", 2), "(unit of valve)^2");
+}
+
 }  // namespace
 }  // namespace hysteron
