@@ -88,6 +88,13 @@ TOO_WIDE = """((width) => {
 CUT_OFF = """[...document.querySelectorAll(".scroll")].filter((n) => n.scrollWidth > n.clientWidth + 1)
   .map((n) => `${n.getAttribute("aria-label")}: ${n.scrollWidth} of ${n.clientWidth} px`)"""
 
+# Writing in drawings that stands on other writing. The box of a slanted name is larger than the name.
+OVERLAPPING = """[...document.querySelectorAll("main svg")].flatMap((svg) => {
+  const texts = [...svg.querySelectorAll("text")].filter((t) => t.textContent && !/rotate\\(-45/.test(t.getAttribute("transform"))).map((t) => [t, t.getBoundingClientRect()]);
+  const meet = (a, b) => Math.min(a.right, b.right) - Math.max(a.left, b.left) > 3 && Math.min(a.bottom, b.bottom) - Math.max(a.top, b.top) > 4;
+  return texts.flatMap(([t, box], k) => texts.slice(k + 1).filter(([, other]) => meet(box, other)).map(([other]) => `"${t.textContent}" on "${other.textContent}" in ${svg.getAttribute("aria-label")}`));
+}).slice(0, 5)"""
+
 # Writing in drawings that a phone shows too small to read, tables whose right side it hides.
 UNREADABLE = """(() => {
   const size = (text) => parseFloat(getComputedStyle(text).fontSize) * Math.hypot(text.getScreenCTM().a, text.getScreenCTM().b);
@@ -164,6 +171,16 @@ def make_reports(program, folder):
     (folder / "study.toml").write_text(STUDY, encoding="utf-8")
     run("fit", "few", "--model", "bingham", "--by-current", "fc:1,c0:1", "--budget", "200", "--out", "fit-bingham")
     run("compare", "fit/model.json", "fit-bingham/model.json", "few", "--out", "compare")
+    # Forces so small that the labels of an axis are long.
+    small = folder / "small"
+    small.mkdir()
+    for recording in few.iterdir():
+        text = recording.read_text(encoding="utf-8")
+        if "force [N]" not in text:
+            raise SystemExit(f"error: {recording.name} has no column force [N]")
+        (small / recording.name).write_text(text.replace("force [N]", "force [uN]"), encoding="utf-8")
+    run("fit", "small", "--model", "viscous", "--budget", "100", "--out", "fit-small")
+    run("compare", "fit-small/model.json", "small", "--out", "compare-small")
     run("challenge", "--out", "challenge", "--campaigns", "4", "--seed", "5", "--generate-only")
     for k, said in enumerate(SAID):
         answer = folder / "challenge" / "diagnoses" / f"campaign-{k + 1:04}"
@@ -180,7 +197,7 @@ def make_reports(program, folder):
     run("report", "study")
     return {name: (folder / path / "report.html", canvases)
             for name, path, canvases in (("fit", "fit", 4), ("fit-marked", "fit-marked", 4), ("fit-many", "fit-many", 4), ("diagnose", "diagnose", 4), ("study", "study", 5),
-                                         ("fit-open", "fit-open", 4), ("compare", "compare", 0), ("challenge", "challenge", 0))}
+                                         ("fit-open", "fit-open", 4), ("compare", "compare", 0), ("fit-small", "fit-small", 4), ("compare-small", "compare-small", 0), ("challenge", "challenge", 0))}
 
 
 def troubles(events, page):
@@ -219,6 +236,7 @@ def check(browser, page, canvases, picture):
             said.append("it denies the held-out recordings whose error it shows")
         said += [f"empty plot: {name}" for name in browser.run(EMPTY_PLOTS)]
         said += [f"too wide: {what}" for what in browser.run(f"{TOO_WIDE}({width})")]
+        said += [f"overlapping: {what}" for what in browser.run(OVERLAPPING)]
         if kind == "phone":
             said += [f"not to be read: {what}" for what in browser.run(UNREADABLE)]
         else:

@@ -52,6 +52,16 @@ function decimalsOf(step) {
   return decimals;
 }
 
+// A value on an axis with such steps: as many digits as tell it from its neighbours.
+function tickText(value, step) {
+  const plain = Math.abs(value) < 1e6 && step >= 1e-4;
+  if (plain) return value.toFixed(decimalsOf(step)).replace(/^-(?=.*[1-9])/, "−").replace(/^-/, "");
+  if (Math.abs(value) < 1e-9 * step) return "0";
+  const power = (v) => Math.floor(Math.log10(v) + 1e-9);
+  const halves = Math.abs(step / 10 ** power(step) - 2.5) < 1e-6 ? 1 : 0;
+  return fmt(value, Math.max(1, power(Math.abs(value)) - power(step) + 1 + halves));
+}
+
 function linearTicks(lo, hi, wanted) {
   // A range that is only rounding of one number has no steps: counting them would not end.
   if (!(hi - lo > 1e-12 * Math.max(Math.abs(lo), Math.abs(hi)))) return [[lo, fmt(lo, 4)]];
@@ -62,12 +72,10 @@ function linearTicks(lo, hi, wanted) {
   let k = steps.findIndex((s) => s >= raw * 0.999);
   while (k > 0 && ticksOf(steps[k]) < 2) --k;  // one tick alone gives no scale
   const step = steps[k];
-  const decimals = decimalsOf(step);
   const ticks = [];
   for (let i = Math.ceil(lo / step - 1e-9); i * step <= hi + step * 1e-9; ++i) {
     const value = i * step;
-    const text = Math.abs(value) >= 1e6 || (step < 1e-4 && value !== 0) ? fmt(value, 2) : value.toFixed(decimals);
-    ticks.push([value, text.replace(/^-/, "−")]);
+    ticks.push([value, tickText(value, step)]);
   }
   return ticks;
 }
@@ -90,5 +98,5 @@ function logTicks(lo, hi) {
 
 const css = (name) => getComputedStyle(root).getPropertyValue(name).trim();
 
-return { root, isNumber, superscript, fmt, fmtEnds, esc, el, section, css, decimalsOf, linearTicks, logTicks };
+return { root, isNumber, superscript, fmt, fmtEnds, esc, el, section, css, tickText, linearTicks, logTicks };
 })();

@@ -3,7 +3,8 @@
 (function () {
 "use strict";
 
-const { isNumber, fmt, esc, el, section, css, linearTicks } = common;
+const { isNumber, fmt, el, section, css } = common;
+const { svgNode, extent, padded, chart } = charts;
 const data = JSON.parse(document.getElementById("report-data").textContent);
 const models = data.models;
 // Charts stand side by side where there is room.
@@ -20,48 +21,14 @@ function table(caption, columns, rows) {
         el(i === 0 ? "th" : "td", { scope: i === 0 ? "row" : null, class: columns[i].num ? "num" : null, "data-title": columns[i].title }, cell)))))));
 }
 
-// series: [{x, y, stroke, dash, bars}]
-function chart(title, xlabel, ylabel, series, yrange) {
+// series: [{x, y, color, dash, cls}]
+function figure(title, xlabel, ylabel, series) {
   // On a phone as wide as the screen, so that the writing keeps its size.
   const width = Math.max(300, Math.min(560, document.documentElement.clientWidth - 40));
-  const [height, left, right, top, bottom] = [340, 66, 12, 10, 40];
-  const finite = (key) => series.flatMap((s) => s[key]).filter(isNumber);
-  const range = (values) => {
-    const lo = values.reduce((a, b) => Math.min(a, b), Infinity);
-    const hi = values.reduce((a, b) => Math.max(a, b), -Infinity);
-    const gap = (hi - lo || Math.abs(lo) || 1) * 0.04;
-    return [lo - gap, hi + gap];
-  };
-  const [x0, x1] = range(finite("x"));
-  const [y0, y1] = yrange || range(finite("y"));
-  const px = (v) => left + ((v - x0) / (x1 - x0)) * (width - left - right);
-  const py = (v) => height - bottom - ((v - y0) / (y1 - y0)) * (height - top - bottom);
-  const out = [`<svg viewBox="0 0 ${width} ${height}" role="img" aria-label="${esc(title)}">`];
-  for (const [value, text] of linearTicks(x0, x1, 5)) {
-    const at = px(value).toFixed(1);
-    out.push(`<path class="grid" d="M${at} ${top}V${height - bottom}"/><text class="tick" x="${at}" y="${height - bottom + 15}" text-anchor="middle">${esc(text)}</text>`);
-  }
-  for (const [value, text] of linearTicks(y0, y1, 6)) {
-    const at = py(value).toFixed(1);
-    out.push(`<path class="grid" d="M${left} ${at}H${width - right}"/><text class="tick" x="${left - 5}" y="${at}" dy="0.35em" text-anchor="end">${esc(text)}</text>`);
-  }
-  out.push(`<rect class="frame" x="${left}" y="${top}" width="${width - left - right}" height="${height - top - bottom}"/>`);
-  for (const s of series) {
-    let path = "";
-    let pen = false;
-    for (let i = 0; i < s.x.length; ++i) {
-      if (!isNumber(s.x[i]) || !isNumber(s.y[i])) { pen = false; continue; }
-      path += `${pen ? "L" : "M"}${px(s.x[i]).toFixed(1)} ${py(s.y[i]).toFixed(1)}`;
-      pen = true;
-    }
-    out.push(`<path fill="none" style="stroke:${s.stroke}" stroke-width="${s.wide ? 2.6 : 1.5}" ${s.dash ? `stroke-dasharray="${s.dash}"` : ""} d="${path}"/>`);
-  }
-  out.push(`<text x="${(left + width - right) / 2}" y="${height - 5}" text-anchor="middle">${esc(xlabel)}</text>`);
-  out.push(`<text transform="translate(13 ${(top + height - bottom) / 2}) rotate(-90)" text-anchor="middle">${esc(ylabel)}</text></svg>`);
-  const holder = el("figure", {});
-  holder.innerHTML = out.join("");
-  holder.append(el("figcaption", {}, title));
-  return holder;
+  return el("figure", {}, svgNode(chart({
+    width, height: 340, title, margin: [10, 12, 40, 66], series,
+    x: { label: xlabel, range: padded(extent(series.map((s) => s.x)), 0.04) }, y: { label: ylabel, range: padded(extent(series.map((s) => s.y)), 0.04) } })),
+  el("figcaption", {}, title));
 }
 
 const item = (stroke, pattern, text) =>
@@ -86,21 +53,21 @@ function draw() {
   const select = el("select", { onchange: () => loops(select.selectedIndex) }, data.loops.map((r) => el("option", {}, r.file)));
   const loops = (k) => {
     const r = data.loops[k];
-    const curves = (x) => [{ x, y: r.force_n, stroke: css("--ink"), wide: true },
-      ...r.models.map((y, m) => ({ x, y, stroke: color(m), dash: dash(m) }))];
+    const curves = (x) => [{ x, y: r.force_n, color: css("--ink"), cls: "chosen" },
+      ...r.models.map((y, m) => ({ x, y, color: color(m), dash: dash(m) }))];
     figures.replaceChildren(
-      chart(`Force over displacement, ${r.file}`, "displacement [mm]", "force [N]", curves(r.displacement_mm)),
-      chart(`Force over velocity, ${r.file}`, "velocity [mm/s]", "force [N]", curves(r.velocity_mm_s)),
-      chart(`Residual over time, ${r.file}`, "time [s]", "measured − model [N]",
-        r.models.map((y, m) => ({ x: r.time, y: y.map((v, i) => (isNumber(v) ? r.force_n[i] - v : null)), stroke: color(m), dash: dash(m) }))));
+      figure(`Force over displacement, ${r.file}`, "displacement [mm]", "force [N]", curves(r.displacement_mm)),
+      figure(`Force over velocity, ${r.file}`, "velocity [mm/s]", "force [N]", curves(r.velocity_mm_s)),
+      figure(`Residual over time, ${r.file}`, "time [s]", "measured − model [N]",
+        r.models.map((y, m) => ({ x: r.time, y: y.map((v, i) => (isNumber(v) ? r.force_n[i] - v : null)), color: color(m), dash: dash(m) }))));
   };
   const lags = models[0].residual.autocorrelation.map((_, k) => k + 1);
   const limit = 1.96 / Math.sqrt(models[0].residual.samples);
-  const edge = (sign) => ({ x: [1, lags.length], y: [sign * limit, sign * limit], stroke: css("--muted"), dash: "3 3" });
+  const edge = (sign) => ({ x: [1, lags.length], y: [sign * limit, sign * limit], color: css("--muted"), dash: "3 3" });
   const reach = models[0].residual.histogram.reach;
   const bins = models[0].residual.histogram.density.length;
   const centres = Array.from({ length: bins }, (_, k) => -reach + ((k + 0.5) * 2 * reach) / bins);
-  const normal = { x: centres, y: centres.map((v) => Math.exp(-0.5 * v * v) / Math.sqrt(2 * Math.PI)), stroke: css("--muted"), dash: "3 3" };
+  const normal = { x: centres, y: centres.map((v) => Math.exp(-0.5 * v * v) / Math.sqrt(2 * Math.PI)), color: css("--muted"), dash: "3 3" };
   content.replaceChildren(
     el("header", {}, el("h1", {}, data.title), el("p", { class: "sub" },
       `${models.length} models on ${data.recordings.length} recordings · NRMSE normalised by ${data.normalisation} · hysteron ${data.version}`)),
@@ -108,10 +75,10 @@ function draw() {
       section("models", "Models", summary, el("p", { class: "note" }, data.note + ".")),
       section("loops", "Loops", el("label", { class: "interactive" }, "Recording ", select), legend("measured"), figures),
       section("residuals", "Residuals", legend(), el("div", { style: grid },
-        chart("Autocorrelation of the residual; white noise stays between the dashed lines", "lag [samples]", "correlation",
-          [edge(1), edge(-1), ...models.map((m, k) => ({ x: lags, y: m.residual.autocorrelation, stroke: color(k), dash: dash(k) }))]),
-        chart("Histogram of the residual over its root mean square; dashed: normal", "residual / RMS", "density",
-          [normal, ...models.map((m, k) => ({ x: centres, y: m.residual.histogram.density, stroke: color(k), dash: dash(k) }))]))),
+        figure("Autocorrelation of the residual; white noise stays between the dashed lines", "lag [samples]", "correlation",
+          [edge(1), edge(-1), ...models.map((m, k) => ({ x: lags, y: m.residual.autocorrelation, color: color(k), dash: dash(k) }))]),
+        figure("Histogram of the residual over its root mean square; dashed: normal", "residual / RMS", "density",
+          [normal, ...models.map((m, k) => ({ x: centres, y: m.residual.histogram.density, color: color(k), dash: dash(k) }))]))),
       section("recordings", "Recordings", each,
         data.recordings.every((r) => r.fitted.every(Boolean)) ? [] : el("p", { class: "note" }, "* the model was not fitted on this recording.")),
       section("command", "Command", el("pre", { style: "white-space:pre-wrap;overflow-wrap:anywhere" }, data.command))));

@@ -3,7 +3,8 @@
 (function () {
 "use strict";
 
-const { root, isNumber, superscript, fmt, fmtEnds, esc, el, section, css, decimalsOf, linearTicks, logTicks } = common;
+const { root, isNumber, superscript, fmt, fmtEnds, esc, el, section, css, tickText, linearTicks } = common;
+const { font, widest, whole, half, axisWidth, svgNode, extent, padded, margins, chart } = charts;
 const report = JSON.parse(document.getElementById("report-data").textContent);
 const list = (value) => (Array.isArray(value) ? value : []);
 const recordings = list(report.recordings);
@@ -48,13 +49,6 @@ function inParts(host, items, atOnce, what, make, added) {
 
 const plural = (n, one) => `${n} ${one}${n === 1 ? "" : "s"}`;
 
-// Our own chart markup; the texts in it have gone through esc().
-function svgNode(markup) {
-  const holder = document.createElement("div");
-  holder.innerHTML = markup;
-  return holder.firstElementChild;
-}
-
 // Tables too wide for a phone stand there as one block a row, each cell beside its column's title.
 const stacked = (columns) => (columns.length > 3 || columns.some((c) => c.wide) ? "stack" : null);
 
@@ -76,109 +70,6 @@ const breakable = (name) => String(name).split(/(?<=[_\-/ ])/).flatMap((part, i)
 
 const badge = (text, kind) => el("span", { class: `badge ${kind || ""}` }, text);
 
-// -------------------------------------------------------------------------------------------------------- static charts
-
-function extent(arrays) {
-  let lo = Infinity;
-  let hi = -Infinity;
-  for (const array of arrays) {
-    for (const v of array || []) {
-      if (!isNumber(v)) continue;
-      if (v < lo) lo = v;
-      if (v > hi) hi = v;
-    }
-  }
-  return lo <= hi ? [lo, hi] : [0, 1];
-}
-
-function padded([lo, hi], share = 0.05) {
-  // What differs by its rounding only is one value.
-  const size = Math.max(Math.abs(lo), Math.abs(hi));
-  const gap = hi - lo > 1e-9 * size ? (hi - lo) * share : size * 0.1 || 1;
-  return [lo - gap, hi + gap];
-}
-
-// options: width, height, small, title (for screen readers), x and y {label, range, log}, margin [top, right, bottom,
-// left], band {x, lower, upper} (optional), series [{x, y, cls, color, step, limit, label}], window [from, to] of sample indices
-function chart(options) {
-  const { width, height, x, y, margin: [top, right, bottom, left] } = options;
-  const forward = (axis) => (axis.log ? Math.log10 : (v) => v);
-  const fx = forward(x);
-  const fy = forward(y);
-  const [x0, x1] = x.range.map(fx);
-  const [y0, y1] = y.range.map(fy);
-  const px = (v) => left + ((fx(v) - x0) / (x1 - x0)) * (width - left - right);
-  const py = (v) => height - bottom - ((fy(v) - y0) / (y1 - y0)) * (height - top - bottom);
-  const out = [`<svg viewBox="0 0 ${width} ${height}" role="img" aria-label="${esc(options.title)}" class="${options.small ? "small" : ""}">`];
-  const xticks = x.log ? logTicks(...x.range) : linearTicks(...x.range, options.small ? 3 : Math.max(2, (width - left - right) / 90));
-  const yticks = y.log ? logTicks(...y.range) : linearTicks(...y.range, options.small ? 3 : Math.max(2, (height - top - bottom) / 40));
-  const grid = (value, path) => `<path class="grid${value === 0 ? " zero" : ""}" d="${path}"/>`;
-  let lastRight = -Infinity;
-  for (const [value, text] of xticks) {
-    const at = px(value).toFixed(1);
-    out.push(grid(value, `M${at} ${top}V${height - bottom}`));
-    const half = text.length * 3.4;
-    if (at - half < lastRight + 4) continue;  // labels must not touch
-    lastRight = Number(at) + half;
-    out.push(`<text class="tick" x="${at}" y="${height - bottom + (options.small ? 12 : 16)}" text-anchor="middle">${esc(text)}</text>`);
-  }
-  for (const [value, text] of yticks) {
-    const at = py(value).toFixed(1);
-    out.push(grid(value, `M${left} ${at}H${width - right}`));
-    out.push(`<text class="tick" x="${left - 5}" y="${at}" dy="0.35em" text-anchor="end">${esc(text)}</text>`);
-  }
-  out.push(`<rect class="frame" x="${left}" y="${top}" width="${width - left - right}" height="${height - top - bottom}"/>`);
-  if (options.band) {
-    const { x: at, lower, upper } = options.band;
-    const inside = (v) => Math.min(Math.max(v, y.range[0]), y.range[1]);
-    const edge = (values) => at.map((v, i) => `${px(v).toFixed(1)} ${py(inside(values[i])).toFixed(1)}`);
-    if (at.length > 1) out.push(`<path class="band" d="M${[...edge(upper), ...edge(lower).reverse()].join("L")}Z"/>`);
-  }
-  for (const s of options.series) {
-    const n = Math.min(s.x.length, s.y.length);
-    const stride = s.limit ? Math.max(1, Math.floor(n / s.limit)) : 1;
-    let path = "";
-    let pen = false;
-    for (let i = 0; i < n; i += stride) {
-      if (!isNumber(s.x[i]) || !isNumber(s.y[i]) || (x.log && s.x[i] <= 0) || (y.log && s.y[i] <= 0)) {
-        pen = false;
-        continue;
-      }
-      const h = px(s.x[i]).toFixed(1);
-      const v = py(s.y[i]).toFixed(1);
-      path += !pen ? `M${h} ${v}` : s.step ? `H${h}V${v}` : `L${h} ${v}`;
-      pen = true;
-    }
-    out.push(`<path class="curve ${s.cls || ""}" ${s.color ? `style="stroke:${s.color}"` : ""} ${s.dash ? `stroke-dasharray="${s.dash}"` : ""} d="${path}"/>`);
-  }
-  const labelled = options.series.filter((s) => s.label && s.y.length);
-  if (labelled.length) {
-    // Labels stand beside the ends of their lines and are pushed apart where the lines end together.
-    const spots = labelled.map((s) => ({ s, want: py(s.y[s.y.length - 1]), x: px(s.x[s.x.length - 1]) }));
-    spots.sort((a, b) => a.want - b.want);
-    const step = 15;
-    spots.forEach((spot, i) => { spot.at = i === 0 ? Math.max(spot.want, top + 6) : Math.max(spot.want, spots[i - 1].at + step); });
-    for (let i = spots.length - 1, floor = height - bottom - 2; i >= 0; --i) {
-      spots[i].at = Math.min(spots[i].at, floor);
-      floor = spots[i].at - step;
-    }
-    for (const { s, want, x: end, at } of spots) {
-      const color = s.color || "currentColor";
-      out.push(`<path style="stroke:${color}" fill="none" stroke-width="0.8" stroke-dasharray="2 2" d="M${(end + 2).toFixed(1)} ${want.toFixed(1)}L${width - right + 3} ${want.toFixed(1)}L${width - right + 10} ${at.toFixed(1)}"/>`);
-      out.push(`<text x="${width - right + 13}" y="${at.toFixed(1)}" dy="0.35em" style="fill:${color};font-weight:${s.cls === "chosen" ? 700 : 500}">${esc(s.label)}</text>`);
-    }
-  }
-  if (options.small) {
-    out.push(`<text x="${width - right - 4}" y="${height - bottom - 5}" text-anchor="end">${esc(x.label)}</text>`);
-    out.push(`<text x="${left + 4}" y="${top + 11}">${esc(y.label)}</text>`);
-  } else {
-    out.push(`<text x="${(left + width - right) / 2}" y="${height - 4}" text-anchor="middle">${esc(x.label)}</text>`);
-    out.push(`<text transform="translate(13 ${(top + height - bottom) / 2}) rotate(-90)" text-anchor="middle">${esc(y.label)}</text>`);
-  }
-  out.push("</svg>");
-  return out.join("");
-}
-
 // ----------------------------------------------------------------------------------------------------------- recordings
 
 const channels = {
@@ -192,8 +83,8 @@ const hasBaseline = recordings.some((r) => list(r.baseline_n).length > 0);
 // What is measured and simulated: the force on a recorded motion, or the motion of a mass under a known excitation.
 const ofMotion = Boolean(report.response);
 const plotted = ofMotion
-  ? { word: "Displacement", label: "Displacement [mm]", short: "x [mm]", unit: "mm" }
-  : { word: "Force", label: "Force [N]", short: "F [N]", unit: "N" };
+  ? { word: "displacement", symbol: "x", label: "Displacement [mm]", short: "x [mm]", unit: "mm" }
+  : { word: "force", symbol: "F", label: "Force [N]", short: "F [N]", unit: "N" };
 const measuredOf = (r) => list(ofMotion ? r.displacement_mm : r.force_n);
 const simulatedOf = (r) => list(ofMotion ? r.simulated_mm : r.predicted_n);
 const residual = (r) => measuredOf(r).map((f, i) => (isNumber(f) && isNumber(simulatedOf(r)[i]) ? f - simulatedOf(r)[i] : null));
@@ -255,7 +146,7 @@ function overview() {
   draw();
   return section("overview", "Every recording at a glance",
     el("div", { class: "controls" },
-      el("label", {}, `${plotted.word} against`, against), el("label", {}, "Scale", scale), el("label", {}, "Order", order)),
+      el("label", {}, `${capital(plotted.word)} against`, against), el("label", {}, "Scale", scale), el("label", {}, "Order", order)),
     legend(false),
     el("p", { class: "muted interactive" }, "Select a recording to see it in full below."),
     grid, rest);
@@ -311,18 +202,14 @@ let detail = null;       // elements of the detail view
 let resizeWatch = null;
 
 function axis(label, side) {
-  const font = "12px system-ui, -apple-system, 'Segoe UI', Roboto, 'Liberation Sans', Arial, sans-serif";
   return {
     label, font, labelFont: font, labelGap: 0, labelSize: 18, gap: 4,
     stroke: css("--ink"),
-    size: side === 3 ? 52 : 30,
+    size: side === 3 ? axisWidth(52) : 30,
     space: side === 3 ? 34 : 64,
     grid: { stroke: css("--grid"), width: 1 },
     ticks: { stroke: css("--line"), width: 1, size: 4 },
-    values: (u, splits, axisIndex, space, step) => {
-      const decimals = decimalsOf(step || 1);
-      return splits.map((v) => (Math.abs(v) >= 1e6 ? fmt(v, 2) : v.toFixed(decimals).replace(/^-(?=.*[1-9])/, "−").replace(/^-/, "")));
-    },
+    values: (u, splits, axisIndex, space, step) => splits.map((v) => tickText(v, step || 1)),
   };
 }
 
@@ -531,7 +418,7 @@ function buildPlots(r) {
     plots.push(u);
   }
 
-  timePlot(detail.hosts[0], `${plotted.word} against time`, plotted.label, 270, shown);
+  timePlot(detail.hosts[0], `${capital(plotted.word)} against time`, plotted.label, 270, shown);
   // A motion against itself is no loop.
   for (const k of [1, 2]) detail.hosts[k].hidden = ofMotion;
   if (!ofMotion) {
@@ -586,7 +473,7 @@ function distributionCharts(r) {
     points.x.push(normalQuantile((at + 0.5) / sorted.length));
     points.y.push(sorted[at]);
   }
-  const size = { width: root.clientWidth > 900 ? 560 : Math.max(320, root.clientWidth - 60), height: 280, margin: [6, 10, 36, 46] };
+  const size = { width: half(), height: 280, margin: [6, 10, 36, 46] };
   const range = padded(extent([points.x, points.y]));
   return [
     svgNode(chart({ ...size, title: `Histogram of the residual of ${nameOf(r)}; dashed: normal`, x: { label: "Residual / RMS", range: [-reach, reach] },
@@ -702,7 +589,7 @@ function parameterRemarks(p) {
 
 function modelSection() {
   const model = report.model || {};
-  const columns = [{ title: "Parameter", head: true }, { title: "Meaning and remarks", text: true }, { title: "Value", num: true }, { title: "Unit", nowrap: true },
+  const columns = [{ title: "Parameter", head: true }, { title: "Meaning and remarks", text: true }, { title: "Value", num: true }, { title: "Unit" },
     { title: "Std. error", num: true }, { title: "95 % interval", num: true, pair: true }, { title: "Bounds", num: true, pair: true }, { title: "Within bounds" }];
   const interval = (pair, texts) => (Array.isArray(pair) && pair.some(isNumber) ? texts(...pair).join("\u00a0… ").replace(/ × /g, "\u00a0×\u00a0") : "–");
   const rows = parameters.map((p) => [
@@ -760,8 +647,8 @@ function trackFigures(s) {
       el("span", {}, unitText(p.unit)), el("strong", {}, `${fmt(p.mean[p.mean.length - 1], 4)} (${fmt(p.lower[p.lower.length - 1], 3)} … ${fmt(p.upper[p.upper.length - 1], 3)})`)),
     svgNode(chart({
       width: 240, height: 150, small: true, margin: [4, 4, 16, 46],
-      title: `${p.name} [${unitText(p.unit)}] against time, with a band of two standard deviations`,
-      x: { label: "t [s]", range: extent([time]) }, y: { label: unitText(p.unit), range: y },
+      title: `${withUnit(p)} against time, with a band of two standard deviations`,
+      x: { label: "t [s]", range: extent([time]) }, y: { label: axisUnit(p.unit), range: y },
       band: { x: time, lower: p.lower, upper: p.upper },
       series: [{ x: time, y: inside, cls: "simulated" }],
     })));
@@ -816,11 +703,11 @@ function lawFigure(p) {
   }
   const y = padded(extent([dots, p.curve.two_stages, p.curve.joint]), 0.15);
   bars.y = bars.y.map((v) => (v === null ? null : Math.min(Math.max(v, y[0]), y[1])));
-  return el("div", { class: "track" }, el("b", {}, `${p.name} [${unitText(p.unit)}]`),
+  return el("div", { class: "track" }, el("b", {}, withUnit(p)),
     svgNode(chart({
       width: 240, height: 168, small: true, margin: [4, 4, 16, 46],
-      title: `${p.name} [${unitText(p.unit)}] against ${p.against}: free values, law in two stages, law of the joint fit`,
-      x: { label: p.against === "drive" ? "drive" : "f [Hz]", range: xr }, y: { label: unitText(p.unit), range: y },
+      title: `${withUnit(p)} against ${p.against}: free values, law in two stages, law of the joint fit`,
+      x: { label: p.against === "drive" ? "drive" : "f [Hz]", range: xr }, y: { label: axisUnit(p.unit), range: y },
       series: [{ ...bars, cls: "residual" }, { ...dashes, cls: "measured" },
         { x: p.curve.at, y: p.curve.two_stages, cls: "simulated" }, { x: p.curve.at, y: p.curve.joint, cls: "baseline" }],
     })));
@@ -858,6 +745,8 @@ const percent = (v) => (isNumber(v) ? `${fmt(100 * v, 3)} %` : "–");
 const rounded = (v) => (isNumber(v) ? `${(100 * v).toFixed(0)} %` : "–");
 const significant = (v, digits) => fmt(Number(v.toPrecision(digits)), digits);
 const unitText = (unit) => printedUnit(unit).replace(/\^(-?\d+)/g, (_, power) => superscript(power));
+const axisUnit = (unit) => (unit === "1" ? "" : unitText(unit));
+const withUnit = (p) => (p.unit === "1" ? p.name : `${p.name} [${unitText(p.unit)}]`);
 const withError = (c) => `${significant(c.value, 3)} ± ${significant(c.std_error, 1)}${c.unit === "1" ? "" : `\u00a0${unitText(c.unit)}`}`;
 const sameSign = (c) => `${Math.round(c.consistency * c.recordings)} of ${c.recordings}`;
 const capital = (text) => text.charAt(0).toUpperCase() + text.slice(1);
@@ -1055,19 +944,22 @@ function aliasMap(map) {
     const free = names.map((_, i) => i).filter((i) => !order.includes(i));
     order.push(free.reduce((a, b) => (likeLast[b] > likeLast[a] ? b : a)));
   }
-  const [cell, left, top] = [18, 150, 140];
+  // Small enough for two dozen effects on a phone.
+  const cell = 14;
+  const left = Math.ceil(widest(names)) + 10;
+  const top = left;
   const size = names.length * cell;
   const at = (k) => k * cell;
   const marks = order.flatMap((i, row) => [
-    `<text x="${left - 6}" y="${top + at(row) + 13}" text-anchor="end">${esc(names[i])}</text>`,
-    `<text transform="translate(${left + at(row) + 13},${top - 6}) rotate(-90)">${esc(names[i])}</text>`,
+    `<text x="${left - 6}" y="${top + at(row) + cell / 2}" dy="0.35em" text-anchor="end">${esc(names[i])}</text>`,
+    `<text transform="translate(${left + at(row) + cell / 2},${top - 6}) rotate(-90)" dy="0.35em">${esc(names[i])}</text>`,
     ...order.map((j, column) => `<rect x="${left + at(column)}" y="${top + at(row)}" width="${cell - 1}" height="${cell - 1}" class="cell above" fill-opacity="${(map.cosine[i][j] ** 2).toFixed(3)}"><title>${esc(names[i])} and ${esc(names[j])}: ${fmt(map.cosine[i][j], 3)}</title></rect>`),
   ]);
   return [
     el("h3", {}, "Which effects look alike in these recordings"),
     el("p", { class: "muted" }, "What each effect adds to the force, less what the base model's parameters imitate of it, against what the others add: full colour where one is a multiple of the other (cosine 1; point at a field for its value), none where they have nothing in common. Recordings of another kind part what looks alike here."),
     el("figure", { class: "plot wide" }, el("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": "Likeness of effects" },
-      svgNode(`<svg viewBox="0 0 ${left + size} ${top + size}" style="max-width:${left + size}px" role="img" aria-label="Likeness of effects">${marks.join("")}</svg>`))),
+      svgNode(`<svg viewBox="0 0 ${left + size} ${top + size}" style="max-width:${left + size}px;min-width:${Math.round(0.75 * (left + size))}px" role="img" aria-label="Likeness of effects">${marks.join("")}</svg>`))),
   ];
 }
 
@@ -1097,9 +989,12 @@ function meanOnGrid(columns, rows, place, value) {
 }
 
 function residualMap(title, cells, columns, rows, limit, xRange, yRange) {
-  const [width, height, top, right, bottom, left] = [380, 300, 6, 8, 36, 52];
-  const frame = chart({ width, height, title, margin: [top, right, bottom, left], series: [],
-    x: { label: channels.displacement.label, range: xRange }, y: { label: channels.velocity.label, range: yRange } });
+  const width = half();
+  const height = Math.round(Math.min(380, 0.8 * width));
+  const options = { width, height, title, margin: [6, 8, 36, 52], series: [],
+    x: { label: channels.displacement.label, range: xRange }, y: { label: channels.velocity.label, range: yRange } };
+  const [top, right, bottom, left] = margins(options);
+  const frame = chart(options);
   const w = (width - left - right) / columns;
   const h = (height - top - bottom) / rows;
   const spots = cells.map((v, k) => {
@@ -1164,7 +1059,7 @@ function residualMaps() {
     el("p", { class: "muted" }, "The same mean, taken positive where the force against the motion is too small in the simulation."),
     twoLegend(),
     el("figure", { class: "plot wide" }, svgNode(chart({
-      width: Math.max(320, Math.min(780, root.clientWidth - 40)), height: 240, margin: [6, 10, 36, 52], title: "Mean residual against distance since reversal",
+      width: whole(), height: 260, margin: [6, 10, 36, 52], title: "Mean residual against distance since reversal",
       x: { label: "Distance since reversal [mm]", range: [0, reach] }, y: { label: "Mean residual [%]", range: padded(extent(along)) },
       series: [{ x: middles, y: along[0], cls: "baseline" }, { x: middles, y: along[1], cls: "simulated" }] }))),
   ];

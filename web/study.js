@@ -3,7 +3,8 @@
 (function () {
 "use strict";
 
-const { root, isNumber, fmt, esc, el, section, css, logTicks } = common;
+const { root, isNumber, superscript, fmt, esc, el, section, css, logTicks } = common;
+const { font, widest, axisWidth, svgNode } = charts;
 const study = JSON.parse(document.getElementById("report-data").textContent);
 const solvers = study.solvers.map((s) => s.label);
 const problems = study.problems.map((p) => p.label);
@@ -39,9 +40,8 @@ const redraw = [];  // every plot again: other colours, other width
 
 // options: title, x and y {label, log, range}, grid, series [{name, solver, y, band}], step, points
 function plot(host, options) {
-  const font = "12px system-ui, -apple-system, 'Segoe UI', Roboto, 'Liberation Sans', Arial, sans-serif";
   const axis = (label, side, log) => ({
-    label, font, labelFont: font, labelSize: 20, gap: 4, stroke: css("--ink"), size: side === 3 ? 58 : 32, space: side === 3 ? 30 : 60,
+    label, font, labelFont: font, labelSize: 20, gap: 4, stroke: css("--ink"), size: side === 3 ? axisWidth(58) : 32, space: side === 3 ? 30 : 60,
     grid: { stroke: css("--grid"), width: 1 }, ticks: { stroke: css("--line"), width: 1, size: 4 },
     ...(log ? {
       splits: (u, k, low, high) => logTicks(low, high).map(([value]) => value),
@@ -116,42 +116,16 @@ const decades = (values) => {
 // ------------------------------------------------------------------------------------- critical difference diagram
 
 function criticalDifference() {
-  const rows = study.ranking.rows;
-  if (rows.length < 2) return null;
-  const k = rows.length;
-  const width = 900, left = 230, right = 230, top = 54, step = 19;
-  const half = Math.ceil(k / 2);
-  const bars = study.ranking.cliques;
-  const barTop = top + 14;
-  const textTop = barTop + bars.length * 9 + 18;
-  const height = textTop + half * step + 8;
-  const px = (rank) => left + ((rank - 1) / (k - 1)) * (width - left - right);
-  const out = [`<svg viewBox="0 0 ${width} ${height}" role="img" aria-label="Mean ranks; solvers joined by a bar are not told apart">`];
-  out.push(`<path class="frame" d="M${px(1)} ${top}H${px(k)}"/>`);
-  for (let r = 1; r <= k; ++r) {
-    out.push(`<path class="frame" d="M${px(r)} ${top - 5}V${top}"/><text class="tick" x="${px(r)}" y="${top - 9}" text-anchor="middle">${r}</text>`);
-  }
-  const cd = study.ranking.critical_difference;
-  if (cd > 0 && cd < k - 1) {
-    out.push(`<path d="M${px(1)} 20H${px(1 + cd)}M${px(1)} 16V24M${px(1 + cd)} 16V24" style="stroke:var(--ink);fill:none;stroke-width:1.5"/>`);
-    out.push(`<text x="${px(1 + cd) + 6}" y="24">critical difference ${esc(fmt(cd, 3))}</text>`);
-  }
-  bars.forEach(([a, b], i) => {
-    const y = barTop + i * 9;
-    out.push(`<path d="M${px(rows[a].mean_rank) - 4} ${y}H${px(rows[b].mean_rank) + 4}" style="stroke:var(--ink);stroke-width:4.5;fill:none;stroke-linecap:round"/>`);
-  });
-  rows.forEach((row, i) => {
-    const onLeft = i < half;
-    const y = textTop + (onLeft ? i : k - 1 - i) * step;
-    const x = px(row.mean_rank);
-    const end = onLeft ? left - 24 : width - right + 24;
-    out.push(`<path d="M${x} ${top}V${y}H${end}" style="stroke:${color(row.solver)};fill:none;stroke-width:1.3"/>`);
-    out.push(`<text x="${onLeft ? end - 6 : end + 6}" y="${y}" dy="0.35em" text-anchor="${onLeft ? "end" : "start"}">${esc(solvers[row.solver])} (${row.mean_rank.toFixed(2)})</text>`);
-  });
-  out.push("</svg>");
-  const holder = el("div", { class: "scroll ranks", tabindex: 0, role: "region", "aria-label": "Mean ranks" });
-  holder.innerHTML = out.join("");
-  return el("figure", { class: "plot wide" }, el("figcaption", {}, el("span", {}, "Mean ranks, best on the left; a bar joins solvers that are not told apart")), holder);
+  if (study.ranking.rows.length < 2) return null;
+  const rows = study.ranking.rows.map((row) => ({ ...row, name: solvers[row.solver] }));
+  const host = el("div", {});
+  // On paper as on a screen; as wide as there is room, up to where lines become long to follow.
+  const draw = () => { host.innerHTML = ranks.diagram(rows, study.ranking.cliques, study.ranking.critical_difference, Math.min(900, Math.max(280, host.clientWidth)), color); };
+  redraw.push(draw);
+  return {
+    node: el("figure", { class: "plot wide ranks" }, el("figcaption", {}, el("span", {}, "Mean ranks, 1 the best; a bar joins solvers that are not told apart")), host),
+    draw,
+  };
 }
 
 // -------------------------------------------------------------------------------------------------------------- tables
@@ -227,55 +201,38 @@ function profiles() {
 
 // ---------------------------------------------------------------------------------------------------- identifiability
 
-function correlationMap(one) {
-  const names = one.free.map((c) => one.parameters[c].name);
-  const cell = 34, left = 12 + 7.2 * Math.max(4, ...names.map((n) => n.length)), top = 8, n = names.length;
-  const foot = left * 0.75;
-  const out = [`<svg viewBox="0 0 ${left + n * cell + 8} ${top + n * cell + foot}" style="max-width:${left + n * cell + 8}px" role="img" aria-label="Correlations of the parameters">`];
-  one.correlation.forEach((row, i) => {
-    out.push(`<text x="${left - 6}" y="${top + (i + 0.5) * cell}" dy="0.35em" text-anchor="end">${esc(names[i])}</text>`);
-    row.forEach((value, j) => {
-      if (j > i) return;
-      const x = left + j * cell, y = top + i * cell;
-      const ink = faded(color(value < 0 ? 1 : 0), Math.min(1, Math.abs(value)) * 0.75);
-      out.push(`<rect${i === j ? "" : ' class="cell"'} x="${x + 1}" y="${y + 1}" width="${cell - 2}" height="${cell - 2}" style="fill:${i === j ? "none" : ink};stroke:var(--grid)"/>`);
-      if (j < i) out.push(`<text class="tick" x="${x + cell / 2}" y="${y + cell / 2}" dy="0.35em" text-anchor="middle">${value.toFixed(2).replace("0.", ".")}</text>`);
-    });
-    const x = left + (i + 0.5) * cell, y = top + n * cell + 10;
-    out.push(`<text transform="translate(${x} ${y}) rotate(-45)" text-anchor="end">${esc(names[i])}</text>`);
-  });
-  out.push("</svg>");
-  return out.join("");
-}
-
-// Every eigenvalue a bar down to it, with the parameters its direction is made of.
-function spectrumPlot(one) {
+// Every eigenvalue a bar down to it, with the parameters its direction is made of: beside it, below it on a phone.
+function spectrumPlot(one, room) {
   const rows = one.spectrum;
-  const line = 21, left = 46, wide = 250, top = 8, width = 640;
+  const parts = rows.map((row) => [...row.parts].sort((a, b) => Math.abs(b.weight) - Math.abs(a.weight)).slice(0, 3)
+    .map((p) => `${p.weight < 0 ? "−" : "+"}${Math.abs(p.weight).toFixed(2)} ${one.parameters[p.parameter].name}`).join("  "));
+  const text = Math.ceil(widest(parts));
+  const left = 30, top = 8;
+  const beside = left + 160 + 14 + text <= room;
+  const width = beside ? Math.min(room, left + 250 + 14 + text) : room;
+  const end = beside ? width - 14 - text : width - 12;
+  const line = beside ? 21 : 36;
   const low = Math.min(-1, Math.floor(Math.log10(rows[rows.length - 1].eigenvalue)));
-  const px = (value) => left + (1 - Math.max(low, Math.log10(value)) / low) * wide;
+  const px = (value) => left + (1 - Math.max(low, Math.log10(value)) / low) * (end - left);
   const height = top + rows.length * line + 26;
   const out = [`<svg viewBox="0 0 ${width} ${height}" style="max-width:${width}px" role="img" aria-label="Eigenvalues of the Gauss-Newton matrix in logarithms of the parameters">`];
   const step = Math.max(1, Math.ceil(-low / 6));
   for (let e = 0; e >= low; e -= step) {
     const x = px(10 ** e);
-    out.push(`<path d="M${x} ${top}V${top + rows.length * line}" style="stroke:var(--grid)"/><text class="tick" x="${x}" y="${height - 8}" text-anchor="middle">1e${e}</text>`);
+    out.push(`<path d="M${x} ${top}V${top + rows.length * line}" style="stroke:var(--grid)"/><text class="tick" x="${x}" y="${height - 8}" text-anchor="middle">${e ? `10${superscript(e)}` : "1"}</text>`);
   }
   rows.forEach((row, k) => {
-    const y = top + k * line;
-    const parts = [...row.parts].sort((a, b) => Math.abs(b.weight) - Math.abs(a.weight)).slice(0, 3)
-      .map((p) => `${p.weight < 0 ? "−" : "+"}${Math.abs(p.weight).toFixed(2)} ${one.parameters[p.parameter].name}`).join("  ");
-    out.push(`<path d="M${left} ${y + line / 2}H${px(row.eigenvalue)}" style="stroke:${color(0)};stroke-width:9"/>`);
-    out.push(`<text class="tick" x="${left - 8}" y="${y + line / 2}" dy="0.35em" text-anchor="end">${k + 1}</text>`);
-    out.push(`<text class="tick" x="${left + wide + 14}" y="${y + line / 2}" dy="0.35em">${esc(parts)}</text>`);
+    const y = top + k * line + 10.5;
+    out.push(`<path d="M${left} ${y}H${px(row.eigenvalue)}" style="stroke:${color(0)};stroke-width:9"/>`);
+    out.push(`<text class="tick" x="${left - 8}" y="${y}" dy="0.35em" text-anchor="end">${k + 1}</text>`);
+    out.push(`<text class="tick over" x="${beside ? end + 14 : left}" y="${beside ? y : y + 15}" dy="0.35em">${esc(parts[k])}</text>`);
   });
   out.push("</svg>");
   return out.join("");
 }
 
-function drawn(caption, note, markup) {
-  const holder = el("div", { class: "scroll" });
-  holder.innerHTML = markup;
+function drawn(caption, note, picture) {
+  const holder = el("div", { class: "scroll" }, picture);
   return el("figure", { class: "plot" }, el("figcaption", {}, el("span", {}, caption)), holder, el("p", { class: "muted" }, note));
 }
 
@@ -293,8 +250,8 @@ function identifiabilitySection() {
     paper.say(known.indexOf(p));
     shown.forEach((s) => s.destroy());
     maps.replaceChildren(
-      ...(one.free.length > 1 ? [drawn("Correlations of the parameters", "At the best fit, of parameters inside the box. Near 1 or −1: the data fix a combination of the two, not each.", correlationMap(one))] : []),
-      ...(one.spectrum.length > 1 ? [drawn("Sloppiness: eigenvalues for relative changes of the parameters", "The largest is 1. A direction far down may change by much and the force hardly does; beside it the parameters it is made of.", spectrumPlot(one))] : []));
+      ...(one.free.length > 1 ? [drawn("Correlations of the parameters", "At the best fit, of parameters inside the box. Near 1 or −1: the data fix a combination of the two, not each.", correlation.map(one.free.map((c) => one.parameters[c].name), one.correlation))] : []),
+      ...(one.spectrum.length > 1 ? [drawn("Sloppiness: eigenvalues for relative changes of the parameters", "The largest is 1. A direction far down may change by much and the force hardly does; beside it the parameters it is made of.", svgNode(spectrumPlot(one, Math.min(620, root.clientWidth - 56))))] : []));
     const figures = one.parameters.map((row) => {
       const bound = row.at_bound ? `, on its ${row.at_bound} bound` : "";
       const range = row.low === null && row.high === null ? "open to both sides" : row.low === null ? `below ${fmt(row.high, 4)}` : row.high === null ? `above ${fmt(row.low, 4)}` : `${fmt(row.low, 4)} to ${fmt(row.high, 4)}`;
@@ -355,9 +312,9 @@ function methodSection() {
   return section("method", "Method", el("dl", { class: "facts" }, facts.flatMap(([t, d]) => [el("dt", {}, t), el("dd", {}, d)])));
 }
 
-const parts = { progress: progress(), profiles: profiles(), identifiability: identifiabilitySection() };
+const parts = { ranks: criticalDifference(), progress: progress(), profiles: profiles(), identifiability: identifiabilitySection() };
 const sections = [
-  section("answer", "Ranking", criticalDifference(), shownTable("ranking"), shownTable("models")),
+  section("answer", "Ranking", parts.ranks ? parts.ranks.node : "", shownTable("ranking"), shownTable("models")),
   parts.progress.node,
   parts.profiles.node,
   section("tables", "Tables", shownTable("fixed-budget", 0), shownTable("fixed-target", 0), shownTable("pairs"), shownTable("pairs-by-problem", 0), shownTable("problems"), shownTable("times", 0)),
@@ -375,6 +332,7 @@ document.getElementById("content").replaceChildren(
   el("nav", { "aria-label": "Sections" }, sections.map((s) => el("a", { href: `#${s.id}` }, titles[s.id]))),
   el("main", {}, sections),
   el("footer", {}, "Made by hysteron. Plots: uPlot (MIT licence). This page loads nothing from the network."));
+if (parts.ranks) parts.ranks.draw();
 parts.progress.draw();
 parts.profiles.draw();
 if (parts.identifiability) parts.identifiability.draw();

@@ -122,7 +122,8 @@ std::string html_escape(const std::string& text) {
 
 namespace {
 
-std::string page_of(const nlohmann::json& data, std::string_view script) {
+// `part`: what only this kind of page draws, for its `script`.
+std::string page_of(const nlohmann::json& data, std::string_view part, std::string_view script) {
   std::string title = "Hysteron report";
   if (data.is_object() && data.contains("title") && data["title"].is_string()) {
     title = data["title"].get<std::string>();
@@ -135,6 +136,9 @@ std::string page_of(const nlohmann::json& data, std::string_view script) {
                                      {"uplot_license", web::uplot_license()},
                                      {"uplot_js", without_banner(web::uplot_js())},
                                      {"common_js", web::common_js()},
+                                     {"chart_js", web::chart_js()},
+                                     {"correlation_js", web::correlation_js()},
+                                     {"part_js", part},
                                      {"report_js", script},
                                      {"data", text}});
 }
@@ -143,7 +147,7 @@ std::string page_of(const nlohmann::json& data, std::string_view script) {
 
 std::string fit_report_html(nlohmann::json report) {
   shorten_samples(report);
-  return page_of(report, web::report_js());
+  return page_of(report, {}, web::report_js());
 }
 
 nlohmann::json data_of_page(const std::string& html) {
@@ -158,8 +162,8 @@ nlohmann::json data_of_page(const std::string& html) {
   return data.is_object() ? data : nlohmann::json(nullptr);
 }
 
-std::string study_page_html(const nlohmann::json& page) { return page_of(page, web::study_js()); }
+std::string study_page_html(const nlohmann::json& page) { return page_of(page, web::ranks_js(), web::study_js()); }
 
-std::string compare_page_html(const nlohmann::json& page) { return page_of(page, web::compare_js()); }
+std::string compare_page_html(const nlohmann::json& page) { return page_of(page, {}, web::compare_js()); }
 
 }  // namespace hysteron

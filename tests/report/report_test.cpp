@@ -71,8 +71,9 @@ TEST(Html, IsComplete) {
   EXPECT_NE(page.find("uPlot=function"), std::string::npos);
   EXPECT_NE(page.find("Permission is hereby granted"), std::string::npos);
   EXPECT_NE(page.find(".u-over"), std::string::npos);
-  for (const char* name : {"{{title}}", "{{uplot_css}}", "{{report_css}}", "{{uplot_license}}", "{{uplot_js}}",
-                           "{{common_js}}", "{{report_js}}", "{{data}}"}) {
+  for (const char* name :
+       {"{{title}}", "{{uplot_css}}", "{{report_css}}", "{{uplot_license}}", "{{uplot_js}}", "{{common_js}}",
+        "{{chart_js}}", "{{correlation_js}}", "{{part_js}}", "{{report_js}}", "{{data}}"}) {
     EXPECT_EQ(page.find(name), std::string::npos) << name;
   }
   EXPECT_NE(page.find("<title>Model &lt;of&gt; &quot;r1&quot; &amp; r2</title>"), std::string::npos);
