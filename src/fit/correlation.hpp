@@ -2,6 +2,8 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
 namespace hysteron {
@@ -22,6 +24,34 @@ struct CorrelationEigen {
     vectors = solver.eigenvectors();
   }
   [[nodiscard]] bool open(Eigen::Index direction) const { return values[direction] <= open_direction; }
+
+  // Of the scaled matrix, of the directions that the data tell.
+  [[nodiscard]] Eigen::MatrixXd told_inverse() const { return inverse_of(false); }
+  // Of all: open directions count as far as they can be told from nothing, so that the coordinates in them correlate
+  // fully.
+  [[nodiscard]] Eigen::MatrixXd inverse() const { return inverse_of(true); }
+
+ private:
+  [[nodiscard]] Eigen::MatrixXd inverse_of(bool all) const {
+    Eigen::MatrixXd result = Eigen::MatrixXd::Zero(values.size(), values.size());
+    for (Eigen::Index e = 0; e < values.size(); ++e) {
+      if (all || !open(e)) {
+        result += vectors.col(e) * vectors.col(e).transpose() / std::max(values[e], open_direction);
+      }
+    }
+    return result;
+  }
 };
+
+// Covariances over the standard deviations, whatever the scale of each coordinate.
+inline Eigen::MatrixXd correlation_of(const Eigen::MatrixXd& covariance) {
+  Eigen::MatrixXd result = Eigen::MatrixXd::Identity(covariance.rows(), covariance.cols());
+  for (Eigen::Index i = 0; i < result.rows(); ++i) {
+    for (Eigen::Index j = 0; j < result.cols(); ++j) {
+      if (i != j) result(i, j) = covariance(i, j) / std::sqrt(covariance(i, i) * covariance(j, j));
+    }
+  }
+  return result;
+}
 
 }  // namespace hysteron

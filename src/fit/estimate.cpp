@@ -5,6 +5,7 @@
 
 #include "core/unit_text.hpp"
 #include "fit/correlation.hpp"
+#include "fit/free_coordinates.hpp"
 #include "fit/identify.hpp"
 #include "fit/jackknife.hpp"
 #include "fit/neighbours.hpp"
@@ -54,13 +55,12 @@ Uncertainty uncertainty_of(const Layout& layout, const Response& response, doubl
   std::vector<bool> open(static_cast<std::size_t>(d), false);
   std::vector<Eigen::Index> free;
   for (Eigen::Index k = 0; k < d; ++k) {
-    const double position = u[static_cast<std::size_t>(k)];
     if (!std::isfinite(full(k, k))) {
       // Of a coordinate without a finite derivative nothing can be said; the others keep their errors.
       full.row(k).setZero();
       full.col(k).setZero();
       open[static_cast<std::size_t>(k)] = true;
-    } else if (position > 1e-6 && position < 1.0 - 1e-6) {
+    } else if (!on_bound(u[static_cast<std::size_t>(k)])) {
       free.push_back(k);
     }
   }
@@ -77,12 +77,7 @@ Uncertainty uncertainty_of(const Layout& layout, const Response& response, doubl
   if (m > 0) {
     const CorrelationEigen eigen(full(free, free));
     const double variance = response.cost[0] * response.cost[0] / std::max(independent - static_cast<double>(m), 1.0);
-    Eigen::MatrixXd inverse = Eigen::MatrixXd::Zero(m, m);
-    for (Eigen::Index e = 0; e < m; ++e) {
-      if (!eigen.open(e)) {
-        inverse += eigen.vectors.col(e) * eigen.vectors.col(e).transpose() / eigen.values[e];
-      }
-    }
+    const Eigen::MatrixXd inverse = eigen.told_inverse();
     for (Eigen::Index i = 0; i < m; ++i) {
       const auto a = free[static_cast<std::size_t>(i)];
       for (Eigen::Index j = 0; j < m; ++j) {
@@ -144,7 +139,7 @@ void add_estimates(Identification& result, const Uncertainty& uncertainty, const
     for (std::size_t k = 0; k < count; ++k) {
       const double position = u[law.first + k];
       law_open = law_open || uncertainty.open[law.first + k];
-      if (position <= 1e-6 || position >= 1.0 - 1e-6) {
+      if (on_bound(position)) {
         bound = position < 0.5 ? "lower" : "upper";
       } else {
         law_free = true;
@@ -185,7 +180,10 @@ void estimate(Identification& result, const Objective& objective, const std::vec
   Uncertainty uncertainty = unknown(result.layout.dimension());
   try {
     const double r = residual_correlation(objective, result.terms);
-    uncertainty = uncertainty_of(objective.layout(), objective.evaluate({u, true}),
+    const Response derivatives = objective.evaluate({u, true});
+    result.correlations = correlations(derivatives, u);
+    result.sensitivities = sensitivities(objective.layout(), derivatives, measured_square(objective.targets()), u);
+    uncertainty = uncertainty_of(objective.layout(), derivatives,
                                  static_cast<double>(objective.samples()) * (1.0 - r) / (1.0 + r), u,
                                  [&](const std::vector<Eigen::Index>& free) { return jackknife(objective, u, free); });
   } catch (const Stopped&) {
@@ -196,6 +194,7 @@ void estimate(Identification& result, const Objective& objective, const std::vec
 
 void estimate(Identification& result, const Response& derivatives, double independent, const std::vector<double>& u,
               DriveKind drive_kind) {
+  result.correlations = correlations(derivatives, u);
   add_estimates(result,
                 uncertainty_of(result.layout, derivatives, independent, u,
                                [](const std::vector<Eigen::Index>&) { return std::optional<Jackknife>(); }),

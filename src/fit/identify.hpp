@@ -6,8 +6,10 @@
 #include <vector>
 
 #include "core/recording.hpp"
+#include "fit/correlations.hpp"
 #include "fit/driver.hpp"
 #include "fit/objective.hpp"
+#include "fit/sensitivity.hpp"
 
 namespace hysteron {
 
@@ -61,6 +63,9 @@ struct Identification {
   std::optional<RunResult> final_run = {};
   std::string final_stage = {};
   std::vector<std::string> warnings = {};
+  // At the final point; absent and empty where an interruption came before them.
+  std::optional<Correlations> correlations = {};
+  std::vector<ScaledSensitivity> sensitivities = {};
 };
 
 std::vector<Recording> pick(const std::vector<Recording>& recordings, const std::vector<std::size_t>& indices);
@@ -87,11 +92,11 @@ Identification identify(const Campaign& campaign, const std::string& model, cons
 double residual_correlation(const Objective& objective, const std::vector<Term>& terms);
 
 // Estimates of every searched term at a point: value, standard error, bounds met, identifiability. Sets
-// result.estimates; result.layout and result.terms must be those of the point.
+// result.estimates, correlations and sensitivities; result.layout and result.terms must be those of the point.
 void estimate(Identification& result, const Objective& objective, const std::vector<double>& point,
               DriveKind drive_kind);
 // The same of another objective: from its cost and derivatives at the point, and how many independent samples it sums
-// over; from the curvature alone, without a jackknife.
+// over; from the curvature alone, without a jackknife, and without sensitivities.
 void estimate(Identification& result, const Response& derivatives, double independent, const std::vector<double>& point,
               DriveKind drive_kind);
 

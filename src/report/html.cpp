@@ -147,7 +147,7 @@ std::string page_of(const nlohmann::json& data, std::string_view part, std::stri
 
 std::string fit_report_html(nlohmann::json report) {
   shorten_samples(report);
-  return page_of(report, {}, web::report_js());
+  return page_of(report, web::quality_js(), web::report_js());
 }
 
 nlohmann::json data_of_page(const std::string& html) {

@@ -10,6 +10,7 @@ std::string_view report_css();
 std::string_view common_js();
 std::string_view chart_js();
 std::string_view correlation_js();
+std::string_view quality_js();
 std::string_view ranks_js();
 std::string_view report_js();
 std::string_view study_js();

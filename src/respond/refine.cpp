@@ -115,6 +115,15 @@ class ResponseObjective {
     return count;
   }
 
+  // Mean square of the recorded displacements, in the units of cost^2.
+  [[nodiscard]] double measured_square() const {
+    double sum = 0.0;
+    for (const MotionTarget& one : targets_) {
+      sum += mean_square(one.recording->displacement) / (one.scale * one.scale);
+    }
+    return sum / static_cast<double>(targets_.size());
+  }
+
   [[nodiscard]] std::vector<double> misfit_of(const std::vector<double>& point, std::size_t r) const {
     return misfit(simulated_of(point, r), targets_[r]);
   }
@@ -345,8 +354,9 @@ ResponseFit refine(Identification& result, const std::vector<Recording>& respons
     std::erase(result.warnings, stale);
   }
   result.estimates.clear();
-  estimate(result, without_starts(objective.evaluate({point, true}), layout.dimension()), independent, shared,
-           responses.front().drive_kind);
+  const Response derivatives = objective.evaluate({point, true});
+  estimate(result, without_starts(derivatives, layout.dimension()), independent, shared, responses.front().drive_kind);
+  result.sensitivities = sensitivities(layout, derivatives, objective.measured_square(), shared);
 
   for (std::string& warning : warnings_of(result.estimates)) {
     result.warnings.push_back(std::move(warning));

@@ -10,6 +10,7 @@
 #include "core/error.hpp"
 #include "fit/correlation.hpp"
 #include "fit/driver.hpp"
+#include "fit/free_coordinates.hpp"
 #include "fit/identify.hpp"
 #include "fit/parallel.hpp"
 
@@ -19,8 +20,7 @@ namespace {
 using nlohmann::json;
 
 constexpr double chi_squared_95 = 3.841458820694124;  // one degree of freedom
-constexpr double on_bound = 1e-6;
-constexpr int steps = 5;             // of a profile, to either side
+constexpr int steps = 5;                              // of a profile, to either side
 constexpr std::size_t descent = 40;  // iterations allowed to a descent from the best run, to a refit the half
 
 struct Point {
@@ -100,9 +100,7 @@ class Winner {
       : layout_(problem.layout), objective_(problem.layout, problem.recordings, options(plan)) {
     at_ = descend(objective_, best, {}, descent);
     const std::size_t d = at_.u.size();
-    for (std::size_t k = 0; k < d; ++k) {
-      if (at_.u[k] > on_bound && at_.u[k] < 1.0 - on_bound) free_.push_back(k);
-    }
+    for (const Eigen::Index k : free_coordinates(at_.u)) free_.push_back(static_cast<std::size_t>(k));
     const double r = residual_correlation(objective_, layout_.terms(at_.u));
     effective_ =
         std::max(static_cast<double>(objective_.samples()) * (1.0 - r) / (1.0 + r) - static_cast<double>(d), 1.0);
@@ -141,16 +139,13 @@ class Winner {
     deviation_.assign(at_.u.size(), 1.0);
     if (m == 0) return;
     const CorrelationEigen eigen(full(indices(), indices()));
-    Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(m, m);
-    for (Eigen::Index e = 0; e < m; ++e) {
-      // Open directions count as far as they can be told from nothing: their parameters then correlate fully.
-      covariance += eigen.vectors.col(e) * eigen.vectors.col(e).transpose() / std::max(eigen.values[e], open_direction);
-    }
+    const Eigen::MatrixXd covariance = eigen.inverse();
+    const Eigen::MatrixXd correlation = correlation_of(covariance);
     const double variance = at_.cost * at_.cost / effective_;
     for (Eigen::Index i = 0; i < m; ++i) {
       json row = json::array();
       for (Eigen::Index j = 0; j < m; ++j) {
-        row.push_back(i == j ? 1.0 : covariance(i, j) / std::sqrt(covariance(i, i) * covariance(j, j)));
+        row.push_back(correlation(i, j));
       }
       result["correlation"].push_back(row);
       deviation_[free_[static_cast<std::size_t>(i)]] =
@@ -205,9 +200,7 @@ class Winner {
                 {"lower", coordinate.lower},
                 {"upper", coordinate.upper},
                 {"log", coordinate.scale == Scale::logarithmic},
-                {"at_bound", u <= on_bound         ? json("lower")
-                             : u >= 1.0 - on_bound ? json("upper")
-                                                   : json(nullptr)}};
+                {"at_bound", on_bound(u) ? json(u < 0.5 ? "lower" : "upper") : json(nullptr)}};
     // Three standard deviations to either side, or to the end of the box.
     const double reach = 3.0 * std::max(deviation_[c], 1e-4);
     const auto down = side(c, std::max(0.0, u - reach));
@@ -221,8 +214,8 @@ class Winner {
     for (std::size_t k = down.size(); k-- > 1;) put(down[k]);
     for (const auto& point : up) put(point);
     row["profile"] = {{"value", values}, {"nrmse", costs}};
-    const auto low = u > on_bound ? crossing(down, threshold_) : std::nullopt;
-    const auto high = u < 1.0 - on_bound ? crossing(up, threshold_) : std::nullopt;
+    const auto low = on_bound(u) && u < 0.5 ? std::nullopt : crossing(down, threshold_);
+    const auto high = on_bound(u) && u > 0.5 ? std::nullopt : crossing(up, threshold_);
     row["low"] = low ? json(layout_.physical(c, *low)) : json(nullptr);
     row["high"] = high ? json(layout_.physical(c, *high)) : json(nullptr);
     return row;

@@ -9,6 +9,7 @@
 #include "fit/usable.hpp"
 #include "fit/weighting.hpp"
 #include "report/terminal.hpp"
+#include "task/fit_quality.hpp"
 #include "task/laws.hpp"
 #include "task/model_file.hpp"
 #include "task/page.hpp"
@@ -158,6 +159,8 @@ DiagnosisRecords records_of(const Diagnosis& diagnosis, const Campaign& campaign
   for (const Estimate& row : result.estimates) {
     page["parameters"].push_back(estimate_json(row, result.layout));
   }
+  page["correlation"] = correlation_json(result, campaign.recordings.front().drive_kind);
+  page["sensitivity"] = sensitivity_json(result);
   const Search& search = diagnosis.search;
   page["summary"] = json::array({{{"label", "Held-out NRMSE, base model"},
                                   {"value", format_number(search.base.heldout, 3)},

@@ -11,6 +11,7 @@
 #include "fit/weighting.hpp"
 #include "report/terminal.hpp"
 #include "task/finite.hpp"
+#include "task/fit_quality.hpp"
 #include "task/laws.hpp"
 #include "task/model_file.hpp"
 #include "task/page.hpp"
@@ -215,6 +216,8 @@ json fit_json(const FitResult& fit, const FitData& data, const FitRequest& reque
           {"solvers", solvers},
           {"final", final_json(result)},
           {"parameters", estimates},
+          {"correlation", correlation_json(result, campaign.recordings.front().drive_kind)},
+          {"sensitivity", sensitivity_json(result)},
           {"recordings", rows},
           {"stages", fit.two_stages ? stages_json(*fit.two_stages, result, campaign) : json(nullptr)},
           {"response", fit.response ? response_json(*fit.response, *request.rig) : json(nullptr)},

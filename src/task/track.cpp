@@ -1,8 +1,8 @@
 #include "task/track.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
+
+#include "task/coordinate_name.hpp"
 
 namespace hysteron {
 
@@ -12,35 +12,12 @@ namespace {
 
 constexpr std::size_t most_instants = 400;
 
-// "alpha", or for a node of a parameter law "alpha at 0.5 A, 2 Hz".
-std::string coordinate_name(const Layout& layout, std::size_t c, const std::string& drive_unit) {
-  const Coordinate& coordinate = layout.coordinates()[c];
-  const auto law = std::ranges::find(layout.laws(), coordinate.parameter, &ParameterLaw::parameter);
-  const ParameterLaw::Node node = law->node(coordinate.node);
-  std::string place;
-  if (law->drive_nodes.size() > 1) {
-    place = fmt::format(" at {:.3g} {}", node.drive, drive_unit);
-  }
-  if (law->frequency_nodes.size() > 1) {
-    place += fmt::format("{} {:.3g} Hz", place.empty() ? " at" : ",", node.frequency);
-  }
-  for (std::size_t k = 0; k < law->condition_nodes.size(); ++k) {
-    if (law->condition_nodes[k].size() > 1) {
-      const ConditionRange& condition = layout.conditions()[k];
-      place += fmt::format("{} {} {:.3g}{}{}", place.empty() ? " at" : ",", condition.name, node.conditions[k],
-                           condition.unit.empty() ? "" : " ", condition.unit);
-    }
-  }
-  return layout.names()[coordinate.parameter] + place;
-}
-
 }  // namespace
 
 json track_json(const RunResult& run, const Layout& layout, const std::vector<const Recording*>& recordings) {
   if (run.track.empty()) {
     return nullptr;
   }
-  const std::string drive_unit = recordings.front()->drive_kind == DriveKind::voltage ? "V" : "A";
   std::vector<double> begins{0.0};
   json files = json::array();
   for (const Recording* recording : recordings) {
@@ -49,7 +26,7 @@ json track_json(const RunResult& run, const Layout& layout, const std::vector<co
   }
   json result = {{"time", json::array()}, {"recordings", files}, {"parameters", json::array()}};
   for (std::size_t c = 0; c < layout.dimension(); ++c) {
-    result["parameters"].push_back({{"name", coordinate_name(layout, c, drive_unit)},
+    result["parameters"].push_back({{"name", coordinate_name(layout, c, recordings.front()->drive_kind)},
                                     {"unit", layout.cards()[layout.coordinates()[c].parameter].unit},
                                     {"mean", json::array()},
                                     {"lower", json::array()},

@@ -1,0 +1,79 @@
+// What a fit's record says of its parameters.
+#include "task/fit_quality.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "core/random.hpp"
+
+namespace hysteron {
+namespace {
+
+using nlohmann::json;
+
+Campaign damper(const std::vector<double>& currents) {
+  Campaign campaign;
+  for (const double current : currents) {
+    Recording recording;
+    recording.file = "r" + std::to_string(campaign.recordings.size()) + ".csv";
+    recording.velocity_measured = true;
+    const Stream stream = Stream(3).child(recording.file);
+    for (std::size_t n = 0; n < 300; ++n) {
+      const double t = static_cast<double>(n) / 100.0;
+      const double omega = 2.0 * std::numbers::pi;
+      recording.time.push_back(t);
+      recording.displacement.push_back(0.02 * std::sin(omega * t));
+      recording.velocity.push_back(0.02 * omega * std::cos(omega * t));
+      recording.force.push_back((2000.0 + 1500.0 * current) * recording.velocity.back() +
+                                9000.0 * recording.displacement.back() + 10.0 * stream.normal(n));
+    }
+    recording.drive.assign(recording.size(), current);
+    recording.drive_kind = DriveKind::current;
+    campaign.recordings.push_back(std::move(recording));
+    campaign.roles.push_back(Role::unassigned);
+  }
+  return campaign;
+}
+
+Identification fitted(const Campaign& campaign, const std::vector<std::string>& effects, bool law) {
+  IdentifyOptions options;
+  options.budget = 600;
+  options.effects = effects;
+  if (law) options.layout.by_current["c0"] = 1;
+  return identify(campaign, "viscous", options, {});
+}
+
+TEST(FitQuality, ThePairThatIsKnownTogetherOnlyIsNamed) {
+  const Identification result = fitted(damper({0.0}), {"viscous-damping"}, false);
+  const json found = correlation_json(result, DriveKind::current);
+  ASSERT_EQ(found.at("inseparable").size(), 1U) << found.dump();
+  EXPECT_EQ(found["inseparable"][0]["parameters"], (json{"c0", "viscous-damping.c"}));
+  EXPECT_TRUE(found["note"].get<std::string>().starts_with(
+      "These recordings do not separate c0 and viscous-damping.c (r = -1.000): "))
+      << found["note"];
+}
+
+TEST(FitQuality, ValuesOfALawStandForItsParameter) {
+  const Identification result = fitted(damper({0.0, 1.0}), {}, true);
+  const json found = correlation_json(result, DriveKind::current);
+  EXPECT_EQ(found.at("names"), (json{"c0 at 0 A", "c0 at 1 A", "k0", "f0"}));
+  EXPECT_TRUE(found.at("inseparable").empty());
+  EXPECT_TRUE(found["note"].get<std::string>().starts_with("These recordings separate every two parameters"));
+  const json sensitivity = sensitivity_json(result);
+  ASSERT_EQ(sensitivity.size(), 3U);
+  EXPECT_EQ(sensitivity[0]["parameter"], "c0");
+  // Both recordings weigh the same over their own largest force.
+  double squares = 0.0;
+  double all = 0.0;
+  for (const double c : {2000.0, 3500.0}) {
+    const double damping = c * 2.0 * std::numbers::pi;
+    squares += damping * damping / (damping * damping + 81e6);
+    all += 1.0;
+  }
+  EXPECT_NEAR(sensitivity[0]["value"].get<double>(), std::sqrt(squares / all), 0.01);
+}
+
+}  // namespace
+}  // namespace hysteron
