@@ -64,6 +64,8 @@ class CovarianceStrategy final : public support::SamplingSolver {
     begin_run(default_lambda_, first_sigma_);
   }
 
+  [[nodiscard]] Ends ends() const override { return ends_; }
+
  protected:
   std::vector<Point> propose() override {
     unfolded_.clear();
@@ -256,6 +258,7 @@ class CovarianceStrategy final : public support::SamplingSolver {
   }
 
   void restart() {
+    ends_.add(*std::ranges::min_element(best_history_));
     const std::size_t left = problem_.budget > evaluations() ? problem_.budget - evaluations() : 0;
     const std::size_t cap = std::max(default_lambda_, left / 10);
     (small_run_ ? small_budget_ : large_budget_) += run_evaluations_;
@@ -286,6 +289,7 @@ class CovarianceStrategy final : public support::SamplingSolver {
   Stream restarts_;
   std::size_t default_lambda_ = 0;
   std::size_t large_lambda_ = 0;
+  Ends ends_;
 
   // constants of the run
   std::size_t lambda_ = 0;

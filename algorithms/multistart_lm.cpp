@@ -90,6 +90,7 @@ class MultistartLm final : public Solver {
       if (!screening_) {
         // The rest of the budget on the full objective.
         ended_.clear();
+        diverged_ = 0;
         for (std::size_t k = 0; k < descents_.size(); ++k) {
           descents_[k] = begin(k == 0 ? 0 : begun_++);
         }
@@ -99,11 +100,13 @@ class MultistartLm final : public Solver {
   }
 
   [[nodiscard]] std::string stopped_because() const override { return reason_; }
+  [[nodiscard]] Ends ends() const override { return {ended_, diverged_, screening_, same()}; }
 
  private:
   static constexpr std::size_t screening_rounds = 8;  // fewer would not end a descent
   static constexpr double screened_tolerance = 5e-3;
 
+  [[nodiscard]] double same() const { return screening_ ? screened_tolerance : Ends{}.same; }
   [[nodiscard]] bool affords(std::size_t points) const { return points * (1 + problem_.dimension) <= problem_.budget; }
 
   // A descent has ended; a screened one may go on where it ended, and that from the problem's start does.
@@ -134,7 +137,7 @@ class MultistartLm final : public Solver {
     if (agreement_ == 0 || ended_.size() < starts_ || !finishing_.empty()) {
       return;
     }
-    const double tolerance = screening_ ? screened_tolerance : 1e-4;
+    const double tolerance = same();
     const double best = *std::ranges::min_element(ended_);
     const auto agreeing = static_cast<std::size_t>(
         std::ranges::count_if(ended_, [&](double cost) { return cost <= best * (1.0 + tolerance); }));

@@ -57,6 +57,8 @@ class NelderMead final : public support::SamplingSolver {
     }
   }
 
+  [[nodiscard]] Ends ends() const override { return ends_; }
+
  protected:
   std::vector<Point> propose() override {
     switch (stage_) {
@@ -178,6 +180,7 @@ class NelderMead final : public support::SamplingSolver {
     const bool flat = cost_.back() <= cost_.front();
     const bool collapsed = size <= tolerance_ || (flat && size <= 1e-4) || cost_.front() >= diverged_cost;
     stage_ = collapsed ? Stage::simplex : Stage::reflection;
+    if (collapsed) ends_.add(cost_.front());
   }
 
   Problem problem_;
@@ -189,6 +192,7 @@ class NelderMead final : public support::SamplingSolver {
   double shrink_ = 0.5;
   Stage stage_ = Stage::simplex;
   std::uint64_t starts_ = 0;
+  Ends ends_;
   std::vector<Point> vertex_;  // sorted, best first
   std::vector<double> cost_;
   Point reflected_;

@@ -50,6 +50,8 @@ class PatternSearch final : public support::SamplingSolver {
         complete_(support::whole_setting(problem, solver_pattern_search, "complete") == 1),
         restarts_(problem.stream.child("restarts")) {}
 
+  [[nodiscard]] Ends ends() const override { return ends_; }
+
  protected:
   std::vector<Point> propose() override {
     if (starting_) {
@@ -87,6 +89,7 @@ class PatternSearch final : public support::SamplingSolver {
     mesh_ *= contract_;
     poll_.clear();
     starting_ = mesh_ < tolerance_ || cost_ >= diverged_cost;
+    if (starting_) ends_.add(cost_);
   }
 
  private:
@@ -114,6 +117,7 @@ class PatternSearch final : public support::SamplingSolver {
   Stream restarts_;
   bool starting_ = true;
   std::uint64_t starts_ = 0;
+  Ends ends_;
   Point centre_;
   double cost_ = 0.0;
   double mesh_ = 0.0;

@@ -1,11 +1,15 @@
-// How good a fit is, beside its error: what the recordings say of the parameters. Draws what the record of the fit holds.
+// How good a fit is, beside its error: what the recordings say of the parameters, and where the starts of its solvers
+// ended. Draws what the record of the fit holds.
 const quality = (function () {
 "use strict";
 
 const { isNumber, fmt, el, section } = common;
-const { svgNode } = charts;
+const { half, svgNode, extent, padded, chart } = charts;
 
 const list = (value) => (Array.isArray(value) ? value : []);
+const percent = (share, digits) => `${fmt(100 * share, digits)} %`;
+const figure = (caption, node, note) =>
+  el("figure", { class: "plot" }, el("figcaption", {}, el("span", {}, caption)), node, note ? el("p", { class: "muted" }, note) : "");
 
 function correlations(record) {
   if (!record || !list(record.names).length) return [];
@@ -32,5 +36,26 @@ function parameters(report, of) {
   return parts.length ? section("known", "What the recordings say of the parameters", ...parts) : null;
 }
 
-return { parameters };
+// runs: [{name, starts}] of solvers that start more than once.
+function waterfall(runs) {
+  const shown = runs.filter((run) => run.starts && list(run.starts.costs).length > 1);
+  if (!shown.length) return [];
+  const figures = shown.map(({ name, starts }) => {
+    const costs = starts.costs;
+    const [lo, hi] = extent([costs]);
+    const log = lo > 0 && hi > 1.02 * lo;
+    const diverged = starts.diverged ? ` ${starts.diverged} more diverged.` : "";
+    return figure(`${name}: ${starts.reached} of ${costs.length} starts ended at the best`,
+      svgNode(chart({ width: half(), height: 240, margin: [8, 10, 38, 46], title: `Final costs of the starts of ${name}, sorted`,
+        x: { label: "Start, best first", range: [0.5, costs.length + 0.5], whole: true },
+        y: { label: starts.screened ? "Screened cost" : "Cost", log, range: log ? [lo / 1.02, hi * 1.02] : padded([lo, hi]) },
+        series: [{ x: costs.map((_, k) => k + 1), y: costs, cls: "residual", dots: true }] })),
+      `Within ${percent(starts.same, 2)} of it.${diverged}${starts.screened ? " Costs of a coarse simulation of thinned recordings, by which the starts are compared before the best are taken further." : ""}`);
+  });
+  return [el("h3", {}, "Waterfall: final cost of every start, sorted"),
+    el("p", { class: "muted" }, "A flat step is an optimum found again and again; a best that one start alone found may not be the best there is."),
+    el("div", { class: "plots" }, figures)];
+}
+
+return { parameters, waterfall };
 })();

@@ -658,6 +658,12 @@ function trackFigures(s) {
     el("div", { class: "minis" }, charts)];
 }
 
+// Every run that started more than once, the final one too.
+function startsOf() {
+  const final = report.final ? [{ name: `${report.final.solver}, ${report.final.stage}`, starts: report.final.starts }] : [];
+  return [...solvers.map((s) => ({ name: s.id, starts: s.starts })), ...final];
+}
+
 let drawConvergence = () => {};
 
 function solverSection() {
@@ -679,7 +685,7 @@ function solverSection() {
   };
   return section("solvers", "Search",
     plainTable("What each solver reached within its budget of objective evaluations; diverged counts candidates whose simulation blew up", columns, rows),
-    el("h3", {}, "Convergence"), host, ...solvers.flatMap(trackFigures));
+    el("h3", {}, "Convergence"), host, ...quality.waterfall(startsOf()), ...solvers.flatMap(trackFigures));
 }
 
 // ---------------------------------------------------------------------------------------------------------- two stages

@@ -116,6 +116,7 @@ RunResult run_solver(const SolverEntry& entry, const Problem& problem, const Eva
     }
     result.stopped = why;
     result.track = solver->track();
+    result.ends = solver->ends();
     return result;
   };
   while (true) {

@@ -24,6 +24,7 @@ struct RunResult {
   std::vector<TracePoint> trace;  // at every improvement
   std::string stopped;            // "budget", the solver's own reason, or "interrupted"
   std::vector<Tracked> track;     // Solver::track
+  Ends ends;                      // Solver::ends
 };
 
 using Evaluate = std::function<Response(const Request&)>;

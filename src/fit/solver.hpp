@@ -85,6 +85,22 @@ struct Tracked {
   std::vector<double> deviation;
 };
 
+// Where the descents of a solver that starts more than once ended.
+struct Ends {
+  std::vector<double> cost;  // in their order, without those that diverged
+  std::size_t diverged = 0;  // starts
+  bool screened = false;     // the costs are those of screening, which are only compared with each other
+  double same = 1e-4;        // costs that differ by no more than this share are of one optimum
+
+  void add(double end) {
+    if (end < diverged_cost) {
+      cost.push_back(end);
+    } else {
+      ++diverged;
+    }
+  }
+};
+
 class Solver {
  public:
   Solver() = default;
@@ -102,6 +118,8 @@ class Solver {
   [[nodiscard]] virtual std::string stopped_because() const { return {}; }
   // Its belief against time, of the pass through the data that gave the result; empty for other solvers.
   [[nodiscard]] virtual std::vector<Tracked> track() const { return {}; }
+  // Those so far; none for a solver that starts once.
+  [[nodiscard]] virtual Ends ends() const { return {}; }
 };
 
 struct Setting {

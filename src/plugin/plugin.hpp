@@ -25,11 +25,11 @@ namespace hysteron {
 constexpr std::uint64_t plugin_layout() {
   std::uint64_t sum = 14695981039346656037ULL;  // FNV-1a over the sizes
   for (const std::uint64_t part :
-       {std::uint64_t{1} /* this header */, std::uint64_t{sizeof(Part)}, std::uint64_t{sizeof(Parameter)},
-        std::uint64_t{sizeof(Knowledge)}, std::uint64_t{sizeof(Input<Lanes>)}, std::uint64_t{sizeof(LaneDual)},
-        std::uint64_t{sizeof(SolverEntry)}, std::uint64_t{sizeof(Problem)}, std::uint64_t{sizeof(Request)},
-        std::uint64_t{sizeof(Response)}, std::uint64_t{vector_bytes}, std::uint64_t{lane_count},
-        std::uint64_t{sweep_directions}}) {
+       {std::uint64_t{2} /* this header, and what Solver can be asked */, std::uint64_t{sizeof(Part)},
+        std::uint64_t{sizeof(Parameter)}, std::uint64_t{sizeof(Knowledge)}, std::uint64_t{sizeof(Input<Lanes>)},
+        std::uint64_t{sizeof(LaneDual)}, std::uint64_t{sizeof(SolverEntry)}, std::uint64_t{sizeof(Problem)},
+        std::uint64_t{sizeof(Request)}, std::uint64_t{sizeof(Response)}, std::uint64_t{vector_bytes},
+        std::uint64_t{lane_count}, std::uint64_t{sweep_directions}}) {
     sum = (sum ^ part) * 1099511628211ULL;
   }
   return sum;

@@ -51,6 +51,7 @@ json solver_json(const Identification& result, const Campaign& campaign, std::si
           {"stopped", outcome.run.stopped},
           {"chosen", k == result.chosen},
           {"trace", trace_json(outcome.run)},
+          {"starts", starts_json(outcome.run)},
           {"track", track_json(outcome.run, result.layout, followed)}};
 }
 
@@ -60,7 +61,8 @@ json final_json(const Identification& result) {
   }
   const RunResult& run = *result.final_run;
   return {{"stage", result.final_stage},    {"solver", run.solver}, {"cost", run.cost},
-          {"evaluations", run.evaluations}, {"budget", run.budget}, {"stopped", run.stopped}};
+          {"evaluations", run.evaluations}, {"budget", run.budget}, {"stopped", run.stopped},
+          {"starts", starts_json(run)}};
 }
 
 json response_json(const ResponseFit& fit, const Rig& rig) {

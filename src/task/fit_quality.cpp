@@ -75,4 +75,19 @@ json sensitivity_json(const Identification& result) {
   return rows;
 }
 
+json starts_json(const RunResult& run) {
+  if (run.ends.cost.size() < 2) {
+    return nullptr;
+  }
+  std::vector<double> costs = run.ends.cost;
+  std::ranges::sort(costs);
+  const auto reached =
+      std::ranges::count_if(costs, [&](double cost) { return cost <= costs.front() * (1.0 + run.ends.same); });
+  return {{"costs", costs},
+          {"reached", reached},
+          {"same", run.ends.same},
+          {"screened", run.ends.screened},
+          {"diverged", run.ends.diverged}};
+}
+
 }  // namespace hysteron

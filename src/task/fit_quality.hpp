@@ -14,4 +14,8 @@ nlohmann::json correlation_json(const Identification& result, DriveKind drive);
 // Scaled sensitivities, the largest first, null where a derivative is not finite.
 nlohmann::json sensitivity_json(const Identification& result);
 
+// Where the starts of a solver ended: `costs`, the best first, how many `reached` the best within the share `same`;
+// null for a run of fewer than two.
+nlohmann::json starts_json(const RunResult& run);
+
 }  // namespace hysteron

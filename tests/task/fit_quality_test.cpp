@@ -1,4 +1,4 @@
-// What a fit's record says of its parameters.
+// What a fit's record says of its parameters and of its starts.
 #include "task/fit_quality.hpp"
 
 #include <gtest/gtest.h>
@@ -73,6 +73,18 @@ TEST(FitQuality, ValuesOfALawStandForItsParameter) {
     all += 1.0;
   }
   EXPECT_NEAR(sensitivity[0]["value"].get<double>(), std::sqrt(squares / all), 0.01);
+}
+
+TEST(FitQuality, StartsAreSortedAndThoseAtTheBestCounted) {
+  RunResult run;
+  run.ends.cost = {0.3, 0.1, 0.10001, 0.2};
+  run.ends.diverged = 1;
+  const json found = starts_json(run);
+  EXPECT_EQ(found.at("costs"), (json{0.1, 0.10001, 0.2, 0.3}));
+  EXPECT_EQ(found.at("reached"), 2);
+  EXPECT_EQ(found.at("diverged"), 1);
+  run.ends.cost = {0.1};
+  EXPECT_TRUE(starts_json(run).is_null());
 }
 
 }  // namespace

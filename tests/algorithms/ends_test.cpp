@@ -1,0 +1,62 @@
+// Where the starts of a solver ended: a cost with two valleys of known depths.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "fit/driver.hpp"
+#include "solver_harness.hpp"
+
+namespace hysteron {
+namespace {
+
+// cost^2 = (2 + cos 4 pi u)^2 + slope: valleys at u = 1/4 and 3/4, where the first part is 1 and the second
+// (u/2)^2.
+testing::Residuals valleys(const double* u, std::size_t /*dimension*/) {
+  const double angle = 4.0 * std::numbers::pi * u[0];
+  return {{2.0 + std::cos(angle), 0.5 * u[0]}, {-4.0 * std::numbers::pi * std::sin(angle), 0.5}};
+}
+
+RunResult run(const std::string& id, std::size_t budget) {
+  Problem problem;
+  problem.dimension = 1;
+  problem.budget = budget;
+  problem.stream = Stream(7);
+  problem.linear = {false};
+  return run_solver(*find_solver(id), problem,
+                    [](const Request& request) { return testing::evaluate(request, 1, valleys); });
+}
+
+class EndsOf : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(EndsOf, AreTheFloorsOfTheValleys) {
+  const RunResult result = run(GetParam(), 4000);
+  ASSERT_GE(result.ends.cost.size(), 8U);
+  EXPECT_FALSE(result.ends.screened);
+  EXPECT_EQ(result.ends.diverged, 0U);
+  const double low = std::hypot(1.0, 0.125);
+  const double high = std::hypot(1.0, 0.375);
+  std::size_t in_low = 0;
+  for (const double cost : result.ends.cost) {
+    // Both floors lie a little beside the cosine's, by the slope of the second part.
+    const bool best = std::fabs(cost - low) < 2e-3;
+    in_low += best ? 1 : 0;
+    EXPECT_TRUE(best || std::fabs(cost - high) < 2e-3) << cost;
+    EXPECT_GE(cost, result.cost);
+  }
+  EXPECT_GT(in_low, 0U);
+  EXPECT_LT(in_low, result.ends.cost.size());
+}
+
+INSTANTIATE_TEST_SUITE_P(Starting, EndsOf, ::testing::Values("multistart-lm", "nelder-mead", "pattern-search"),
+                         [](const auto& instance) {
+                           std::string name(instance.param);
+                           std::ranges::replace(name, '-', '_');
+                           return name;
+                         });
+
+TEST(Ends, ASolverThatStartsOnceHasNone) { EXPECT_TRUE(run("pso", 400).ends.cost.empty()); }
+
+}  // namespace
+}  // namespace hysteron
