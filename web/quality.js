@@ -1,5 +1,5 @@
-// How good a fit is, beside its error: what the recordings say of the parameters, and where the starts of its solvers
-// ended. Draws what the record of the fit holds.
+// How good a fit is, beside its error: what the recordings say of the parameters, what is left over, and where the starts
+// of its solvers ended. Draws what the record of the fit holds.
 const quality = (function () {
 "use strict";
 
@@ -36,6 +36,37 @@ function parameters(report, of) {
   return parts.length ? section("known", "What the recordings say of the parameters", ...parts) : null;
 }
 
+function residual(record, of) {
+  if (!record || !list(record.autocorrelation).length) return null;
+  const facts = [
+    ["AIC", `${fmt(record.aic, 5)}, n ln(mean square) + 2 k with n the effective sample size and k = ${record.free_parameters} free parameters`],
+    ["BIC", `${fmt(record.bic, 5)}, with a penalty of k ln n`],
+    ["Effective sample size", `${fmt(record.effective_samples, 3)} of ${record.samples} samples, by their correlation with their neighbours`],
+    ["Lag-1 correlation", fmt(record.autocorrelation[0], 3)],
+    ["Whiteness", `${percent(record.lags_outside, 2)} of ${record.autocorrelation.length} lags are outside the band within which white noise keeps 95 %`],
+  ];
+  const lags = record.autocorrelation.map((_, k) => k + 1);
+  const limit = 1.96 / Math.sqrt(record.samples);
+  const edge = (sign) => ({ x: [1, lags.length], y: [sign * limit, sign * limit], cls: "measured", dash: "5 4" });
+  const { reach, density } = record.histogram;
+  const edges = density.map((_, k) => -reach + (2 * reach * k) / density.length);
+  const width = (2 * reach) / density.length;
+  const steps = { x: [-reach, ...edges.flatMap((at) => [at, at + width]), reach], y: [0, ...density.flatMap((v) => [v, v]), 0], cls: "residual" };
+  const grid = Array.from({ length: 81 }, (_, k) => -reach + (k * reach) / 40);
+  const bell = { x: grid, y: grid.map((v) => Math.exp(-0.5 * v * v) / Math.sqrt(2 * Math.PI)), cls: "measured", dash: "5 4" };
+  const size = { width: half(), height: 280, margin: [8, 10, 38, 46] };
+  return section("residual", "What is left over",
+    el("p", { class: "muted" }, `Measured less simulated ${of.word} of the fitted recordings, all samples, each recording over its own normaliser. AIC and BIC rank models on the same recordings only, as compare does.`),
+    el("dl", { class: "facts" }, facts.flatMap(([name, value]) => [el("dt", {}, name), el("dd", {}, value)])),
+    el("div", { class: "plots" },
+      figure("Autocorrelation; white noise stays between the dashed lines", svgNode(chart({ ...size, title: "Autocorrelation of the residual",
+        x: { label: "Lag [samples]", range: [0, lags.length + 1] }, y: { label: "Correlation", range: padded(extent([record.autocorrelation, [-limit, limit]])) },
+        series: [edge(1), edge(-1), { x: lags, y: record.autocorrelation, cls: "residual", dots: true }] }))),
+      figure("Histogram; dashed: normal", svgNode(chart({ ...size, title: "Histogram of the residual over its root mean square",
+        x: { label: "Residual / RMS", range: [-reach, reach] }, y: { label: "Density", range: [0, 1.1 * Math.max(0.42, ...density)] }, series: [bell, steps] })),
+      record.histogram.beyond > 0 ? `${percent(record.histogram.beyond, 2)} of the samples are beyond ${reach} times the root mean square.` : "")));
+}
+
 // runs: [{name, starts}] of solvers that start more than once.
 function waterfall(runs) {
   const shown = runs.filter((run) => run.starts && list(run.starts.costs).length > 1);
@@ -57,5 +88,5 @@ function waterfall(runs) {
     el("div", { class: "plots" }, figures)];
 }
 
-return { parameters, waterfall };
+return { parameters, residual, waterfall };
 })();

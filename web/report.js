@@ -1165,11 +1165,12 @@ function page() {
     recordings.length ? section("recordings", "Recordings", recordingTable(), detailView()) : null,
     report.model || parameters.length ? modelSection() : null,
     quality.parameters(report, plotted),
+    quality.residual(report.residual, plotted),
     stagesSection(),
     solverSection(),
     provenanceSection(),
   ].filter(Boolean);
-  const titles = { diagnosis: "Diagnosis", overview: "Overview", recordings: "Recordings", model: "Model", known: "Sensitivity and correlation", stages: "Two stages", solvers: "Search", provenance: "Provenance" };
+  const titles = { diagnosis: "Diagnosis", overview: "Overview", recordings: "Recordings", model: "Model", known: "Sensitivity and correlation", residual: "Residual", stages: "Two stages", solvers: "Search", provenance: "Provenance" };
   const warnings = list(report.warnings);
   document.getElementById("content").replaceChildren(
     el("header", {}, el("h1", {}, report.title || "Hysteron report"), report.subtitle ? el("p", { class: "subtitle" }, report.subtitle) : "",

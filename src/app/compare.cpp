@@ -18,6 +18,7 @@
 #include "task/finite.hpp"
 #include "task/guesses.hpp"
 #include "task/model_file.hpp"
+#include "task/residual_record.hpp"
 
 namespace hysteron::app {
 namespace {
@@ -68,13 +69,7 @@ std::vector<std::vector<double>> residuals_of(const Compared& model, const Campa
                                               const std::vector<std::size_t>& which, Normalisation normalisation) {
   std::vector<std::vector<double>> result;
   for (const std::size_t r : which) {
-    const Recording& recording = campaign.recordings[r];
-    const double scale = normaliser(recording, normalisation);
-    std::vector<double> series;
-    for (std::size_t n = 0; n < recording.size(); ++n) {
-      series.push_back((recording.force[n] - model.force[r][n]) / scale);
-    }
-    result.push_back(std::move(series));
+    result.push_back(normalised_residual(campaign.recordings[r], model.force[r], normalisation));
   }
   return result;
 }
@@ -261,25 +256,19 @@ void run(const Options& options) {
     for (const Part* effect : model.stored.model.effects) {
       effects.push_back(effect->id);
     }
-    file["models"].push_back(
-        {{"label", model.label},
-         {"model", model.stored.model.law->id},
-         {"effects", effects},
-         {"free_parameters", model.stored.searched},
-         {"nrmse",
-          {{"overall", model.overall},
-           {"fitted", number_or_null(model.fitted)},
-           {"unseen", number_or_null(model.unseen)}}},
-         {"aic", model.criteria ? json(model.criteria->aic) : json(nullptr)},
-         {"bic", model.criteria ? json(model.criteria->bic) : json(nullptr)},
-         {"delta_aic", model.criteria ? json(model.criteria->aic - best_aic) : json(nullptr)},
-         {"delta_bic", model.criteria ? json(model.criteria->bic - best_bic) : json(nullptr)},
-         {"residual",
-          {{"samples", model.facts.samples},
-           {"autocorrelation", model.facts.autocorrelation},
-           {"lags_outside", model.facts.outside},
-           {"histogram",
-            {{"reach", histogram_reach}, {"density", model.facts.histogram}, {"beyond", model.facts.beyond}}}}}});
+    file["models"].push_back({{"label", model.label},
+                              {"model", model.stored.model.law->id},
+                              {"effects", effects},
+                              {"free_parameters", model.stored.searched},
+                              {"nrmse",
+                               {{"overall", model.overall},
+                                {"fitted", number_or_null(model.fitted)},
+                                {"unseen", number_or_null(model.unseen)}}},
+                              {"aic", model.criteria ? json(model.criteria->aic) : json(nullptr)},
+                              {"bic", model.criteria ? json(model.criteria->bic) : json(nullptr)},
+                              {"delta_aic", model.criteria ? json(model.criteria->aic - best_aic) : json(nullptr)},
+                              {"delta_bic", model.criteria ? json(model.criteria->bic - best_bic) : json(nullptr)},
+                              {"residual", residual_json(model.facts)}});
   }
   for (const std::size_t r : all) {
     json row = {{"file", campaign.recordings[r].file}, {"sha256", campaign.recordings[r].sha256}};

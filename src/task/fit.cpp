@@ -16,6 +16,7 @@
 #include "task/model_file.hpp"
 #include "task/page.hpp"
 #include "task/rate.hpp"
+#include "task/residual_record.hpp"
 #include "task/stages.hpp"
 #include "task/track.hpp"
 #include "task/words.hpp"
@@ -145,6 +146,17 @@ double deviation_of(const std::vector<double>& values) {
   return std::sqrt(std::max(square / count - sum * sum / (count * count), 0.0));
 }
 
+// Recorded less simulated displacement over the largest recorded one; empty where the motion runs away.
+std::vector<double> motion_residual(const Recording& recording, const std::vector<double>& simulated) {
+  double largest = 0.0;
+  for (const double x : recording.displacement) largest = std::max(largest, std::fabs(x));
+  std::vector<double> result;
+  for (std::size_t n = 0; n < simulated.size(); ++n) {
+    result.push_back((recording.displacement[n] - simulated[n]) / largest);
+  }
+  return result;
+}
+
 // The errors of a recording's row are of the motion.
 void show_motion(json& row, const ResponseScore& score, const std::vector<double>& displacement) {
   const auto finite_or_null = [](double value) { return std::isfinite(value) ? json(value) : json(); };
@@ -220,6 +232,7 @@ json fit_json(const FitResult& fit, const FitData& data, const FitRequest& reque
           {"parameters", estimates},
           {"correlation", correlation_json(result, campaign.recordings.front().drive_kind)},
           {"sensitivity", sensitivity_json(result)},
+          {"residual", fit.residual ? residual_json(*fit.residual, result.layout.dimension()) : json(nullptr)},
           {"recordings", rows},
           {"stages", fit.two_stages ? stages_json(*fit.two_stages, result, campaign) : json(nullptr)},
           {"response", fit.response ? response_json(*fit.response, *request.rig) : json(nullptr)},
@@ -341,6 +354,7 @@ FitResult fit_campaign(const FitData& data, const FitRequest& request, const std
   for (const std::size_t k : result.heldout) fit.held_out[k] = true;
   // One prediction at a time: it is as long as its recording.
   json page_recordings = json::array();
+  std::vector<std::vector<double>> residuals;  // of the fitted recordings
   for (std::size_t k = 0; k < campaign.recordings.size(); ++k) {
     const Recording& recording = campaign.recordings[k];
     const Target target = make_target(recording, objective);
@@ -354,11 +368,22 @@ FitResult fit_campaign(const FitData& data, const FitRequest& request, const std
     if (fit.response) {
       prediction.motion = fit.response->motions[k].displacement;
     }
+    if (std::ranges::find(result.fitted, k) != result.fitted.end()) {
+      residuals.push_back(fit.response ? motion_residual(recording, prediction.motion)
+                                       : normalised_residual(recording, prediction.force, objective.normalisation));
+    }
     page_recordings.push_back(recording_json(recording, prediction, shown_role, campaign.recordings.size()));
     if (fit.response) {
       show_motion(page_recordings.back(), fit.response->scores[k], recording.displacement);
     }
     fit.scores.push_back(prediction.score);
+  }
+
+  // Of a simulation that runs away nothing is left over that could be looked at.
+  if (std::ranges::all_of(residuals, [](const std::vector<double>& series) {
+        return !series.empty() && std::ranges::all_of(series, [](double value) { return std::isfinite(value); });
+      })) {
+    fit.residual = residual_facts(residuals);
   }
 
   fit.warnings = remarks;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "compare/criteria.hpp"
 #include "fit/identify.hpp"
 #include "fit/two_stage.hpp"
 #include "respond/refine.hpp"
@@ -39,8 +40,9 @@ struct FitResult {
   Identification identification;
   std::optional<TwoStage> two_stages = {};
   std::optional<ResponseFit> response = {};
-  std::vector<Score> scores = {};   // of every recording
-  std::vector<bool> held_out = {};  // likewise, in the check of the solvers or by its role
+  std::optional<ResidualFacts> residual = {};  // of the fitted recordings, of what was fitted: force or motion
+  std::vector<Score> scores = {};              // of every recording
+  std::vector<bool> held_out = {};             // likewise, in the check of the solvers or by its role
   bool interrupted = false;
   std::string diverged = {};               // recordings on which the fitted model does not stay finite; empty: none
   std::vector<std::string> warnings = {};  // `remarks` first

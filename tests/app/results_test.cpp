@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -48,6 +49,33 @@ TEST_F(Results, DivergenceIsAFailureAndWritesNothing) {
     EXPECT_TRUE(outcome.err.starts_with("error: r1.csv: the simulation does not stay finite from ")) << outcome.err;
     EXPECT_FALSE(fs::exists(folder_ / "p.csv"));
   }
+}
+
+// A fit tells of its residual what a comparison on the same recordings does, and of its parameters as many
+// correlations as it has values.
+TEST_F(Results, AFitTellsHowGoodItIs) {
+  fit();
+  ASSERT_EQ(run({"compare", "fitted/model.json", "data", "--out", "compared"}).status, 0);
+  const json fitted = json::parse(read(folder_ / "fitted/fit.json"));
+  const json compared = json::parse(read(folder_ / "compared/compare.json"))["models"][0];
+  for (const char* criterion : {"aic", "bic"}) {
+    const double value = compared[criterion];
+    EXPECT_NEAR(fitted["residual"][criterion].get<double>(), value, 1e-6 * std::abs(value)) << criterion;
+  }
+  EXPECT_NEAR(fitted["residual"]["autocorrelation"][0].get<double>(),
+              compared["residual"]["autocorrelation"][0].get<double>(), 1e-6);
+  const json& correlation = fitted["correlation"];
+  ASSERT_EQ(correlation["values"].size(), correlation["names"].size());
+  for (std::size_t k = 0; k < correlation["names"].size(); ++k) {
+    EXPECT_EQ(correlation["values"][k][k], 1.0);
+  }
+  const json& sensitivity = fitted["sensitivity"];
+  ASSERT_FALSE(sensitivity.empty());
+  for (std::size_t k = 1; k < sensitivity.size(); ++k) {
+    EXPECT_LE(sensitivity[k]["value"], sensitivity[k - 1]["value"]);
+  }
+  // The page holds them, for its pictures.
+  EXPECT_NE(read(folder_ / "fitted/report.html").find("\"sensitivity\":[{"), std::string::npos);
 }
 
 // What was read stays as it was, whatever name or link leads to it; a file made before is replaced as ever.

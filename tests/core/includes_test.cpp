@@ -43,8 +43,8 @@ const Allowed& allowed() {
       {"src/study",
        {"core", "datasets", "datasets/support", "external", "fit", "io", "presets/support", "report", "simulate"}},
       {"src/task",
-       {"core", "datasets", "diagnose", "diagnose/search", "fit", "io", "presets", "report", "respond", "simulate",
-        "study"}},
+       {"compare", "core", "datasets", "diagnose", "diagnose/search", "fit", "io", "presets", "report", "respond",
+        "simulate", "study"}},
   };
   return table;
 }

@@ -1,4 +1,4 @@
-// What a fit's record says of its parameters and of its starts.
+// What a fit's record says of its parameters, of what is left over and of its starts.
 #include "task/fit_quality.hpp"
 
 #include <gtest/gtest.h>
@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "core/random.hpp"
+#include "task/residual_record.hpp"
 
 namespace hysteron {
 namespace {
@@ -85,6 +86,30 @@ TEST(FitQuality, StartsAreSortedAndThoseAtTheBestCounted) {
   EXPECT_EQ(found.at("diverged"), 1);
   run.ends.cost = {0.1};
   EXPECT_TRUE(starts_json(run).is_null());
+}
+
+// White noise of a known size: the criteria in closed form.
+TEST(ResidualRecord, CriteriaOfWhiteNoise) {
+  constexpr std::size_t count = 40000;
+  constexpr double deviation = 0.02;
+  const Stream stream(9);
+  Recording recording;
+  std::vector<double> force;
+  for (std::size_t n = 0; n < count; ++n) {
+    recording.time.push_back(static_cast<double>(n));
+    recording.force.push_back(100.0 * std::cos(static_cast<double>(n)));
+    force.push_back(recording.force.back() - 100.0 * deviation * stream.normal(n));
+  }
+  recording.force[0] = 100.0;
+  force[0] = 100.0;
+  const std::vector<double> residual = normalised_residual(recording, force, Normalisation::max_abs);
+  const json found = residual_json(residual_facts({residual}), 5);
+  const double n = found.at("effective_samples");
+  EXPECT_NEAR(n, count, 0.03 * count);
+  const double likelihood = n * std::log(deviation * deviation);
+  // The logarithm of a mean square of n values has the standard deviation sqrt(2 / n).
+  EXPECT_NEAR(found.at("aic").get<double>(), likelihood + 10.0, 4.0 * std::sqrt(2.0 * n));
+  EXPECT_NEAR(found.at("bic").get<double>() - found.at("aic").get<double>(), 5.0 * std::log(n) - 10.0, 1e-6);
 }
 
 }  // namespace
