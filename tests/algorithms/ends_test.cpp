@@ -11,11 +11,11 @@
 namespace hysteron {
 namespace {
 
-// cost^2 = (2 + cos 4 pi u)^2 + slope: valleys at u = 1/4 and 3/4, where the first part is 1 and the second
-// (u/2)^2.
+// cost^2 = (2 + cos a)^2 + (u/2)^2 with a = pi/2 + 3 pi u: valleys at u = 1/6 and 5/6, where the first part is 1; at
+// both ends of the box the cost falls inwards.
 testing::Residuals valleys(const double* u, std::size_t /*dimension*/) {
-  const double angle = 4.0 * std::numbers::pi * u[0];
-  return {{2.0 + std::cos(angle), 0.5 * u[0]}, {-4.0 * std::numbers::pi * std::sin(angle), 0.5}};
+  const double angle = 0.5 * std::numbers::pi + 3.0 * std::numbers::pi * u[0];
+  return {{2.0 + std::cos(angle), 0.5 * u[0]}, {-3.0 * std::numbers::pi * std::sin(angle), 0.5}};
 }
 
 RunResult run(const std::string& id, std::size_t budget) {
@@ -35,8 +35,8 @@ TEST_P(EndsOf, AreTheFloorsOfTheValleys) {
   ASSERT_GE(result.ends.cost.size(), 8U);
   EXPECT_FALSE(result.ends.screened);
   EXPECT_EQ(result.ends.diverged, 0U);
-  const double low = std::hypot(1.0, 0.125);
-  const double high = std::hypot(1.0, 0.375);
+  const double low = std::hypot(1.0, 1.0 / 12.0);
+  const double high = std::hypot(1.0, 5.0 / 12.0);
   std::size_t in_low = 0;
   for (const double cost : result.ends.cost) {
     // Both floors lie a little beside the cosine's, by the slope of the second part.

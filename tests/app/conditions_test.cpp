@@ -88,7 +88,8 @@ TEST_F(Pressed, UnitsAreOverThoseOfPlainNumbers) {
     return outcome.out;
   };
   const auto unit_of = [&](const std::string& out, const std::string& parameter, const char* key) {
-    for (const json& row : json::parse(read(folder_ / out / "fit.json"))["parameters"]) {
+    const json file = json::parse(read(folder_ / out / "fit.json"));
+    for (const json& row : file["parameters"]) {
       if (row["name"] == parameter) return row[key].get<std::string>();
     }
     return std::string();

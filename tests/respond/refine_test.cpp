@@ -146,5 +146,33 @@ TEST(Refine, AMassThatDoesNotMoveIsAnInputError) {
   EXPECT_THROW(refine(fit.identification, {still}, rig, {}, {}), InputError);
 }
 
+// A slow force moves a light mass on a spring by force / stiffness: one per cent more stiffness, one per cent less
+// motion.
+TEST(Refine, SensitivityOfASlowMotionToItsSpringIsOne) {
+  const Rig light{0.01, 0.0, 0.0, Interpolation::cubic};
+  const double stiffness = 2000.0;
+  const double omega = 2.0 * std::numbers::pi * 0.5;
+  Recording recording;
+  recording.file = "slow.csv";
+  for (std::size_t n = 0; n < 2000; ++n) {
+    const double t = static_cast<double>(n) / rate;
+    recording.time.push_back(t);
+    recording.force.push_back(20.0 * std::sin(omega * t));
+    recording.displacement.push_back(recording.force.back() / stiffness);
+    recording.velocity.push_back(20.0 / stiffness * omega * std::cos(omega * t));
+    recording.derived_acceleration.push_back(-omega * omega * recording.displacement.back());
+  }
+  Campaign campaign;
+  campaign.recordings = damper_recordings({recording}, light);
+  campaign.roles.assign(1, Role::unassigned);
+  IdentifyOptions options;
+  options.budget = 400;
+  options.layout.fix = {{"f0", 0.0}, {"c0", 1.0}};
+  Identification result = identify(campaign, "viscous", options, {});
+  refine(result, {recording}, light, options, {});
+  ASSERT_EQ(result.sensitivities.size(), 1U);
+  EXPECT_NEAR(result.sensitivities[0].value, 1.0, 0.01);
+}
+
 }  // namespace
 }  // namespace hysteron
