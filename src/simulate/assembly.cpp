@@ -1,72 +1,28 @@
 #include "simulate/assembly.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
-#include <vector>
 
-#include "simulate/march.hpp"
+#include "simulate/balance.hpp"
 
 namespace hysteron {
 namespace {
+
+using detail::Relief;
+using detail::States;
 
 // How much finer than their rate the steps of elements are: their knees are passed with a step on either side.
 constexpr double element_margin = 1.25;
 // Steps are this part of an interval at least: a shorter one at its end would be lost in rounding, and a step that gets
 // nowhere is repeated for ever. A reversal may lie that close to a sample.
 constexpr double least_progress = 1e-15;
-constexpr double infinite = std::numeric_limits<double>::infinity();
-
-// What a step holds of its series links: a factor on the gain, and, for the root's first guess, dF/dv of the links
-// below and the speed they moved at when the step began.
-template <class V>
-struct Relief {
-  std::array<V, max_links> factor;
-  std::array<V, max_links> resistance;
-  std::array<V, max_links> speed;
-};
-template <class T>
-using States = std::array<T, static_cast<std::size_t>(max_states)>;
-
-template <class V>
-struct Root {
-  V u;
-  V force;  // of the links below, at u
-};
 
 template <class T>
-class Assembly {
+class Assembly : public detail::Balance<T> {
  public:
-  using Value = value_t<T>;
-  static constexpr bool differentiates = !std::is_same_v<T, Value>;
-
-  Assembly(const CompositeModel& model, const Motion& motion)
-      : motion_(motion), parameters_(model.parameter_count()), states_(model.states()) {
-    model.for_links([this](const hysteron::Link& link) {
-      const Part& part = *link.part;
-      links_.push_back({&part.on<T>(), &part.on<Value>(), link.parameter, link.state, part.states});
-    });
-    values_.resize(parameters_);
-    still_.resize(links_.size());
-    slack_.resize(links_.size());
-  }
-
-  [[nodiscard]] int states() const { return states_; }
-
-  void set_parameters(const T* p) {
-    p_ = p;
-    for (std::size_t j = 0; j < parameters_; ++j) {
-      values_[j] = value_of(p[j]);
-    }
-    for (std::size_t i = 0; i < links_.size(); ++i) {
-      const Link& link = links_[i];
-      if (link.values->stiffness != nullptr) {
-        still_[i] = link.values->stiffness(values_.data() + link.parameter, 0.0);
-        if (link.values->settles >= 0) slack_[i] = link.values->slack(values_.data() + link.parameter);
-      }
-    }
-  }
+  using Balance = detail::Balance<T>;
+  using Value = typename Balance::Value;
+  using Balance::Balance;
 
   // Force at the start of a step, its rates, the bounds of their stiffness and the relief to step with.
   struct Start {
@@ -120,162 +76,15 @@ class Assembly {
   }
 
  private:
-  struct Link {
-    const PartOperations<T>* operations;
-    const PartOperations<Value>* values;
-    std::size_t parameter;
-    int state;
-    int states;
-  };
-
-  static Input<Value> value_input(const Input<T>& in) {
-    return {value_of(in.x),   value_of(in.v), value_of(in.drive), value_of(in.time),
-            value_of(in.age), value_of(in.a), value_of(in.jerk)};
-  }
-  template <class U>
-  static const PartOperations<U>& operations(const Link& link) {
-    if constexpr (std::is_same_v<U, T>) {
-      return *link.operations;
-    } else {
-      return *link.values;
-    }
-  }
-
-  // Force of the links [0, top) under `in`, and their rates unless null.
-  template <class U>
-  U evaluate(std::size_t top, const U* p, const U* s, const Input<U>& in, const Relief<Value>& relief, U* rates) const {
-    if (top == 0) {
-      return U(0.0);
-    }
-    const Link& link = links_[top - 1];
-    const PartOperations<U>& part = operations<U>(link);
-    const U* own = p + link.parameter;
-    const U* state = s + link.state;
-    if (part.yield != nullptr) {
-      Yield<U> yield;
-      part.yield(own, *state, yield);
-      yield.gain = yield.gain * U(relief.factor[top - 1]);
-      const Input<U> shifted{in.x - yield.deflection, in.v, in.drive, in.time, in.age, in.a, in.jerk};
-      if constexpr (std::is_same_v<U, Value>) {
-        if (rates == nullptr) {
-          return root(top - 1, p, s, shifted, *state, yield, relief).force;
-        }
-      }
-      const U u = solve(top - 1, p, s, shifted, *state, yield, relief);
-      if (rates != nullptr) {
-        rates[link.state] = u;
-      }
-      return evaluate(top - 1, p, s, moved(shifted, yield.slope * u), relief, rates);
-    }
-    Input<U> seen = in;
-    if (part.drive != nullptr) {
-      part.drive(own, state, seen);
-    }
-    U force = evaluate(top - 1, p, s, seen, relief, rates);
-    if (rates != nullptr && link.states > 0) {
-      if (part.loaded_rate != nullptr) {
-        part.loaded_rate(own, state, in, force, rates + link.state);
-      } else {
-        part.rate(own, state, in, rates + link.state);
-        if (part.settles >= 0) part.rest(own, state, in, rates + link.state);
-      }
-    }
-    part.force(own, state, in, force);
-    return force;
-  }
-
-  template <class U>
-  static Input<U> moved(const Input<U>& in, const U& speed) {
-    return {in.x, in.v - speed, in.drive, in.time, in.age, in.a, in.jerk};
-  }
-
-  // Rate u of the state of a series element above the links [0, top); `in` holds the deflected displacement.
-  template <class U>
-  U solve(std::size_t top, const U* p, const U* s, const Input<U>& in, const U& q, const Yield<U>& yield,
-          const Relief<Value>& relief) const {
-    if constexpr (std::is_same_v<U, Value>) {
-      return root(top, p, s, in, q, yield, relief).u;
-    } else {
-      States<Value> state;
-      const int below = links_[top].state;
-      for (int i = 0; i < below; ++i) {
-        state[static_cast<std::size_t>(i)] = value_of(s[i]);
-      }
-      const Yield<Value> values{value_of(yield.deflection), value_of(yield.slope), value_of(yield.bend),
-                                value_of(yield.gain),       value_of(yield.hold),  value_of(yield.width)};
-      const Input<Value> at = value_input(in);
-      const Value u = root(top, values_.data(), state.data(), at, q.v, values, relief).u;
-      const Value resistance = damping(top, values_.data(), state.data(), moved(at, values.slope * u), relief);
-      const Value slope = fma(values.gain * values.slope, resistance, Value(1.0));
-      const U known(u);
-      const U force = evaluate(top, p, s, moved(in, yield.slope * known), relief, static_cast<U*>(nullptr));
-      const U residual = known - yield.gain * (force - yield.hold * q);
-      return chain(residual, u, Value(-1.0) / slope);
-    }
-  }
-
-  // dF/dv of the links [0, top), by a difference that is small against the width of the laws' steepest steps.
-  Value damping(std::size_t top, const Value* p, const Value* s, const Input<Value>& in,
-                const Relief<Value>& relief) const {
-    const Value h = fma(abs(in.v), Value(1e-3), Value(1e-6));
-    Input<Value> above = in;
-    Input<Value> below = in;
-    above.v = in.v + h;
-    below.v = in.v - h;
-    const Value up = evaluate<Value>(top, p, s, above, relief, nullptr);
-    const Value down = evaluate<Value>(top, p, s, below, relief, nullptr);
-    return (up - down) / (above.v - below.v);
-  }
-
-  // The root of g by secants kept within the bracket, which end where g is its own rounding; lanes that are done stay.
-  Root<Value> root(std::size_t top, const Value* p, const Value* s, const Input<Value>& in, const Value& q,
-                   const Yield<Value>& yield, const Relief<Value>& relief) const {
-    const Value held = yield.hold * q;
-    Value tolerance;
-    Value force;
-    const auto residual = [&](const Value& u) {
-      force = evaluate<Value>(top, p, s, moved(in, yield.slope * u), relief, nullptr);
-      tolerance = Value(motion_.balance_tolerance) * (abs(u) + yield.gain * (abs(force) + abs(held)));
-      return u - yield.gain * (force - held);
-    };
-    // Where the links below hold the element, they move on as they did; else the element is taken to be at rest.
-    const Value hold = yield.gain * yield.slope * relief.resistance[top];
-    const auto held_back = hold > Value(0.1);
-    Value before =
-        select(held_back, (in.v - relief.speed[top]) / select(held_back, yield.slope, Value(1.0)), Value(0.0));
-    Value g_before = residual(before);
-    // The slope of g is one at least.
-    Value low = min(before, before - g_before);
-    Value high = max(before, before - g_before);
-    Value u = before - g_before / (Value(1.0) + hold);
-    Value g = residual(u);
-    const auto narrow = [&]() {
-      low = select(g < Value(0.0), max(low, u), low);
-      high = select(g > Value(0.0), min(high, u), high);
-    };
-    narrow();
-    for (int k = 0; k < motion_.balance_iterations; ++k) {
-      const auto active = abs(g) > tolerance;
-      if (!any(active)) {
-        break;
-      }
-      const Value change = g - g_before;
-      const auto steep = abs(change) > Value(k % 4 == 3 ? infinite : 0.0);  // now and then the middle
-      Value next = u - g * (u - before) / select(steep, change, Value(1.0));
-      const Value middle = Value(0.5) * (low + high);
-      next = select(steep & (next > low) & (next < high), next, middle);
-      next = select(active, next, u);
-      before = select(active, u, before);
-      g_before = select(active, g, g_before);
-      const Value kept = tolerance;
-      const Value g_next = residual(next);
-      u = next;
-      g = select(active, g_next, g);
-      tolerance = select(active, tolerance, kept);
-      narrow();
-    }
-    return {u, force};  // lanes that were done had the same u, and so the same force, to the end
-  }
+  using Balance::damping;
+  using Balance::evaluate;
+  using Balance::links_;
+  using Balance::motion_;
+  using Balance::p_;
+  using Balance::states_;
+  using Balance::value_input;
+  using Balance::values_;
+  using typename Balance::Link;
 
   // Bounds of the stiffness of all rates at a state with known rates; sets the relief that keeps every element within
   // motion.element_rate_limit. A link is taken to move at least as fast as the recording does.
@@ -308,16 +117,13 @@ class Assembly {
         const Value push = gain * (resistance * Value(acceleration) + stiffness * (abs(in.v) + Value(speed)));
         const Value passing = select(bent, abs(u) / span + sqrt(push / span), Value(0.0));
         const Value bending = gain * abs(yield.bend * u) * resistance;
-        result.elements = result.elements + min(min(lambda, Value(motion_.element_rate_limit)) + passing + bending,
-                                                Value(motion_.followed_rate_limit));
+        result.elements = result.elements + min(lambda, Value(motion_.element_rate_limit)) + passing + bending;
         continue;
       }
       if (link.states > 0 && link.values->stiffness != nullptr) {
-        const Value whole = detail::stiffness_beyond(*link.values, p + link.parameter, still_[i], speed, abs(in.v));
-        result.stiffness = result.stiffness + whole;
-        const int settles = link.values->settles;
-        result.at_rest = result.at_rest +
-                         (settles < 0 ? whole : select(detail::rests(rates[link.state + settles]), slack_[i], whole));
+        const auto bounds = this->bounds_of(i, in.v, speed, rates);
+        result.stiffness = result.stiffness + bounds.whole;
+        result.at_rest = result.at_rest + bounds.at_rest;
       }
       if (link.values->drive != nullptr) {
         link.values->drive(p + link.parameter, state, in);
@@ -339,30 +145,21 @@ class Assembly {
     States<Value> shifted;
     Input<Value> probe = in;
     probe.v = Value(0.0);
-    evaluate<Value>(top, p, s, probe, relief, rest.data());
-    const Value force = evaluate<Value>(top, p, s, in, relief, nullptr);
+    Balance::template evaluate<Value>(top, p, s, probe, relief, rest.data());
+    const Value force = Balance::template evaluate<Value>(top, p, s, in, relief, nullptr);
     for (const double direction : {1.0, -1.0}) {
       probe.v = Value(direction) * fast;
-      evaluate<Value>(top, p, s, probe, relief, rates.data());
+      Balance::template evaluate<Value>(top, p, s, probe, relief, rates.data());
       for (std::size_t i = 0; i < static_cast<std::size_t>(below); ++i) {
         shifted[i] = s[i] + Value(moment) * (rates[i] - rest[i]);
       }
       Input<Value> after = in;
       after.x = in.x + Value(moment) * probe.v;
-      const Value rise = evaluate<Value>(top, p, shifted.data(), after, relief, nullptr) - force;
+      const Value rise = Balance::template evaluate<Value>(top, p, shifted.data(), after, relief, nullptr) - force;
       stiffness = max(stiffness, abs(rise / (Value(moment) * fast)));
     }
     return stiffness;
   }
-
-  const Motion& motion_;
-  std::vector<Link> links_;  // law first
-  std::size_t parameters_;
-  int states_;
-  const T* p_ = nullptr;
-  std::vector<Value> values_;
-  std::vector<Value> still_;  // stiffness bound of a link at rest
-  std::vector<Value> slack_;  // in place of it and what speed adds while the link's state rests at its bound
 };
 
 // Room for one step, made once: clearing it would cost as much as the step.

@@ -2,11 +2,7 @@
 // deflected, and states driven by the force. The motion that a part sees then is no longer the recorded one, and
 // neither is the stiffness, so the step follows the state.
 //
-// A series element (Yield, part.hpp) with state q deflects by D(q), and the links below see x - D, v - D' u with u =
-// q'. u solves, at every stage,
-//   g(u) = u - gain (F_below(x - D, v - D' u) - hold q) = 0,
-// which has g' = 1 + gain D' dF/dv >= 1 for every law whose force does not fall with velocity: one root, between 0 and
-// -g(0). The derivatives of u follow from the implicit function theorem.
+// The balance of forces is solved at every stage (balance.hpp); u = q' is the rate of an element's state.
 //
 // The rate of the element's state falls with q as
 //   lambda = gain (hold + D' K) / (1 + gain D' dF/dv), and while D bends by gain |D'' u| dF/dv / (1 + ...) more,

@@ -7,6 +7,7 @@
 #include "core/suggest.hpp"
 #include "simulate/assembly.hpp"
 #include "simulate/chain.hpp"
+#include "simulate/implicit.hpp"
 #include "simulate/march.hpp"
 #include "simulate/under_load.hpp"
 
@@ -90,8 +91,11 @@ void CompositeModel::march(const Motion& motion, const T* p, std::size_t stride,
     return;
   }
   if (needs_assembly<T>(*this)) {
-    const auto march_loaded = motion.load.empty() ? march_assembly<T> : march_under_load<T>;
-    march_loaded(*this, motion, p, stride, begin, end, state, out);
+    const bool series = std::ranges::any_of(effects, [](const Part* effect) { return effect->in_series(); });
+    const auto march_balanced = !motion.load.empty()                 ? march_under_load<T>
+                                : series && motion.implicit_elements ? march_implicit<T>
+                                                                     : march_assembly<T>;
+    march_balanced(*this, motion, p, stride, begin, end, state, out);
     return;
   }
   const auto run = [&](const auto& chain) { hysteron::march<T>(chain, motion, p, stride, begin, end, state, out); };

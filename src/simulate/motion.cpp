@@ -118,7 +118,7 @@ void copy_settings(const Motion& from, Motion& to) {
   to.balance_tolerance = from.balance_tolerance;
   to.balance_iterations = from.balance_iterations;
   to.element_rate_limit = from.element_rate_limit;
-  to.followed_rate_limit = from.followed_rate_limit;
+  to.implicit_elements = from.implicit_elements;
 }
 
 Motion make_lean_motion(std::span<const double> time, std::span<const double> displacement,
@@ -153,12 +153,7 @@ Motion comparing_motion(Motion motion) {
   motion.most_substeps = 32.0;  // what is stiffer runs away, and with it a hypothesis that would hold up all others
   motion.balance_tolerance = 1e-4;
   motion.balance_iterations = 8;
-  // Coarser limits made a play of 0.5 mm look like something else on thinned recordings.
-  if (motion.time.size() > 1) {
-    const double interval = motion.time.back() / static_cast<double>(motion.time.size() - 1);
-    motion.element_rate_limit = 5.0 / interval;
-    motion.followed_rate_limit = 7.0 / interval;
-  }
+  motion.implicit_elements = true;
   return motion;
 }
 
@@ -167,6 +162,9 @@ Motion screening_motion(Motion motion) {
   motion.finer_at_reversals = 1.0;
   motion.finer_when_long = 0.0;
   motion.most_substeps = 2.0;
+  motion.balance_tolerance = 1e-4;
+  motion.balance_iterations = 8;
+  motion.implicit_elements = true;
   return motion;
 }
 

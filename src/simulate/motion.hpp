@@ -54,11 +54,12 @@ struct Motion {
   double finer_when_long = 3.0;
   double most_substeps = 65536.0;  // of an interval, between two samples
   // Series elements (simulate/assembly.hpp): relative error of the force balance and how many iterations it may take,
-  // fastest relaxation in 1/s, and the largest rate in 1/s that their steps follow.
+  // fastest relaxation in 1/s.
   double balance_tolerance = 1e-11;
   int balance_iterations = 40;
   double element_rate_limit = 5e4;
-  double followed_rate_limit = 1e300;
+  // Steps that do not follow the elements (simulate/implicit.hpp).
+  bool implicit_elements = false;
 };
 
 // Arrays of equal length; time strictly increasing (s), displacement (m), velocity (m/s), drive (A or V, may be empty),
@@ -66,8 +67,8 @@ struct Motion {
 Motion make_motion(std::span<const double> time, std::span<const double> displacement, std::span<const double> velocity,
                    std::span<const double> drive, double tolerance = 1e-4, std::span<const double> acceleration = {});
 
-// For comparing hypotheses with each other, not for forces: kinks between samples are not resolved, and series elements
-// relax within half a sampling interval, since what is faster is not seen between samples.
+// For comparing hypotheses with each other, not for forces: kinks between samples are not resolved, and neither is the
+// relaxation of series elements that is over between two samples.
 Motion comparing_motion(Motion motion);
 
 // For a first look at a candidate: steps as long as stability allows and few of them, so that the cost of a march is

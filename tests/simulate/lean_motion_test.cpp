@@ -64,7 +64,7 @@ TEST(LeanMotion, EveryPieceHasTheIntervalsOfTheWhole) {
       EXPECT_EQ(piece.balance_tolerance, whole.balance_tolerance);
       EXPECT_EQ(piece.balance_iterations, whole.balance_iterations);
       EXPECT_EQ(piece.element_rate_limit, whole.element_rate_limit);
-      EXPECT_EQ(piece.followed_rate_limit, whole.followed_rate_limit);
+      EXPECT_EQ(piece.implicit_elements, whole.implicit_elements);
     }
   }
 }

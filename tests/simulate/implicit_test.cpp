@@ -1,0 +1,257 @@
+// Steps that need not follow series elements: order, stiffness, derivatives, and the exact march beside them.
+#include "simulate/implicit.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <complex>
+#include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/random.hpp"
+#include "simulate/motion.hpp"
+
+namespace hysteron {
+namespace {
+
+using Vector = std::vector<double>;
+using Complex = std::complex<double>;
+constexpr double w = 4.0 * std::numbers::pi;  // 2 Hz
+constexpr double amplitude = 0.02;
+const std::vector<std::string> elements = {"compliance", "clearance", "entrapped-gas", "series-dashpot"};
+
+Motion sine(double rate, double duration) {
+  Vector time;
+  Vector x;
+  Vector v;
+  for (std::size_t n = 0; n < static_cast<std::size_t>(rate * duration); ++n) {
+    const double t = static_cast<double>(n) / rate;
+    time.push_back(t);
+    x.push_back(amplitude * std::sin(w * t));
+    v.push_back(amplitude * w * std::cos(w * t));
+  }
+  return make_motion(time, x, v, {});
+}
+
+// Steps of one interval each, balanced to the last bits.
+Motion implicit(Motion motion) {
+  motion = comparing_motion(std::move(motion));
+  motion.balance_tolerance = 1e-12;
+  motion.balance_iterations = 60;
+  return motion;
+}
+
+Vector with(const CompositeModel& model, const std::vector<std::pair<std::string, double>>& values) {
+  Vector p;
+  for (const Parameter& parameter : model.parameters()) {
+    p.push_back(parameter.initial);
+  }
+  const auto names = model.parameter_names();
+  for (const auto& [name, value] : values) {
+    const auto at = std::ranges::find(names, name);
+    EXPECT_NE(at, names.end()) << name;
+    p[static_cast<std::size_t>(at - names.begin())] = value;
+  }
+  return p;
+}
+
+Vector draw(const CompositeModel& model, std::uint64_t seed) {
+  const Stream stream(seed);
+  Vector p;
+  std::uint32_t j = 0;
+  for (const Parameter& card : model.parameters()) {
+    const double u = stream.uniform(3, j++);
+    p.push_back(card.fixed                         ? card.initial
+                : card.scale == Scale::logarithmic ? card.box.lower * std::pow(card.box.upper / card.box.lower, u)
+                                                   : card.box.lower + u * (card.box.upper - card.box.lower));
+  }
+  return p;
+}
+
+double peak(const Vector& a) {
+  double result = 0.0;
+  for (const double value : a) {
+    result = std::max(result, std::fabs(value));
+  }
+  return result;
+}
+double rms_distance(const Vector& a, const Vector& b) {
+  double sum = 0.0;
+  for (std::size_t n = 0; n < a.size(); ++n) {
+    sum += (a[n] - b[n]) * (a[n] - b[n]);
+  }
+  return std::sqrt(sum / static_cast<double>(a.size()));
+}
+
+// Largest error over the last period against the real part of phasor exp(i w t), over its size.
+double error_of(const Motion& motion, const Vector& force, Complex phasor) {
+  double result = 0.0;
+  for (std::size_t n = 0; n < force.size(); ++n) {
+    if (motion.time[n] > motion.time.back() - 0.5) {
+      const double theory = (phasor * std::exp(Complex(0.0, w * motion.time[n]))).real();
+      result = std::max(result, std::fabs(force[n] - theory));
+    }
+  }
+  return result / std::abs(phasor);
+}
+const Complex velocity(amplitude* w, 0.0);  // v = Re(velocity exp(i w t))
+const Complex i_omega(0.0, w);
+
+TEST(Implicit, IsOfSecondOrder) {
+  // A spring behind a dashpot that relaxes in 0.1 s: k / (c1 k) with e = 1 / c1.
+  const CompositeModel model = make_model("viscous", {"series-dashpot"});
+  const double k = 5e4;
+  const double e = 2e-4;
+  const Complex phasor = k * velocity / (i_omega + k * e);
+  double before = 0.0;
+  for (const double rate : {50.0, 100.0, 200.0, 400.0}) {
+    const Motion motion = implicit(sine(rate, 3.0));
+    const double error = error_of(
+        motion, simulate(model, motion, with(model, {{"c0", 0.0}, {"k0", k}, {"series-dashpot.e", e}})), phasor);
+    if (before > 0.0) {
+      EXPECT_NEAR(before / error, 4.0, 0.5) << rate;
+    }
+    before = error;
+  }
+  EXPECT_LT(before, 1e-4);
+}
+
+TEST(Implicit, FollowsWhatIsStiffWithOneStepBetweenTwoSamples) {
+  // The spring's own damping relaxes 4 to 40 times between two samples.
+  const CompositeModel model = make_model("viscous", {"compliance"});
+  const double c = 4000.0;
+  for (const double rate : {50.0, 500.0}) {
+    const Motion motion = implicit(sine(rate, 2.0));
+    for (const double compliance : {1e-9, 1e-6, 1e-5}) {
+      const Vector force =
+          simulate(model, motion, with(model, {{"c0", c}, {"compliance.C", compliance}, {"compliance.tau", 5e-4}}));
+      const Complex spring = i_omega * compliance / (1.0 + i_omega * 5e-4);
+      EXPECT_LT(error_of(motion, force, c * velocity / (1.0 + c * spring)), 2e-3) << rate << " Hz, " << compliance;
+    }
+  }
+}
+
+// Behind a law that has yielded the error is that of a knee within a step. A hundred samples a period.
+TEST(Implicit, AgreesWithTheMarchThatFollowsEverything) {
+  for (const std::string& id : elements) {
+    std::vector<double> errors;
+    for (const char* law : {"viscous", "bouc-wen", "modified-bouc-wen", "modified-dahl"}) {
+      const CompositeModel model = make_model(law, {id});
+      for (std::uint64_t seed = 0; seed < 8; ++seed) {
+        const Vector p = draw(model, 7100 + seed);
+        const Motion motion = sine(200.0, 1.0);
+        const Vector exact = simulate(model, motion, p);
+        errors.push_back(rms_distance(simulate(model, comparing_motion(motion), p), exact) / peak(exact));
+      }
+    }
+    std::ranges::sort(errors);
+    EXPECT_LT(errors[errors.size() / 2], 5e-3) << id;
+    EXPECT_LT(errors[errors.size() * 3 / 4], 1e-2) << id;
+    EXPECT_LT(errors.back(), 0.1) << id;
+  }
+}
+
+TEST(Implicit, DerivativesAreThoseOfTheForce) {
+  Motion motion = implicit(sine(200.0, 0.6));
+  motion.most_substeps = 1.0;  // lengths of steps follow the parameters, and are not differentiated
+  const std::vector<std::pair<std::string, double>> sizes = {
+      {"compliance.C", 3e-6},   {"clearance.gap", 1e-3}, {"entrapped-gas.d_a", 1e-3}, {"series-dashpot.e", 1e-4},
+      {"self-heating.b", 1e-3}, {"degradation.d", 1e-4}, {"inertia.m", 2.0},          {"x_y", 2e-3}};
+  for (const auto& effects : std::vector<std::vector<std::string>>{{"compliance"},
+                                                                   {"clearance"},
+                                                                   {"entrapped-gas"},
+                                                                   {"series-dashpot"},
+                                                                   {"self-heating", "compliance"},
+                                                                   {"compliance", "degradation"},
+                                                                   {"compliance", "inertia", "series-dashpot"}}) {
+    const CompositeModel model = make_model("modified-dahl", effects);
+    const std::vector<std::string> names = model.parameter_names();
+    Vector p = with(model, {});
+    for (const auto& [name, value] : sizes) {
+      if (const auto at = std::ranges::find(names, name); at != names.end()) {
+        p[static_cast<std::size_t>(at - names.begin())] = value;
+      }
+    }
+    for (std::size_t j = 0; j < std::min<std::size_t>(p.size(), 12); ++j) {
+      std::vector<LaneDual> dual(p.begin(), p.end());
+      const double scale = p[j] == 0.0 ? 0.01 * model.parameters()[j].box.upper : std::fabs(p[j]);
+      dual[j].d[0] = Lanes(scale);
+      std::vector<LaneDual> state(16), force(motion.time.size());
+      model.march<LaneDual>(motion, dual.data(), 0, 0, motion.time.size(), state.data(), force.data());
+      Vector up = p;
+      Vector down = p;
+      constexpr double h = 1e-5;
+      up[j] += h * scale;
+      down[j] -= h * scale;
+      const Vector above = simulate(model, motion, up);
+      const Vector below = simulate(model, motion, down);
+      Vector slope;
+      Vector expected;
+      for (std::size_t n = 0; n < force.size(); ++n) {
+        slope.push_back(force[n].d[0].lane(0));
+        expected.push_back((above[n] - below[n]) / (2.0 * h));
+      }
+      EXPECT_LT(rms_distance(slope, expected), 1e-3 * std::max(peak(expected), 1e-6))
+          << effects[0] << " " << model.parameter_names()[j];
+    }
+  }
+}
+
+// Alone, among seven others and marched in pieces: the same bits; the value of a dual too where no element stands
+// behind another.
+TEST(Implicit, ACandidateDoesNotDependOnItsCompany) {
+  const Motion motion = comparing_motion(sine(100.0, 0.4));
+  const std::size_t samples = motion.time.size();
+  for (const std::string& id : elements) {
+    for (const char* law : {"bouc-wen", "lugre", "viscous"}) {
+      const CompositeModel model = make_model(law, {id});
+      std::vector<Vector> rows;
+      std::vector<Lanes> p(model.parameter_count());
+      for (int lane = 0; lane < lane_count; ++lane) {
+        rows.push_back(draw(model, static_cast<std::uint64_t>(60 + lane)));
+        for (std::size_t j = 0; j < p.size(); ++j) {
+          p[j].set_lane(lane, rows.back()[j]);
+        }
+      }
+      std::vector<LaneDual> dual_p(p.begin(), p.end());
+      std::vector<Lanes> state(16), force(samples), piece_state(16), pieces(samples);
+      std::vector<LaneDual> dual_state(16), dual(samples);
+      model.march<Lanes>(motion, p.data(), 0, 0, samples, state.data(), force.data());
+      for (std::size_t begin = 0; begin < samples; begin += 7) {
+        model.march<Lanes>(motion, p.data(), 0, begin, std::min(begin + 7, samples), piece_state.data(),
+                           pieces.data() + begin);
+      }
+      model.march<LaneDual>(motion, dual_p.data(), 0, 0, samples, dual_state.data(), dual.data());
+      for (int lane = 0; lane < lane_count; ++lane) {
+        const Vector alone = simulate(model, motion, rows[static_cast<std::size_t>(lane)]);
+        for (std::size_t n = 0; n < samples; ++n) {
+          const auto bits = std::bit_cast<std::uint64_t>(alone[n]);
+          ASSERT_EQ(std::bit_cast<std::uint64_t>(force[n].lane(lane)), bits) << law << " " << id << " " << n;
+          ASSERT_EQ(std::bit_cast<std::uint64_t>(pieces[n].lane(lane)), bits) << law << " " << id << " " << n;
+          ASSERT_EQ(std::bit_cast<std::uint64_t>(dual[n].v.lane(lane)), bits) << law << " " << id << " " << n;
+        }
+      }
+    }
+  }
+}
+
+TEST(Implicit, ANeighbourWithNanDoesNotStopTheOthers) {
+  const Motion motion = comparing_motion(sine(100.0, 0.3));
+  const CompositeModel model = make_model("bouc-wen", {"clearance"});
+  const Vector good = with(model, {{"clearance.gap", 1e-3}});
+  std::vector<Lanes> p(good.begin(), good.end());
+  p[0].set_lane(2, std::numeric_limits<double>::quiet_NaN());
+  std::vector<Lanes> state(16), force(motion.time.size());
+  model.march<Lanes>(motion, p.data(), 0, 0, motion.time.size(), state.data(), force.data());
+  const Vector alone = simulate(model, motion, good);
+  for (std::size_t n = 0; n < alone.size(); ++n) {
+    ASSERT_EQ(force[n].lane(5), alone[n]);
+  }
+}
+
+}  // namespace
+}  // namespace hysteron
