@@ -166,7 +166,7 @@ TEST_F(Use, AFreeDecayTellsTheDamperBesideAMass) {
 TEST_F(Use, AResponseWantsTheMass) {
   const Outcome outcome = run({"fit", "data", "--response", "--model", "viscous", "--out", "out"});
   EXPECT_EQ(outcome.status, 2);
-  EXPECT_NE(outcome.err.find("--response requires --mass"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("--response: expected --mass beside it"), std::string::npos) << outcome.err;
   for (const char* mass : {"0", "-3", "nan", "inf", "20kg"}) {
     const Outcome wrong = run({"fit", "data", "--response", "--mass", mass, "--model", "viscous", "--out", "out"});
     EXPECT_EQ(wrong.status, 2) << mass;
