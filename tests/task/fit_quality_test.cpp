@@ -47,12 +47,12 @@ Identification fitted(const Campaign& campaign, const std::vector<std::string>& 
 }
 
 TEST(FitQuality, ThePairThatIsKnownTogetherOnlyIsNamed) {
-  const Identification result = fitted(damper({0.0}), {"viscous-damping"}, false);
+  const Identification result = fitted(damper({0.0}), {"offset-force"}, false);
   const json found = correlation_json(result, DriveKind::current);
   ASSERT_EQ(found.at("inseparable").size(), 1U) << found.dump();
-  EXPECT_EQ(found["inseparable"][0]["parameters"], (json{"c0", "viscous-damping.c"}));
+  EXPECT_EQ(found["inseparable"][0]["parameters"], (json{"f0", "offset-force.f0"}));
   EXPECT_TRUE(found["note"].get<std::string>().starts_with(
-      "These recordings do not separate c0 and viscous-damping.c (r = -1.000): "))
+      "These recordings do not separate f0 and offset-force.f0 (r = -1.000): "))
       << found["note"];
 }
 
