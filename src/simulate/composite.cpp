@@ -91,10 +91,10 @@ void CompositeModel::march(const Motion& motion, const T* p, std::size_t stride,
     return;
   }
   if (needs_assembly<T>(*this)) {
-    const bool series = std::ranges::any_of(effects, [](const Part* effect) { return effect->in_series(); });
-    const auto march_balanced = !motion.load.empty()                 ? march_under_load<T>
-                                : series && motion.implicit_elements ? march_implicit<T>
-                                                                     : march_assembly<T>;
+    const bool implicit = motion.implicit_elements && takes_implicit_steps(*this);
+    const auto march_balanced = !motion.load.empty() ? march_under_load<T>
+                                : implicit           ? march_implicit<T>
+                                                     : march_assembly<T>;
     march_balanced(*this, motion, p, stride, begin, end, state, out);
     return;
   }

@@ -435,8 +435,6 @@ class Implicit : public detail::Balance<T> {
     return by_way_of(known.force, (trial.force - root.force) * inverse, u);
   }
 
-  static constexpr std::size_t most_states_of_a_link = 4;
-
   Relief<Value> relief_;
   std::array<Guess<Value>, max_links> guesses_;
   States<T> rates_;
@@ -500,6 +498,12 @@ void march_segment(Implicit<T>& system, const Motion& motion, std::size_t n, dou
 }
 
 }  // namespace
+
+bool takes_implicit_steps(const CompositeModel& model) {
+  return std::ranges::any_of(model.effects, [](const Part* effect) { return effect->in_series(); }) &&
+         model.law->states <= most_states_of_a_link &&
+         std::ranges::all_of(model.effects, [](const Part* effect) { return effect->states <= most_states_of_a_link; });
+}
 
 template <class T>
 void march_implicit(const CompositeModel& model, const Motion& motion, const T* p, std::size_t stride,

@@ -18,7 +18,13 @@
 
 namespace hysteron {
 
-// As CompositeModel::march, of a chain that holds a series element.
+// States of a part that the steps have room for.
+inline constexpr int most_states_of_a_link = 4;
+
+// Whether the chain holds a series element, and no part with more states.
+[[nodiscard]] bool takes_implicit_steps(const CompositeModel& model);
+
+// As CompositeModel::march, of a chain that takes such steps.
 template <class T>
 void march_implicit(const CompositeModel& model, const Motion& motion, const T* p, std::size_t stride,
                     std::size_t begin, std::size_t end, T* state, T* out);

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "core/random.hpp"
+#include "simulate/compile.hpp"
 #include "simulate/motion.hpp"
 
 namespace hysteron {
@@ -237,6 +238,46 @@ TEST(Implicit, ACandidateDoesNotDependOnItsCompany) {
       }
     }
   }
+}
+
+// Five lags of the velocity, one behind the other: more states than the steps have room for.
+struct FiveLags {
+  static constexpr std::string_view id = "five-lags";
+  static constexpr std::string_view title = "Five lags";
+  static constexpr std::string_view reference = "none";
+  static constexpr std::string_view equations[] = {"F = c s_5", "s_1' = (v - s_1) / tau", "s_k' = (s_k-1 - s_k) / tau"};
+  static constexpr int states = 5;
+  static constexpr Parameter parameters[] = {
+      {.name = "c", .unit = "N s/m", .meaning = "damping", .box = {0, 1e4}, .initial = 1e3, .linear = true}};
+  static constexpr double tau = 5e-3;  // s
+
+  template <class T>
+  static std::array<T, 5> rate(const std::array<T, 1>& /*p*/, const std::array<T, 5>& s, const Input<T>& in) {
+    std::array<T, 5> result;
+    for (std::size_t k = 0; k < 5; ++k) {
+      result[k] = ((k == 0 ? in.v : s[k - 1]) - s[k]) * T(1.0 / tau);
+    }
+    return result;
+  }
+  template <class T>
+  static T stiffness(const std::array<T, 1>& /*p*/, double /*speed*/) {
+    return T(2.0 / tau);
+  }
+  template <class T>
+  static T force(const std::array<T, 1>& p, const std::array<T, 5>& s, const Input<T>& /*in*/, const T& /*below*/) {
+    return p[0] * s[4];
+  }
+};
+constexpr Part five_lags = compile<FiveLags>();
+
+TEST(Implicit, APartWithMoreStatesIsFollowed) {
+  const CompositeModel model{&five_lags, {find_effect("compliance")}};
+  ASSERT_FALSE(takes_implicit_steps(model));
+  ASSERT_TRUE(takes_implicit_steps(make_model("preisach", {"compliance"})));
+  const Motion motion = sine(500.0, 1.0);
+  const Vector p = with(model, {{"compliance.C", 1e-6}});
+  const Vector exact = simulate(model, motion, p);
+  EXPECT_LT(rms_distance(simulate(model, comparing_motion(motion), p), exact), 1e-3 * peak(exact));
 }
 
 TEST(Implicit, ANeighbourWithNanDoesNotStopTheOthers) {
