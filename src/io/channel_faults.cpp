@@ -104,7 +104,7 @@ std::optional<FlatEnd> flat_end_of(const std::vector<double>& values) {
   if (values.empty()) return std::nullopt;
   std::vector<double> some = thinned(values);
   std::ranges::sort(some);
-  if (static_cast<std::size_t>(std::ranges::unique(some).begin() - some.begin()) < least_values) return std::nullopt;
+  if (static_cast<std::size_t>(std::unique(some.begin(), some.end()) - some.begin()) < least_values) return std::nullopt;
   const auto [low, high] = std::ranges::minmax(values);
   if (!(high > low)) return std::nullopt;
   const std::optional<FlatEnd> above = flat_end(values, high - low, 1.0);

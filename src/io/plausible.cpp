@@ -266,8 +266,9 @@ void remark_on_sizes(const Recording& recording, const Sources& sources, const s
        {std::tuple("displacement", &recording.displacement, "m"), std::tuple("force", &recording.force, "N")}) {
     std::vector<Outlier> out = outliers_of(recording.time, *values);
     std::erase_if(out, [](const Outlier& one) { return !one.extreme; });
-    const auto furthest =
-        std::ranges::max_element(out, {}, [&](const Outlier& one) { return std::fabs((*values)[one.at] - one.told); });
+    const std::vector<double>& channel = *values;
+    const auto furthest = std::ranges::max_element(
+        out, {}, [&channel](const Outlier& one) { return std::fabs(channel[one.at] - one.told); });
     if (furthest != out.end()) {
       remarks.tell(std::string(name) + " outliers",
                    fmt::format("a {} of {:.3g} {} at {:.4g} s where its neighbours tell {:.3g} {}, {} samples like "
