@@ -8,13 +8,12 @@
 #pragma once
 
 #include <array>
-#include <cmath>
-#include <limits>
 #include <vector>
 
 #include "simulate/composite.hpp"
 #include "simulate/march.hpp"
 #include "simulate/part.hpp"
+#include "simulate/secants.hpp"
 
 namespace hysteron::detail {
 
@@ -180,55 +179,27 @@ class Balance {
     return (up - down) / (above.v - below.v);
   }
 
-  // The root of g by secants kept within the bracket, which end where g is its own rounding; lanes that are done stay.
+  // The root of g, to where g is its own rounding.
   Root<Value> root(std::size_t top, const Value* p, const Value* s, const Input<Value>& in, const Value& q,
                    const Yield<Value>& yield, const Relief<Value>& relief) const {
     const Value held = yield.hold * q;
-    Value tolerance;
     Value force;
-    const auto residual = [&](const Value& u) {
+    const auto residual = [&](const Value& u) -> typename Secants<Value>::Residual {
       force = evaluate<Value>(top, p, s, moved(in, yield.slope * u), relief, nullptr);
-      tolerance = Value(motion_.balance_tolerance) * (abs(u) + yield.gain * (abs(force) + abs(held)));
-      return u - yield.gain * (force - held);
+      return {u - yield.gain * (force - held),
+              Value(motion_.balance_tolerance) * (abs(u) + yield.gain * (abs(force) + abs(held)))};
     };
     // Where the links below hold the element, they move on as they did; else the element is taken to be at rest.
     const Value hold = yield.gain * yield.slope * relief.resistance[top];
     const auto held_back = hold > Value(0.1);
-    Value before =
+    const Value before =
         select(held_back, (in.v - relief.speed[top]) / select(held_back, yield.slope, Value(1.0)), Value(0.0));
-    Value g_before = residual(before);
-    // The slope of g is one at least.
-    Value low = min(before, before - g_before);
-    Value high = max(before, before - g_before);
-    Value u = before - g_before / (Value(1.0) + hold);
-    Value g = residual(u);
-    const auto narrow = [&]() {
-      low = select(g < Value(0.0), max(low, u), low);
-      high = select(g > Value(0.0), min(high, u), high);
-    };
-    narrow();
-    for (int k = 0; k < motion_.balance_iterations; ++k) {
-      const auto active = abs(g) > tolerance;
-      if (!any(active)) {
-        break;
-      }
-      const Value change = g - g_before;
-      const auto steep =
-          abs(change) > Value(k % 4 == 3 ? std::numeric_limits<double>::infinity() : 0.0);  // now and then the middle
-      Value next = u - g * (u - before) / select(steep, change, Value(1.0));
-      const Value middle = Value(0.5) * (low + high);
-      next = select(steep & (next > low) & (next < high), next, middle);
-      next = select(active, next, u);
-      before = select(active, u, before);
-      g_before = select(active, g, g_before);
-      const Value kept = tolerance;
-      const Value g_next = residual(next);
-      u = next;
-      g = select(active, g_next, g);
-      tolerance = select(active, tolerance, kept);
-      narrow();
-    }
-    return {u, force};  // lanes that were done had the same u, and so the same force, to the end
+    const Value g_before = residual(before).g;
+    Secants<Value> secants(before, g_before);
+    const Value u = before - g_before / (Value(1.0) + hold);
+    secants.take(u, residual(u));
+    secants.close_in(motion_.balance_iterations, residual);
+    return {secants.u(), force};  // lanes that were done had the same u, and so the same force, to the end
   }
 
   // Bounds of the stiffness of link i, which moves at v where the recording moves at `speed` at most, and without its

@@ -19,21 +19,18 @@ constexpr double least_rate = 1e-9;
 // state stays at its bound.
 constexpr double most_for_yielding = 2.0;
 // Likewise those that follow an element past the knee of its deflection, and how much finer than the rate of q over its
-// distance from the knee they are. Fewer make a play of a thinned recording look like something else.
+// distance from the knee they are. What they are worth: results/element-steps.md.
 constexpr double most_for_a_knee = 8.0;
 constexpr double knee_margin = 4.0;
 // Of the terms of a residual, what its slope is taken over.
 constexpr double least_difference = 1e-6;
 // A residual that is flatter has no derivative of its root.
 constexpr double least_slope = 1e-3;
+
 // What a link sees over a stage, and, with the speed of the balance, at its end.
+enum Instant : std::size_t { at_start, at_middle, at_end, at_balance, instants };
 template <class U>
-struct Path {
-  Input<U> start;
-  Input<U> middle;
-  Input<U> end;
-  Input<U> balance;
-};
+using Path = std::array<Input<U>, instants>;
 
 template <class U>
 using Forces = std::array<U, max_links>;
@@ -44,7 +41,7 @@ struct Stage {
   const States<U>* from;       // at its start
   const States<U>* origin;     // of elements: the state less g h times its rate
   const Forces<U>* loads;      // force below each link at its start
-  const Stage<Value>* values;  // the same without derivatives; itself where there are none
+  const Stage<Value>* values;  // the same without derivatives; null where there are none
   Value span;                  // s
   Value inverse;               // 1 / span
   Value implicit;              // g h, s
@@ -87,8 +84,7 @@ class Implicit : public detail::Balance<T> {
 
   // Force at an instant, with the force below each link.
   T force(const States<T>& s, const Input<T>& in, Forces<T>& loads) {
-    States<T>& rates = rates_;
-    return Balance::evaluate(links_.size(), p_, s.data(), in, relief_, rates.data(), loads.data());
+    return Balance::evaluate(links_.size(), p_, s.data(), in, relief_, rates_.data(), loads.data());
   }
 
   // Looks at an instant before a step: the rates there, of which the stages take their first guesses, and the bound in
@@ -131,28 +127,20 @@ class Implicit : public detail::Balance<T> {
   void stage(const At& at, const Value& theta, const Value& to, const Value& h, const Value& span,
              const States<T>& from, const States<T>& origin, const Forces<T>& loads, Reached<T>& reached) {
     Path<T> path{at(theta), at(fma(Value(0.5), to - theta, theta)), at(to), at(to)};
-    Stage<T> stage;
-    stage.from = &from;
-    stage.origin = &origin;
-    stage.loads = &loads;
-    stage.span = span;
-    stage.inverse = Value(1.0) / span;
-    stage.implicit = Value(diagonal) * h;
-    stage.per_implicit = Value(1.0) / stage.implicit;
+    const Value implicit = Value(diagonal) * h;
+    Stage<T> stage{&from, &origin, &loads, nullptr, span, Value(1.0) / span, implicit, Value(1.0) / implicit};
+    Stage<Value> values;
     if constexpr (Balance::differentiates) {
       copy_values(from, value_from_);
       copy_values(origin, value_origin_);
       for (std::size_t i = 0; i < links_.size(); ++i) {
         value_loads_[i] = value_of(loads[i]);
       }
-      const Stage<Value> values{&value_from_, &value_origin_, &value_loads_,  nullptr,
-                                stage.span,   stage.inverse,  stage.implicit, stage.per_implicit};
+      values = {&value_from_, &value_origin_, &value_loads_,  nullptr,
+                stage.span,   stage.inverse,  stage.implicit, stage.per_implicit};
       stage.values = &values;
-      advance(links_.size(), p_, path, stage, reached);
-    } else {
-      stage.values = nullptr;
-      advance(links_.size(), p_, path, stage, reached);
     }
+    advance(links_.size(), p_, path, stage, reached);
   }
 
   void copy_values(const States<T>& from, States<Value>& to) const {
@@ -199,10 +187,10 @@ class Implicit : public detail::Balance<T> {
       for (std::size_t i = 0; i < static_cast<std::size_t>(link.states); ++i) {
         middle[i] = U(0.5) * (from[i] + to[i]);
       }
-      part.drive(own, from, driven.start);
-      part.drive(own, middle.data(), driven.middle);
-      part.drive(own, to, driven.end);
-      part.drive(own, to, driven.balance);
+      part.drive(own, from, driven[at_start]);
+      part.drive(own, middle.data(), driven[at_middle]);
+      part.drive(own, to, driven[at_end]);
+      part.drive(own, to, driven[at_balance]);
       force = advance(top - 1, p, driven, stage, reached);
     } else {
       force = advance(top - 1, p, path, stage, reached);
@@ -215,7 +203,7 @@ class Implicit : public detail::Balance<T> {
       };
       step(link.states, -1, stage, from, to, path, rate);
     }
-    part.force(own, to, path.balance, force);
+    part.force(own, to, path[at_balance], force);
     return force;
   }
 
@@ -234,25 +222,25 @@ class Implicit : public detail::Balance<T> {
     const auto bounded = [&](U * s) __attribute__((always_inline)) {
       if (settles >= 0) s[settles] = max(min(s[settles], U(1.0)), U(-1.0));
     };
-    rate(from, path.start, 0.0, k1.data());
+    rate(from, path[at_start], 0.0, k1.data());
     for (std::size_t i = 0; i < n; ++i) {
       sum[i] = k1[i];
       trial[i] = detail::scaled_sum(half, k1[i], from[i]);
     }
     bounded(trial.data());
-    rate(trial.data(), path.middle, 0.5, k.data());
+    rate(trial.data(), path[at_middle], 0.5, k.data());
     for (std::size_t i = 0; i < n; ++i) {
       sum[i] = detail::scaled_sum(Value(2.0), k[i], sum[i]);
       trial[i] = detail::scaled_sum(half, k[i], from[i]);
     }
     bounded(trial.data());
-    rate(trial.data(), path.middle, 0.5, k.data());
+    rate(trial.data(), path[at_middle], 0.5, k.data());
     for (std::size_t i = 0; i < n; ++i) {
       sum[i] = detail::scaled_sum(Value(2.0), k[i], sum[i]);
       trial[i] = detail::scaled_sum(stage.span, k[i], from[i]);
     }
     bounded(trial.data());
-    rate(trial.data(), path.end, 1.0, k.data());
+    rate(trial.data(), path[at_end], 1.0, k.data());
     for (std::size_t i = 0; i < n; ++i) {
       to[i] = detail::scaled_sum(sixth, sum[i] + k[i], from[i]);
     }
@@ -264,7 +252,7 @@ class Implicit : public detail::Balance<T> {
   struct Trial {
     U force;
     U residual;
-    Value scale;  // of the terms of the residual
+    Value tolerance;  // of the residual
   };
   // The element above the links [0, top), before its rate is known.
   template <class U>
@@ -273,10 +261,10 @@ class Implicit : public detail::Balance<T> {
     const U* own;
     std::size_t state;
     U origin;
-    Yield<U> start;      // at the start of the stage
-    Yield<U> at_origin;  // where it comes from
-    std::array<U, 4> x;  // of the path, before it is shifted
-    std::array<U, 4> v;
+    Yield<U> start;             // at the start of the stage
+    Yield<U> at_origin;         // where it comes from
+    std::array<U, instants> x;  // of the path, before it is shifted
+    std::array<U, instants> v;
   };
 
   template <class U>
@@ -289,8 +277,10 @@ class Implicit : public detail::Balance<T> {
     result.origin = (*stage.origin)[result.state];
     result.part->yield(result.own, (*stage.from)[result.state], result.start);
     result.part->yield(result.own, result.origin, result.at_origin);
-    result.x = {path.start.x, path.middle.x, path.end.x, path.balance.x};
-    result.v = {path.start.v, path.middle.v, path.end.v, path.balance.v};
+    for (std::size_t k = 0; k < instants; ++k) {
+      result.x[k] = path[k].x;
+      result.v[k] = path[k].v;
+    }
     return result;
   }
 
@@ -304,33 +294,30 @@ class Implicit : public detail::Balance<T> {
     const U moved = yield.deflection - element.start.deflection;
     const U speed = detail::scaled_sum(stage.inverse, moved, U(0.0));
     const U last = detail::scaled_sum(stage.per_implicit, yield.deflection - element.at_origin.deflection, U(0.0));
-    path.start.x = element.x[0] - element.start.deflection;
-    path.middle.x = element.x[1] - detail::scaled_sum(Value(0.5), moved, element.start.deflection);
-    path.end.x = element.x[2] - yield.deflection;
-    path.balance.x = element.x[3] - yield.deflection;
-    path.start.v = element.v[0] - speed;
-    path.middle.v = element.v[1] - speed;
-    path.end.v = element.v[2] - speed;
-    path.balance.v = element.v[3] - last;
+    const std::array<U, instants> taken = {element.start.deflection,
+                                           detail::scaled_sum(Value(0.5), moved, element.start.deflection),
+                                           yield.deflection, yield.deflection};
+    const std::array<U, instants> speeds = {speed, speed, speed, last};
+    for (std::size_t k = 0; k < instants; ++k) {
+      path[k].x = element.x[k] - taken[k];
+      path[k].v = element.v[k] - speeds[k];
+    }
     Trial<U> result;
     result.force = advance(top, p, path, stage, reached);
     const U held = yield.hold * q;
     result.residual = U(u) - yield.gain * (result.force - held);
-    result.scale =
+    const Value terms =
         abs(u) + value_of(yield.gain) * (abs(value_of(result.force)) + abs(value_of(held))) + Value(least_rate);
+    result.tolerance = Value(motion_.balance_tolerance) * terms;
     return result;
   }
 
   template <class U>
   static void put_back(const Element<U>& element, Path<U>& path) {
-    path.start.x = element.x[0];
-    path.middle.x = element.x[1];
-    path.end.x = element.x[2];
-    path.balance.x = element.x[3];
-    path.start.v = element.v[0];
-    path.middle.v = element.v[1];
-    path.end.v = element.v[2];
-    path.balance.v = element.v[3];
+    for (std::size_t k = 0; k < instants; ++k) {
+      path[k].x = element.x[k];
+      path[k].v = element.v[k];
+    }
   }
 
   // Force of the links [0, top) below an element, at the rate that balances it.
@@ -349,79 +336,56 @@ class Implicit : public detail::Balance<T> {
   struct Balanced {
     Value u;
     Value force;
-    Value residual;
-    Value scale;
+    typename detail::Secants<Value>::Residual residual;
   };
 
-  // By secants within a bracket, from the rate before; lanes that are done stay.
+  // From the first guess, whose rate is then that of the root.
   Balanced balanced(const Element<Value>& here, std::size_t top, const Value* p, Path<Value>& path,
                     const Stage<Value>& stage, Reached<Value>& reached) {
+    Value force;
+    const auto residual = [&](const Value& u) -> typename detail::Secants<Value>::Residual {
+      const Trial<Value> trial = at_rate(here, u, top, p, path, stage, reached);
+      force = trial.force;
+      return {trial.residual, trial.tolerance};
+    };
     Guess<Value>& guess = guesses_[top];
-    Value before = guess.rate;
-    Trial<Value> trial = at_rate(here, before, top, p, path, stage, reached);
-    Value g_before = trial.residual;
-    const Value near(motion_.balance_tolerance);
-    if (!any(abs(g_before) > near * trial.scale)) {
-      return {before, trial.force, g_before, trial.scale};
+    const Value before = guess.rate;
+    const auto first = residual(before);
+    const auto off = abs(first.g) > first.tolerance;
+    if (!any(off)) {
+      return {before, force, first};
     }
-    // The slope of the residual is one at least.
-    Value low = min(before, before - g_before);
-    Value high = max(before, before - g_before);
     const Value least = fma(stage.implicit * here.start.gain, here.start.hold, Value(1.0));
     const Value slope = select(guess.slope > Value(1.0), guess.slope, least);
-    Value u = select(abs(g_before) > near * trial.scale, before - g_before / slope, before);
-    trial = at_rate(here, u, top, p, path, stage, reached);
-    Value g = trial.residual;
-    Value scale = trial.scale;
-    const Value apart = u - before;
-    const auto differs = abs(apart) > Value(0.0);
-    const Value secant = (g - g_before) / select(differs, apart, Value(1.0));
+    const Value u = select(off, before - first.g / slope, before);
+    const auto second = residual(u);
+    const auto differs = abs(u - before) > Value(0.0);
+    const Value secant = (second.g - first.g) / select(differs, u - before, Value(1.0));
     guess.slope = select(differs & (secant > Value(1.0)), secant, guess.slope);
-    const auto narrow = [&]() {
-      low = select(g < Value(0.0), max(low, u), low);
-      high = select(g > Value(0.0), min(high, u), high);
-    };
-    narrow();
-    for (int k = 0; k < motion_.balance_iterations; ++k) {
-      const auto active = abs(g) > near * scale;
-      if (!any(active)) {
-        break;
-      }
-      const Value change = g - g_before;
-      const auto steep = abs(change) > Value(k % 4 == 3 ? std::numeric_limits<double>::infinity() : 0.0);
-      Value next = u - g * (u - before) / select(steep, change, Value(1.0));
-      const Value middle = Value(0.5) * (low + high);
-      next = select(steep & (next > low) & (next < high), next, middle);
-      next = select(active, next, u);
-      before = select(active, u, before);
-      g_before = select(active, g, g_before);
-      trial = at_rate(here, next, top, p, path, stage, reached);
-      u = next;
-      g = select(active, trial.residual, g);
-      scale = select(active, trial.scale, scale);
-      narrow();
-    }
-    guess.rate = u;
-    return {u, trial.force, g, scale};
+    detail::Secants<Value> secants(before, first.g);
+    secants.take(u, second);
+    secants.close_in(motion_.balance_iterations, residual);
+    guess.rate = secants.u();
+    return {secants.u(), force, secants.residual()};
   }
 
   // The root of the values, and its derivatives by the implicit function theorem: the slopes with u are differences.
   T differentiated(std::size_t top, const T* p, Path<T>& path, const Stage<T>& stage, Reached<T>& reached) {
-    Path<Value> values{Balance::value_input(path.start), Balance::value_input(path.middle),
-                       Balance::value_input(path.end), Balance::value_input(path.balance)};
+    Path<Value> values;
+    std::ranges::transform(path, values.begin(), Balance::value_input);
     const Element<Value> here = element_of(top, values_.data(), values, *stage.values);
     Reached<Value>& at = room_[2 * top];
     Reached<Value>& beside = room_[2 * top + 1];
     const Balanced root = balanced(here, top, values_.data(), values, *stage.values, at);
     const auto guesses = guesses_;  // what follows is none of the march's own course
-    const Value aside = fma(Value(least_difference), root.scale, root.u);
+    const Value aside = fma(Value(least_difference / motion_.balance_tolerance), root.residual.tolerance, root.u);
     const Trial<Value> trial = at_rate(here, aside, top, values_.data(), values, *stage.values, beside);
     const Value inverse = Value(1.0) / (aside - root.u);
     const Element<T> element = element_of(top, p, path, stage);
     const Trial<T> known = at_rate(element, root.u, top, p, path, stage, reached);
     put_back(element, path);
     guesses_ = guesses;
-    const Value slope = (trial.residual - root.residual) * inverse;
+    const Value slope = (trial.residual - root.residual.g) * inverse;
     const T u = chain(known.residual, root.u, Value(-1.0) / select(abs(slope) > Value(least_slope), slope, Value(1.0)));
     for (std::size_t i = 0; i < element.state; ++i) {
       reached.states[i] = by_way_of(reached.states[i], (beside.states[i] - at.states[i]) * inverse, u);

@@ -146,14 +146,22 @@ void prepare(const Motion& lean, std::size_t first, std::size_t last, Motion& pi
   add_intervals(piece.time, slopes(lean.time, lean.v, first, last), piece);
 }
 
+namespace {
+
+void balance_coarsely(Motion& motion) {
+  motion.balance_tolerance = 1e-4;
+  motion.balance_iterations = 8;
+  motion.implicit_elements = true;
+}
+
+}  // namespace
+
 Motion comparing_motion(Motion motion) {
   motion.step_limit = 1.5;
   motion.finer_at_reversals = 1.0;
   motion.finer_when_long = 0.0;
   motion.most_substeps = 32.0;  // what is stiffer runs away, and with it a hypothesis that would hold up all others
-  motion.balance_tolerance = 1e-4;
-  motion.balance_iterations = 8;
-  motion.implicit_elements = true;
+  balance_coarsely(motion);
   return motion;
 }
 
@@ -162,9 +170,7 @@ Motion screening_motion(Motion motion) {
   motion.finer_at_reversals = 1.0;
   motion.finer_when_long = 0.0;
   motion.most_substeps = 2.0;
-  motion.balance_tolerance = 1e-4;
-  motion.balance_iterations = 8;
-  motion.implicit_elements = true;
+  balance_coarsely(motion);
   return motion;
 }
 
