@@ -78,7 +78,7 @@ class MultistartLm final : public Solver {
     } else {
       for (std::size_t k = 0; k < descents_.size(); ++k) {
         if (descents_[k].finished()) {
-          end(descents_[k], k == 0 && !start_ended_);
+          end(descents_[k], k == 0 && !start_ended_ && !problem_.start.empty());
           start_ended_ = start_ended_ || k == 0;
           descents_[k] = begin(begun_++);
         }
@@ -113,7 +113,7 @@ class MultistartLm final : public Solver {
   void end(const Descent& descent, bool from_start) {
     if (descent.best().size() == 0) {
       ++diverged_;
-      if (screening_ && from_start && !problem_.start.empty()) {
+      if (screening_ && from_start) {
         // Too stiff for coarse steps, which says nothing of the problem's start on the full objective.
         finishing_.emplace_back(point_of(0), problem_.linear, tolerance_);
       }
@@ -127,7 +127,7 @@ class MultistartLm final : public Solver {
     const bool promising = cost <= 1.1 * lowest_;
     const bool known = std::ranges::any_of(
         taken_, [&](double other) { return std::fabs(cost - other) <= screened_tolerance * other; });
-    if ((promising || (from_start && !problem_.start.empty())) && !known) {
+    if ((promising || from_start) && !known) {
       taken_.push_back(cost);
       finishing_.emplace_back(descent.best(), problem_.linear, tolerance_);
     }

@@ -492,6 +492,40 @@ std::vector<double> parameters_at(const std::vector<double>& held, const std::ve
   return result;
 }
 
+LayoutOptions only_of(const std::vector<std::string>& names, LayoutOptions options) {
+  const auto keep = [&](auto& rows) {
+    std::erase_if(rows, [&](const auto& row) { return std::ranges::find(names, row.first) == names.end(); });
+  };
+  keep(options.by_current);
+  keep(options.by_frequency);
+  for (auto& [condition, orders] : options.by) {
+    keep(orders);
+  }
+  keep(options.fix);
+  keep(options.bounds);
+  return options;
+}
+
+std::vector<bool> carry_over(const Layout& from, const std::vector<Term>& terms, const Layout& to,
+                             std::vector<double>& point) {
+  std::vector<bool> fresh(to.dimension(), true);
+  const std::vector<std::string>& known = from.names();
+  for (const ParameterLaw& law : to.laws()) {
+    const auto found = std::ranges::find(known, to.names()[law.parameter]);
+    if (found == known.end()) {
+      continue;
+    }
+    const auto index = static_cast<std::size_t>(found - known.begin());
+    for (std::size_t k = 0; k < law.count(); ++k) {
+      const ParameterLaw::Node node = law.node(k);
+      const std::vector<double> values = parameters_at(from.held(), terms, node.drive, node.frequency, node.conditions);
+      point[law.first + k] = std::clamp(to.unit(law.first + k, values[index]), 0.0, 1.0);
+      fresh[law.first + k] = false;
+    }
+  }
+  return fresh;
+}
+
 std::string term_name(const std::string& parameter, const Term& term, const std::vector<ConditionRange>& conditions) {
   std::string name = parameter;
   const auto add = [&](const std::string& symbol, int power) {

@@ -48,6 +48,9 @@ struct LayoutOptions {
   std::map<std::string, std::pair<double, double>> bounds;  // parameter -> box
 };
 
+// Without what it says of parameters of other names.
+LayoutOptions only_of(const std::vector<std::string>& names, LayoutOptions options);
+
 // A coordinate of the search: one parameter, or its value at one node of its law.
 struct Coordinate {
   std::size_t parameter;
@@ -140,6 +143,11 @@ std::vector<double> middle_of(const std::vector<ConditionRange>& conditions);
 // Parameter values at a drive level, a frequency and values of the conditions from terms, over the held values.
 std::vector<double> parameters_at(const std::vector<double>& held, const std::vector<Term>& terms, double drive,
                                   double frequency, std::span<const double> conditions);
+
+// Puts the values that terms of one layout have at the nodes of another into `point`, in unit coordinates, for the
+// parameters that both have; the others stay as they are. Returns which coordinates are new.
+std::vector<bool> carry_over(const Layout& from, const std::vector<Term>& terms, const Layout& to,
+                             std::vector<double>& point);
 
 // "alpha", "alpha*i", "alpha*i^2*f", "alpha*i*pressure": how a term is named in results.
 std::string term_name(const std::string& parameter, const Term& term, const std::vector<ConditionRange>& conditions);

@@ -24,28 +24,6 @@ constexpr double law_push = 0.03;
 // comparison of hypotheses can tell.
 constexpr double arrived = 1e-4;
 
-// Values of a fit at the nodes of another layout, in unit coordinates; what the fit does not know stays as in `point`.
-// Returns which coordinates are new.
-std::vector<bool> take_over(const Fit& from, const Layout& to, std::vector<double>& point) {
-  std::vector<bool> fresh(to.dimension(), true);
-  const std::vector<std::string>& known = from.layout->names();
-  for (const ParameterLaw& law : to.laws()) {
-    const auto found = std::ranges::find(known, to.names()[law.parameter]);
-    if (found == known.end()) {
-      continue;
-    }
-    const auto index = static_cast<std::size_t>(found - known.begin());
-    for (std::size_t k = 0; k < law.count(); ++k) {
-      const ParameterLaw::Node node = law.node(k);
-      const std::vector<double> values =
-          parameters_at(from.layout->held(), from.terms, node.drive, node.frequency, node.conditions);
-      point[law.first + k] = std::clamp(to.unit(law.first + k, values[index]), 0.0, 1.0);
-      fresh[law.first + k] = false;
-    }
-  }
-  return fresh;
-}
-
 // Values for the parameters of an effect that a fit does not have, from a kindred effect that it has; whether there are
 // any.
 bool take_over_kindred(const Fit& from, const Layout& to, std::vector<double>& point) {
@@ -136,13 +114,7 @@ Layout Workbench::layout(const Hypothesis& what) const {
       options.by_current.try_emplace(std::string(parameter.name), lost);
     }
   }
-  std::erase_if(options.by_frequency,
-                [&](const auto& law) { return std::ranges::find(names, law.first) == names.end(); });
-  for (auto& [condition, orders] : options.by) {
-    std::erase_if(orders, [&](const auto& law) { return std::ranges::find(names, law.first) == names.end(); });
-  }
-  std::erase_if(options.fix, [&](const auto& law) { return std::ranges::find(names, law.first) == names.end(); });
-  std::erase_if(options.bounds, [&](const auto& law) { return std::ranges::find(names, law.first) == names.end(); });
+  options = only_of(names, std::move(options));
   // A damping that an effect takes away or adds follows the drive as the law's own does.
   const std::vector<Parameter> cards = model.parameters();
   int order = 0;
@@ -166,7 +138,7 @@ Fit Workbench::with_neutral(const Fit& fit, const std::string& effect) const {
   result.what.effects.push_back(effect);
   result.layout = std::make_shared<const Layout>(layout(result.what));
   result.point = result.layout->initial();
-  take_over(fit, *result.layout, result.point);
+  carry_over(*fit.layout, fit.terms, *result.layout, result.point);
   result.terms = result.layout->terms(result.point);
   return result;
 }
@@ -313,10 +285,10 @@ Starts Workbench::starts(const Hypothesis& what, const Fit& warm, const Fit* als
   auto shared = std::make_shared<const Layout>(layout(what));
   const Layout& layout = *shared;
   std::vector<double> known = layout.initial();
-  const std::vector<bool> fresh = take_over(warm, layout, known);
+  const std::vector<bool> fresh = carry_over(*warm.layout, warm.terms, layout, known);
   std::vector<double> known_also = layout.initial();
   if (also != nullptr) {
-    take_over(*also, layout, known_also);
+    carry_over(*also->layout, also->terms, layout, known_also);
   }
   std::vector<std::vector<double>> starts;
   std::array<double, start_count> pushes = {0.01, -0.02, 0.05, -0.1, 0.003, -0.005, 0.3, -0.3};
