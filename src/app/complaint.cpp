@@ -13,12 +13,6 @@
 namespace hysteron::app {
 namespace {
 
-std::string listed(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
-  return text;
-}
-
 std::string number(std::size_t count) { return count == 1 ? "one" : std::to_string(count); }
 std::string are(std::size_t count) { return count == 1 ? "is" : "are"; }
 
@@ -35,7 +29,7 @@ std::string miscounted(const std::string& name, std::size_t least, std::size_t m
   const std::string bound = least == most ? "" : few ? "at least " : "at most ";
   const std::size_t wanted = few ? least : most;
   return fmt::format("{}: {}{} {} expected, {} {} given: {}", name, bound, number(wanted), are(wanted),
-                     number(given.size()), given.size() == 1 ? "was" : "were", listed(given));
+                     number(given.size()), given.size() == 1 ? "was" : "were", fmt::join(given, ", "));
 }
 
 // The option whose name opens a message of the parser.
@@ -108,8 +102,8 @@ std::optional<std::string> in_own_words(const CLI::App& command, const CLI::Pars
   if (dynamic_cast<const CLI::ConversionError*>(&error) != nullptr) {
     for (const CLI::Option* option : command.get_options()) {
       if (option->count() > 0 && message.find(" " + option->get_name() + " ") != std::string_view::npos) {
-        return fmt::format("{}: '{}' is not what it takes, expected {}", option->get_name(), listed(option->results()),
-                           expected_of(*option));
+        return fmt::format("{}: '{}' is not what it takes, expected {}", option->get_name(),
+                           fmt::join(option->results(), ", "), expected_of(*option));
       }
     }
   }

@@ -9,6 +9,7 @@
 #include "challenge/absorption.hpp"
 #include "challenge/base.hpp"
 #include "core/error.hpp"
+#include "core/extent.hpp"
 
 namespace hysteron::challenge {
 namespace {
@@ -121,12 +122,6 @@ Forces clean_forces(const Physics& physics, const std::vector<Run>& tests, doubl
     forces.push_back(clean_force(physics, simulate(physics, test, rate), decimation));
   }
   return forces;
-}
-
-double peak_of(const std::vector<double>& values) {
-  double peak = 0.0;
-  for (const double value : values) peak = std::max(peak, std::abs(value));
-  return peak;
 }
 
 // a + factor b

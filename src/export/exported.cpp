@@ -8,6 +8,7 @@
 #include <set>
 
 #include "core/error.hpp"
+#include "core/extent.hpp"
 #include "export/fixed_steps.hpp"
 #include "export/names.hpp"
 #include "fit/objective.hpp"
@@ -106,14 +107,6 @@ std::vector<TestSample> samples_of(const Motion& motion) {
     }
     result.push_back({motion.time[n], motion.x[n], motion.v[n], slope, motion.a[n], motion.jerk[n],
                       motion.drive.empty() ? 0.0 : motion.drive[n]});
-  }
-  return result;
-}
-
-double peak_of(const std::vector<double>& force) {
-  double result = 0.0;
-  for (const double value : force) {
-    result = std::max(result, std::fabs(value));
   }
   return result;
 }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/extent.hpp"
+
 namespace hysteron {
 namespace {
 
@@ -44,11 +46,6 @@ void for_each_run(const std::vector<double>& values, Visit visit) {
     visit(first, last + 1 - first);
     first = last + 1;
   }
-}
-
-double span_of(const std::vector<double>& values) {
-  const auto [low, high] = std::ranges::minmax(values);
-  return high - low;
 }
 
 // The smaller of how far the values rise and how far they fall, between any two of them in their order.
@@ -104,7 +101,8 @@ std::optional<FlatEnd> flat_end_of(const std::vector<double>& values) {
   if (values.empty()) return std::nullopt;
   std::vector<double> some = thinned(values);
   std::ranges::sort(some);
-  if (static_cast<std::size_t>(std::unique(some.begin(), some.end()) - some.begin()) < least_values) return std::nullopt;
+  if (static_cast<std::size_t>(std::unique(some.begin(), some.end()) - some.begin()) < least_values)
+    return std::nullopt;
   const auto [low, high] = std::ranges::minmax(values);
   if (!(high > low)) return std::nullopt;
   const std::optional<FlatEnd> above = flat_end(values, high - low, 1.0);

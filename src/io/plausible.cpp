@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/drive.hpp"
+#include "core/extent.hpp"
 #include "io/channel_faults.hpp"
 #include "io/outliers.hpp"
 #include "io/text.hpp"
@@ -39,12 +40,6 @@ constexpr double far_m = 1e-3;
 // Velocity over the slope of the displacement: a channel is rarely calibrated worse, and coarse samples do not tell
 // more.
 constexpr Range slope{1.0 / 1.15, 1.15};
-
-double largest(const std::vector<double>& values) {
-  double result = 0.0;
-  for (const double value : values) result = std::max(result, std::fabs(value));
-  return result;
-}
 
 class Remarks {
  public:
@@ -221,16 +216,16 @@ void remark_on_sizes(const Recording& recording, const Sources& sources, const s
   const bool moves = !recording.displacement.empty();  // an excitation may be a force alone
   const double stroke =
       moves ? std::ranges::max(recording.displacement) - std::ranges::min(recording.displacement) : 0.0;
-  const double speed = largest(recording.velocity);
-  const double force = largest(recording.force);
+  const double speed = peak_of(recording.velocity);
+  const double force = peak_of(recording.force);
   remarks.judge(Quantity::displacement, stroke_m, stroke, fmt::format("a stroke of {:.3g} m", stroke));
   if (!recording.force.empty()) {
     remarks.judge(Quantity::force, force_n, force, fmt::format("a force of {:.3g} N", force));
   }
   const auto& drive = recording.drive;
   const bool voltage = recording.drive_kind == DriveKind::voltage;
-  remarks.judge(voltage ? Quantity::voltage : Quantity::current, voltage ? voltage_v : current_a, largest(drive),
-                fmt::format("a {} of {:.3g} {}", voltage ? "voltage" : "current", largest(drive), voltage ? "V" : "A"));
+  remarks.judge(voltage ? Quantity::voltage : Quantity::current, voltage ? voltage_v : current_a, peak_of(drive),
+                fmt::format("a {} of {:.3g} {}", voltage ? "voltage" : "current", peak_of(drive), voltage ? "V" : "A"));
   if (!recording.temperature.empty()) {
     const auto [cold, hot] = std::ranges::minmax(recording.temperature);
     const double far = std::fabs(cold) > std::fabs(hot) ? cold : hot;

@@ -8,6 +8,7 @@
 
 #include "core/drive.hpp"
 #include "core/error.hpp"
+#include "core/extent.hpp"
 #include "fit/neighbours.hpp"
 #include "fit/parallel.hpp"
 #include "io/velocity.hpp"
@@ -21,14 +22,6 @@ constexpr double difference = 1e-4;      // of a coordinate of the unit box
 // A start is looked for within this part of the largest displacement and velocity to either side of the first samples.
 constexpr double span_of_start = 0.1;
 
-double largest(const std::vector<double>& values) {
-  double result = 0.0;
-  for (const double value : values) {
-    result = std::max(result, std::fabs(value));
-  }
-  return result;
-}
-
 struct MotionTarget {
   const Recording* recording;
   Excitation excitation;
@@ -39,7 +32,7 @@ struct MotionTarget {
 
 MotionTarget prepared(const Recording& recording, const Rig& rig) {
   MotionTarget result{
-      &recording, {}, dominant_frequency(recording), largest(recording.displacement), largest(recording.velocity)};
+      &recording, {}, dominant_frequency(recording), peak_of(recording.displacement), peak_of(recording.velocity)};
   if (!(result.scale > 0.0)) {
     throw InputError(recording.file + ": the mass does not move, expected a displacement to compare with");
   }

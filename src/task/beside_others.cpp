@@ -10,6 +10,7 @@
 #include <string_view>
 #include <utility>
 
+#include "core/extent.hpp"
 #include "fit/layout.hpp"
 
 namespace hysteron {
@@ -48,24 +49,12 @@ constexpr std::array<Suspect, 3> suspects = {{
     {"force", {0, 0, 1, 0, 0}, force, "force", 1.0, "N"},
 }};
 
-double span_of(const std::vector<double>& values) {
-  if (values.empty()) return 0.0;
-  const auto [low, high] = std::ranges::minmax(values);
-  return high - low;
-}
-
-double largest(const std::vector<double>& values) {
-  double result = 0.0;
-  for (const double value : values) result = std::max(result, std::fabs(value));
-  return result;
-}
-
 Figures figures_of(const Recording& recording) {
   Figures result{};
   result[stroke] = span_of(recording.displacement);
   // A recorded one has a unit of its own, and is held against the slope of the displacement.
-  result[speed] = recording.velocity_measured ? 0.0 : largest(recording.velocity);
-  result[force] = largest(recording.force);
+  result[speed] = recording.velocity_measured ? 0.0 : peak_of(recording.velocity);
+  result[force] = peak_of(recording.force);
   if (recording.timed) {
     result[frequency] = dominant_frequency(recording);
     result[step] = (recording.time.back() - recording.time.front()) / static_cast<double>(recording.size() - 1);

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numeric>
 
+#include "core/extent.hpp"
 #include "core/random.hpp"
 #include "fit/layout.hpp"
 
@@ -25,14 +26,6 @@ double spread_of(const std::vector<double>& values) {
     squares += (value - mean) * (value - mean);
   }
   return values.empty() ? 0.0 : std::sqrt(squares / static_cast<double>(values.size()));
-}
-
-double peak_of(const std::vector<double>& values) {
-  double result = 0.0;
-  for (const double value : values) {
-    result = std::max(result, std::fabs(value));
-  }
-  return result;
 }
 
 // Values on a scale on which the largest difference that does not count is one.
