@@ -10,12 +10,16 @@
 #include <utility>
 #include <vector>
 
-#include "core/random.hpp"
+#include "core/extent.hpp"
 #include "simulate/composite.hpp"
+#include "simulate/drawn.hpp"
 
 namespace hysteron {
 namespace {
 
+using testing::draw;
+using testing::rms_distance;
+using testing::with;
 using Vector = std::vector<double>;
 using Complex = std::complex<double>;
 constexpr double w = 4.0 * std::numbers::pi;  // 2 Hz
@@ -36,40 +40,6 @@ Motion sine(double rate, double duration, bool rich = false) {
   return make_motion(time, x, v, {});
 }
 
-Vector with(const CompositeModel& model, const std::vector<std::pair<std::string, double>>& values) {
-  Vector p;
-  for (const Parameter& parameter : model.parameters()) {
-    p.push_back(parameter.initial);
-  }
-  const auto names = model.parameter_names();
-  for (const auto& [name, value] : values) {
-    const auto at = std::ranges::find(names, name);
-    EXPECT_NE(at, names.end()) << name;
-    p[static_cast<std::size_t>(at - names.begin())] = value;
-  }
-  return p;
-}
-
-Vector draw(const CompositeModel& model, std::uint64_t seed) {
-  const Stream stream(seed);
-  Vector p;
-  std::uint32_t j = 0;
-  for (const Parameter& card : model.parameters()) {
-    const double u = stream.uniform(3, j++);
-    p.push_back(card.fixed                         ? card.initial
-                : card.scale == Scale::logarithmic ? card.box.lower * std::pow(card.box.upper / card.box.lower, u)
-                                                   : card.box.lower + u * (card.box.upper - card.box.lower));
-  }
-  return p;
-}
-
-double peak(const Vector& a) {
-  double result = 0.0;
-  for (const double value : a) {
-    result = std::max(result, std::fabs(value));
-  }
-  return result;
-}
 double distance(const Vector& a, const Vector& b) {
   double result = 0.0;
   for (std::size_t n = 0; n < a.size(); ++n) {
@@ -150,7 +120,7 @@ TEST(Series, ClearanceHasAPlateauOfItsWidth) {
     // Away from the plateau the law is bare.
     for (std::size_t n = 400; n < force.size(); ++n) {
       if (std::fabs(motion.x[n]) < 0.3 * amplitude) {
-        EXPECT_NEAR(force[n], 5000.0 * motion.v[n], 1e-3 * peak(force));
+        EXPECT_NEAR(force[n], 5000.0 * motion.v[n], 1e-3 * peak_of(force));
       }
     }
   }
@@ -193,7 +163,7 @@ TEST(Series, VanishesInTheLimit) {
       const double upper = model.effects[0]->parameters[0].box.upper;
       for (const double size : {0.0, 1e-8 * upper}) {
         p[bare.parameter_count()] = size;
-        EXPECT_LT(distance(simulate(model, motion, p), law), 1e-4 * peak(law)) << id << " " << seed << " " << size;
+        EXPECT_LT(distance(simulate(model, motion, p), law), 1e-4 * peak_of(law)) << id << " " << seed << " " << size;
       }
     }
   }
@@ -211,11 +181,7 @@ TEST(Series, StepsAreFineEnough) {
           const Vector p = draw(model, 7100 + seed);
           const Vector force = simulate(model, motion, p);
           const Vector finer = simulate(model, tight, p);
-          double sum = 0.0;
-          for (std::size_t n = 0; n < force.size(); ++n) {
-            sum += (force[n] - finer[n]) * (force[n] - finer[n]);
-          }
-          EXPECT_LT(std::sqrt(sum / static_cast<double>(force.size())), 1e-4 * peak(finer))
+          EXPECT_LT(rms_distance(force, finer), 1e-4 * peak_of(finer))
               << id << ", " << law << ", " << rate << " Hz, draw " << seed;
         }
       }

@@ -12,13 +12,17 @@
 #include <utility>
 #include <vector>
 
-#include "core/random.hpp"
+#include "core/extent.hpp"
 #include "simulate/compile.hpp"
+#include "simulate/drawn.hpp"
 #include "simulate/motion.hpp"
 
 namespace hysteron {
 namespace {
 
+using testing::draw;
+using testing::rms_distance;
+using testing::with;
 using Vector = std::vector<double>;
 using Complex = std::complex<double>;
 constexpr double w = 4.0 * std::numbers::pi;  // 2 Hz
@@ -44,48 +48,6 @@ Motion implicit(Motion motion) {
   motion.balance_tolerance = 1e-12;
   motion.balance_iterations = 60;
   return motion;
-}
-
-Vector with(const CompositeModel& model, const std::vector<std::pair<std::string, double>>& values) {
-  Vector p;
-  for (const Parameter& parameter : model.parameters()) {
-    p.push_back(parameter.initial);
-  }
-  const auto names = model.parameter_names();
-  for (const auto& [name, value] : values) {
-    const auto at = std::ranges::find(names, name);
-    EXPECT_NE(at, names.end()) << name;
-    p[static_cast<std::size_t>(at - names.begin())] = value;
-  }
-  return p;
-}
-
-Vector draw(const CompositeModel& model, std::uint64_t seed) {
-  const Stream stream(seed);
-  Vector p;
-  std::uint32_t j = 0;
-  for (const Parameter& card : model.parameters()) {
-    const double u = stream.uniform(3, j++);
-    p.push_back(card.fixed                         ? card.initial
-                : card.scale == Scale::logarithmic ? card.box.lower * std::pow(card.box.upper / card.box.lower, u)
-                                                   : card.box.lower + u * (card.box.upper - card.box.lower));
-  }
-  return p;
-}
-
-double peak(const Vector& a) {
-  double result = 0.0;
-  for (const double value : a) {
-    result = std::max(result, std::fabs(value));
-  }
-  return result;
-}
-double rms_distance(const Vector& a, const Vector& b) {
-  double sum = 0.0;
-  for (std::size_t n = 0; n < a.size(); ++n) {
-    sum += (a[n] - b[n]) * (a[n] - b[n]);
-  }
-  return std::sqrt(sum / static_cast<double>(a.size()));
 }
 
 // Largest error over the last period against the real part of phasor exp(i w t), over its size.
@@ -136,23 +98,28 @@ TEST(Implicit, FollowsWhatIsStiffWithOneStepBetweenTwoSamples) {
   }
 }
 
-// Behind a law that has yielded the error is that of a knee within a step. A hundred samples a period.
-TEST(Implicit, AgreesWithTheMarchThatFollowsEverything) {
+// What is lost lies at kinks within a step, where the error is of first order or better: it falls to a half at least
+// when samples are twice as dense.
+TEST(Implicit, ApproachesTheMarchThatFollowsEverything) {
   for (const std::string& id : elements) {
-    std::vector<double> errors;
-    for (const char* law : {"viscous", "bouc-wen", "modified-bouc-wen", "modified-dahl"}) {
-      const CompositeModel model = make_model(law, {id});
-      for (std::uint64_t seed = 0; seed < 8; ++seed) {
-        const Vector p = draw(model, 7100 + seed);
-        const Motion motion = sine(200.0, 1.0);
-        const Vector exact = simulate(model, motion, p);
-        errors.push_back(rms_distance(simulate(model, comparing_motion(motion), p), exact) / peak(exact));
+    const auto typical_error = [&](double rate) {
+      std::vector<double> errors;
+      for (const char* law : {"viscous", "bouc-wen", "modified-bouc-wen", "modified-dahl"}) {
+        const CompositeModel model = make_model(law, {id});
+        for (std::uint64_t seed = 0; seed < 8; ++seed) {
+          const Vector p = draw(model, 7100 + seed);
+          const Motion motion = sine(rate, 1.0);
+          const Vector exact = simulate(model, motion, p);
+          errors.push_back(rms_distance(simulate(model, comparing_motion(motion), p), exact) / peak_of(exact));
+        }
       }
-    }
-    std::ranges::sort(errors);
-    EXPECT_LT(errors[errors.size() / 2], 5e-3) << id;
-    EXPECT_LT(errors[errors.size() * 3 / 4], 1e-2) << id;
-    EXPECT_LT(errors.back(), 0.1) << id;
+      std::ranges::nth_element(errors, errors.begin() + static_cast<std::ptrdiff_t>(errors.size() / 2));
+      return errors[errors.size() / 2];
+    };
+    const double coarse = typical_error(200.0);
+    EXPECT_LT(coarse, 5e-3) << id;  // a hundred samples a period
+    const bool straight = id == "compliance" || id == "series-dashpot";
+    EXPECT_LT(typical_error(800.0), straight ? coarse / 4.0 : coarse) << id;
   }
 }
 
@@ -196,7 +163,7 @@ TEST(Implicit, DerivativesAreThoseOfTheForce) {
         slope.push_back(force[n].d[0].lane(0));
         expected.push_back((above[n] - below[n]) / (2.0 * h));
       }
-      EXPECT_LT(rms_distance(slope, expected), 1e-3 * std::max(peak(expected), 1e-6))
+      EXPECT_LT(rms_distance(slope, expected), 1e-3 * std::max(peak_of(expected), 1e-6))
           << effects[0] << " " << model.parameter_names()[j];
     }
   }
@@ -277,7 +244,7 @@ TEST(Implicit, APartWithMoreStatesIsFollowed) {
   const Motion motion = sine(500.0, 1.0);
   const Vector p = with(model, {{"compliance.C", 1e-6}});
   const Vector exact = simulate(model, motion, p);
-  EXPECT_LT(rms_distance(simulate(model, comparing_motion(motion), p), exact), 1e-3 * peak(exact));
+  EXPECT_LT(rms_distance(simulate(model, comparing_motion(motion), p), exact), 1e-3 * peak_of(exact));
 }
 
 TEST(Implicit, ANeighbourWithNanDoesNotStopTheOthers) {
