@@ -19,7 +19,7 @@ struct Degradation {
       {.name = "d", .unit = "1/J", .meaning = "relative loss of force per work done", .box = {0, 2e-3}, .initial = 0, .limits = {}},
   };
   static constexpr std::string_view kin[] = {"self-heating", "stiction"};
-  static constexpr std::string_view part_of[] = {"baber-noori"};
+  static constexpr PartOfLaw part_of[] = {{"baber-noori"}};
   static constexpr Knowledge knowledge = {
       .family = families::slow_loss,
       .in_words = "a degradation with the work done",

@@ -25,7 +25,7 @@ struct MagneticRemanence {
   };
   static constexpr Need needs[] = {Need::drive, Need::changing_drive};
   static constexpr std::string_view kin[] = {"coil-lag", "magnetic-saturation"};
-  static constexpr std::string_view part_of[] = {"preisach"};
+  static constexpr PartOfLaw part_of[] = {{"preisach"}};
   // The current was the same long before, or switched on from a circuit without field.
   static constexpr BoxLimit ends_as[] = {{id, "s", BoxEnd::upper}, {id, "s", BoxEnd::lower}};
   static constexpr Knowledge knowledge = {

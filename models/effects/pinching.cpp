@@ -23,7 +23,7 @@ struct Pinching {
       {.name = "q", .unit = "1", .meaning = "sharpness of its borders: 2 is a bell, more a flat bottom", .box = {1.2, 8}, .initial = 2, .scale = Scale::logarithmic},
   };
   static constexpr std::string_view kin[] = {"cubic-stiffness"};
-  static constexpr std::string_view part_of[] = {"baber-noori"};
+  static constexpr PartOfLaw part_of[] = {{"baber-noori"}};
   static constexpr Knowledge knowledge = {
       .family = families::place,
       .in_words = "pinching around mid-stroke",

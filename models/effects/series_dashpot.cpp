@@ -19,7 +19,7 @@ struct SeriesDashpot {
       {.name = "e", .symbol = "1/c1", .unit = "m/(N s)", .meaning = "speed of the series dashpot per force", .box = {0, 3e-4}, .initial = 0},
   };
   static constexpr std::string_view kin[] = {"compliance"};
-  static constexpr std::string_view part_of[] = {"modified-bouc-wen"};
+  static constexpr PartOfLaw part_of[] = {{"modified-bouc-wen", "bouc-wen", "c1"}};
   static constexpr Knowledge knowledge = {
       .family = families::series,
       .in_words = "a series dashpot (roll-off at low speed)",

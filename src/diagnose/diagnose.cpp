@@ -13,8 +13,10 @@
 #include "diagnose/residual/leftover.hpp"
 #include "diagnose/residual/tone.hpp"
 #include "diagnose/residual/wander.hpp"
+#include "diagnose/search/law_part.hpp"
 #include "diagnose/search/left_out.hpp"
 #include "diagnose/search/of_fit.hpp"
+#include "diagnose/search/relatives.hpp"
 #include "diagnose/search/wording.hpp"
 #include "diagnose/signal/noise.hpp"
 #include "diagnose/signal/thin.hpp"
@@ -80,11 +82,18 @@ class Estimates {
   std::vector<Known> known_;
 };
 
-std::vector<ParameterInterval> intervals_of(const std::vector<Estimate>& estimates, const std::string& effect) {
+// Of an effect of the fit, or of the parameter in which its law has it as a part of its own.
+std::vector<ParameterInterval> intervals_of(const std::vector<Estimate>& estimates, const std::string& effect,
+                                            const Fit& fit) {
+  const bool joined = contains(fit.what, effect_extension(effect));
+  const PartOfLaw* part = joined ? nullptr : part_of_law(effect, fit.what.model);
+  const std::string own(part == nullptr ? std::string_view{} : part->parameter);
+  const std::string prefix = effect + ".";
   std::vector<ParameterInterval> result;
   for (const Estimate& row : estimates) {
-    if (row.name.starts_with(effect + ".")) {
-      result.push_back({row.name.substr(effect.size() + 1), row.unit, row.term.value, row.half_width,
+    const bool of_law = !own.empty() && (row.name == own || row.name.starts_with(own + "*"));
+    if (of_law || row.name.starts_with(prefix)) {
+      result.push_back({of_law ? row.name : row.name.substr(prefix.size()), row.unit, row.term.value, row.half_width,
                         row.at_bound.value_or(""), row.lower});
     }
   }
@@ -130,7 +139,7 @@ std::vector<Named> listed(const Verdict& verdict) {
 }
 
 const Search& search_of(const Diagnosis& diagnosis, const Named& named) {
-  return named.of_law && diagnosis.asked ? *diagnosis.asked : diagnosis.search;
+  return named.behind_asked && diagnosis.asked ? *diagnosis.asked : diagnosis.search;
 }
 
 const Fit& fit_of(const Diagnosis& diagnosis, const Named& named) {
@@ -318,7 +327,7 @@ Judgement judged(Search found, const Workbench& bench, const Workbench& fine, co
                         : contrasts(bench.split().fit, bench.plain_residuals(one.without));
   }
   const Circumstances known = {
-      [&](const Fit& fit, const std::string& effect) { return intervals_of(result.estimates->of(fit), effect); },
+      [&](const Fit& fit, const std::string& effect) { return intervals_of(result.estimates->of(fit), effect, fit); },
       velocity_channel_lag(bench.split().fit), result.contrasts,
       [&](const Fit& fit) { return contrasts(bench.split().fit, bench.plain_residuals(fit), Placebos::none); }};
   result.surprising = surprises(bench, result.search.augmented);
@@ -340,8 +349,14 @@ struct Searching {
   SearchOptions options;
   std::string doubt_of_data;  // why no name can be given on these recordings, known before any search
 
+  [[nodiscard]] Search search_behind(const std::string& law, const SearchProgress& progress) const {
+    return search(quick, fine, {law, {}, {}}, options, progress);
+  }
+  [[nodiscard]] Judgement judged(Search found) const {
+    return hysteron::judged(std::move(found), bench, fine, doubt_of_data);
+  }
   [[nodiscard]] Judgement behind(const std::string& law, const SearchProgress& progress) const {
-    return judged(search(quick, fine, {law, {}, {}}, options, progress), bench, fine, doubt_of_data);
+    return judged(search_behind(law, progress));
   }
   // With whether the recordings belong together or follow a column, judging ones too: that is no matter of how well a
   // fit predicts.
@@ -365,14 +380,14 @@ Judgement behind_asked_or_better(Searching searching, const std::string& asked, 
                                  std::vector<std::string>& notes) {
   Judgement first = searching.behind(asked, progress);
   const std::string law = better_law(first.evidence);
-  std::optional<Judgement> other;
+  const SearchProgress behind_law = [&](double share, const std::string& stage) {
+    progress(0.9 + 0.02 * share, "behind " + law + ": " + stage);
+  };
+  std::optional<Search> other;
   if (!law.empty()) {
-    other = searching.behind(law, [&](double share, const std::string& stage) {
-      progress(0.9 + 0.02 * share, "behind " + law + ": " + stage);
-    });
+    other = searching.search_behind(law, behind_law);
   }
-  const bool beaten =
-      other && squared(first.search.augmented.cost) > comparable * squared(other->search.augmented.cost);
+  const bool beaten = other && squared(first.search.augmented.cost) > comparable * squared(other->augmented.cost);
   if (first.search.limited && !beaten) {
     searching.options.in_full = true;
     first = searching.behind(asked, [&](double share, const std::string& stage) {
@@ -382,13 +397,15 @@ Judgement behind_asked_or_better(Searching searching, const std::string& asked, 
   if (!other) {
     return searching.whole(std::move(first));
   }
-  const std::vector<LeftOut> both = left_out(searching.fine, {&first.search.augmented, &other->search.augmented});
+  const std::vector<LeftOut> both = left_out(searching.fine, {&first.search.augmented, &other->augmented});
   if (block_score(both[0].predicted, both[1].predicted, noise_of(searching.fine)).z() < surely) {
     return searching.whole(std::move(first));
   }
-  other->evidence.asked_for = asked;
-  other->evidence.behind_asked = {first.evidence};
-  Judgement second = searching.whole(std::move(*other));
+  take_parts_of_law(*other, first.search, searching.quick, searching.options, behind_law);
+  Judgement second = searching.judged(std::move(*other));
+  second.evidence.asked_for = asked;
+  second.evidence.behind_asked = {first.evidence};
+  second = searching.whole(std::move(second));
   // Of the misfit of the law asked for, part of which the other law takes.
   const Left before = first.evidence.base;
   const double left = std::clamp(second.evidence.base.excess() / std::max(before.excess(), 1e-300), 0.0, 1.0);
@@ -409,8 +426,8 @@ Judgement behind_asked_or_better(Searching searching, const std::string& asked, 
 }
 
 // The names that come from the search behind the law asked for, or the others.
-std::vector<Named> named_of(std::vector<Named> names, bool of_law) {
-  std::erase_if(names, [&](const Named& named) { return named.of_law.has_value() != of_law; });
+std::vector<Named> named_of(std::vector<Named> names, bool behind_asked) {
+  std::erase_if(names, [&](const Named& named) { return named.behind_asked != behind_asked; });
   return names;
 }
 
@@ -565,7 +582,8 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const Split& split
   diagnosis.drift_of_base = drift_of(fine, diagnosis.search.base);
   diagnosis.drift_of_augmented = drift_of(fine, diagnosis.search.augmented);
   for (const Named& named : names) {
-    diagnosis.parameters.push_back(intervals_of(judgement.estimates->of(fit_of(diagnosis, named)), named.id));
+    const Fit& fit = fit_of(diagnosis, named);
+    diagnosis.parameters.push_back(intervals_of(judgement.estimates->of(fit), named.id, fit));
     diagnosis.sentences.push_back(
         sentence_of(diagnosis, named, diagnosis.parameters.back()) +
         (instead.empty() ? ""
@@ -578,7 +596,8 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const Split& split
         view_of(contrast_of(diagnosis, named), fine.split().fit, fine.plain_residuals(without_of(diagnosis, named))));
   }
   for (const Named& shape : diagnosis.verdict.doubtful) {
-    diagnosis.shapes.push_back(intervals_of(judgement.estimates->of(diagnosis.search.augmented), shape.id));
+    const Fit& fit = diagnosis.search.augmented;
+    diagnosis.shapes.push_back(intervals_of(judgement.estimates->of(fit), shape.id, fit));
   }
   std::vector<std::string> absent;
   for (const std::string& id : searching.candidates) {

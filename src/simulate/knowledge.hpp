@@ -57,6 +57,14 @@ struct KindredParameter {
   double factor;
 };
 
+// A damper law that has the effect as a part of its own. Without it the law is `rest`, and the part's size stands in
+// the law's `parameter`; both empty where the law has it in another form.
+struct PartOfLaw {
+  std::string_view law;
+  std::string_view rest = {};
+  std::string_view parameter = {};
+};
+
 struct Knowledge {
   Family family = {};
   std::string_view in_words;  // its title as it stands in a sentence
@@ -73,7 +81,7 @@ struct Knowledge {
   std::span<const Limit> holds = {};               // effects that it is at a limit of its own
   std::span<const Limit> limit_of = {};            // effects that are this one at a limit of theirs
   std::span<const BoxLimit> ends_as = {};          // effects that it is at an end of its own box
-  std::span<const std::string_view> part_of = {};  // damper laws that have it as a part of their own
+  std::span<const PartOfLaw> part_of = {};         // damper laws that have it as a part of their own
   std::span<const KindredParameter> kindred = {};  // parameters of its own that stand for others
 };
 

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 #include <span>
@@ -12,6 +13,7 @@
 
 #include "diagnose/diagnose.hpp"
 #include "diagnose/search/relatives.hpp"
+#include "fit/synthetic.hpp"
 
 namespace hysteron {
 namespace {
@@ -167,6 +169,43 @@ TEST(Cards, WhatALawHasOfItsOwn) {
   }
   EXPECT_FALSE(is_part_of("offset-force", "no-such-law"));
   EXPECT_FALSE(is_part_of("no-such-effect", "viscous"));
+}
+
+// With the part's parameter where it does nothing, the law is the one that its card calls the rest.
+TEST(Cards, ALawWithoutItsPartIsTheRest) {
+  EXPECT_EQ(rest_of_law("series-dashpot", "modified-bouc-wen"), "bouc-wen");
+  EXPECT_EQ(rest_of_law("pinching", "baber-noori"), "") << "degradation is left";
+  EXPECT_EQ(rest_of_law("inertia", "modified-bouc-wen"), "");
+  const std::map<std::string, double> common = {{"alpha", 600.0}, {"c0", 1500.0}, {"k0", 2000.0},
+                                                {"x_y", 8e-4},    {"share", 0.6}, {"n", 1.5}};
+  const std::map<std::string, double> absent = {{"c1", 1e12}};
+  const Recording recording = testing::motion("r.csv", {{0.01, 1.3}}, 2.0, 400, 0.2);
+  const auto force_of = [&](const std::string& law, bool without) {
+    const CompositeModel model = make_model(law, {});
+    std::vector<double> values;
+    for (const std::string& name : model.parameter_names()) {
+      const auto at = common.find(name);
+      values.push_back(at != common.end() ? at->second : without && absent.contains(name) ? absent.at(name) : 0.0);
+    }
+    return simulate(model, make_motion(recording.time, recording.displacement, recording.velocity, {}), values);
+  };
+  for (const std::string& effect : ids_of(effect_catalogue())) {
+    for (const PartOfLaw& part : knowledge_of(effect).part_of) {
+      if (part.rest.empty()) {
+        continue;
+      }
+      const std::vector<double> with = force_of(std::string(part.law), true);
+      const std::vector<double> rest = force_of(std::string(part.rest), false);
+      double largest = 0.0;
+      double apart = 0.0;
+      for (std::size_t n = 0; n < rest.size(); ++n) {
+        largest = std::max(largest, std::fabs(rest[n]));
+        apart = std::max(apart, std::fabs(with[n] - rest[n]));
+      }
+      EXPECT_LT(apart, 1e-4 * largest) << effect << " of " << part.law;
+      EXPECT_GT(largest, 100.0);
+    }
+  }
 }
 
 TEST(Cards, RelativesInTheOrderTheyAreTried) {

@@ -261,6 +261,33 @@ TEST(Verdict, NamesThePartThatTheBetterLawHasOfItsOwn) {
   EXPECT_TRUE(verdict_of(evidence).effects.empty());
 }
 
+TEST(Verdict, JudgesThePartOfTheBetterLawInTheModelThatIsReported) {
+  Evidence evidence = plain();
+  evidence.model = "modified-bouc-wen";
+  evidence.asked_for = "bouc-wen";
+  evidence.candidates[0].of_law = true;
+  Evidence before = plain();
+  before.other_laws = {{"modified-bouc-wen", 1.1 * floor_squares, true, {"inertia"}}};
+  before.base.squares *= 2.0;
+  before.base_compared *= 2.0;
+  before.candidates[0].gain *= 1e-3;
+  evidence.behind_asked = {before};
+  const Verdict verdict = verdict_of(evidence);
+  ASSERT_EQ(verdict.effects.size(), 1U) << "once, though it was found behind the law asked for too";
+  EXPECT_EQ(verdict.effects[0].of_law, "modified-bouc-wen");
+  EXPECT_FALSE(verdict.effects[0].behind_asked);
+  EXPECT_EQ(candidate_of(verdict.effects[0], evidence).gain, evidence.candidates[0].gain);
+  EXPECT_NEAR(verdict.effects[0].share_of_misfit, evidence.candidates[0].gain / before.base.excess(), 1e-12)
+      << "of what the law asked for leaves";
+  // The other law is weighed against the law asked for, too.
+  const auto at = std::ranges::find(name_features, "no_other_law", &Feature::name) - name_features.begin();
+  evidence.other_laws = {{"lugre", evidence.base_compared, false, {}}};
+  EXPECT_NEAR(
+      features_of(evidence.candidates[0], evidence)[at],
+      1.0 - (before.base_compared - evidence.base_compared) / (before.base_compared - evidence.augmented_compared),
+      1e-12);
+}
+
 TEST(Verdict, NamesWhatIsPlainAndNothingWhereNothingIsLeft) {
   const Verdict verdict = verdict_of(plain());
   EXPECT_EQ(verdict.answer, Answer::missing_physics);

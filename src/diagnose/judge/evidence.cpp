@@ -11,7 +11,7 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Contender, id, law, kin, share, refitted, squ
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Signature, id, what, unit, value, std_error, z, consistency, placebo_quantile,
                                    recordings, speaks_for, sign)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Candidate, id, gain, score, gain_alone, gain_of_relative, contenders, kept,
-                                   parameters, on_bound, as_channels, signatures)
+                                   parameters, on_bound, as_channels, of_law, signatures)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(OtherLaw, model, squares, has_what_was_found, has)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ContrastLeft, effect, signature, instead, law, z)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FirstLook, id, gain, refitted)
@@ -37,6 +37,7 @@ void complete(nlohmann::json& evidence) {
   evidence.emplace("behind_asked", nlohmann::json::array());
   for (nlohmann::json& candidate : evidence.at("candidates")) {
     candidate.emplace("signatures", evidence.at("signatures"));
+    candidate.emplace("of_law", false);
   }
   for (nlohmann::json& row : evidence.at("contrasts_left")) {
     row.emplace("signature", "");

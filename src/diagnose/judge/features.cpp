@@ -72,22 +72,30 @@ std::vector<std::size_t> parts_of_the_law(const Evidence& evidence) {
   const Evidence& before = evidence.behind_asked.front();
   const auto law = std::ranges::find(before.other_laws, evidence.model, &OtherLaw::model);
   for (std::size_t k = 0; k < before.candidates.size() && law != before.other_laws.end(); ++k) {
-    if (std::ranges::find(law->has, before.candidates[k].id) != law->has.end()) {
+    const std::string& id = before.candidates[k].id;
+    const bool judged = std::ranges::find(evidence.candidates, id, &Candidate::id) != evidence.candidates.end();
+    if (!judged && std::ranges::find(law->has, id) != law->has.end()) {
       result.push_back(k);
     }
   }
   return result;
 }
 
+const Left& left_before(const Candidate& candidate, const Evidence& evidence) {
+  return candidate.of_law && !evidence.behind_asked.empty() ? evidence.behind_asked.front().base : evidence.base;
+}
+
 NameFeatures features_of(const Candidate& candidate, const Evidence& evidence) {
   const double gain = std::max(candidate.gain, 1e-300);
   double law = 0.0;
-  const double all = std::max(evidence.base_compared - evidence.augmented_compared, 1e-300);
+  const double before = candidate.of_law && !evidence.behind_asked.empty() ? evidence.behind_asked.front().base_compared
+                                                                           : evidence.base_compared;
+  const double all = std::max(before - evidence.augmented_compared, 1e-300);
   for (const OtherLaw& other : evidence.other_laws) {
     // A law that has the candidate as a part of its own speaks for it.
     if (std::ranges::find(other.has, candidate.id) == other.has.end() &&
         !leaves_the_contrast(candidate, other.model, true, evidence)) {
-      law = std::max(law, (evidence.base_compared - other.squares) / all);
+      law = std::max(law, (before - other.squares) / all);
     }
   }
   const std::optional<Speaking> contrast = speaking_for(candidate);

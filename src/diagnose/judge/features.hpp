@@ -57,8 +57,11 @@ double robustness_of(const Candidate& candidate, const Evidence& evidence);
 // limit of it that the data do not tell apart.
 std::vector<const Contender*> as_good(const Candidate& candidate, const Evidence& evidence);
 
-// Of the candidates behind the law asked for, those that the law in its place has as parts of its own: what it does
-// better may be their doing.
+// What the asked law left, where the candidate is a part of the law that takes its place; else what the base left.
+const Left& left_before(const Candidate& candidate, const Evidence& evidence);
+
+// Of the candidates behind the law asked for, those that the law in its place has as parts of its own and that are not
+// judged as such: what it does better may be their doing.
 std::vector<std::size_t> parts_of_the_law(const Evidence& evidence);
 
 }  // namespace hysteron

@@ -45,7 +45,11 @@ std::vector<Named> named(std::size_t index, const Evidence& evidence) {
   first.alone = others.empty() ? first.confidence : first.confidence * found_of_set();
   first.grade = grade_of(first.confidence);
   first.robustness = robustness_of(candidate, evidence);
-  first.share_of_misfit = std::clamp(candidate.gain / std::max(evidence.base.excess(), 1e-300), 0.0, 1.0);
+  first.share_of_misfit =
+      std::clamp(candidate.gain / std::max(left_before(candidate, evidence).excess(), 1e-300), 0.0, 1.0);
+  if (candidate.of_law) {
+    first.of_law = evidence.model;
+  }
   for (const Contender* other : others) {
     first.indistinguishable_from.push_back(other->id);
   }
@@ -96,7 +100,7 @@ double unknown_share(const Verdict& verdict, const Evidence& evidence) {
     }
   }
   for (const Named& row : verdict.doubtful) {
-    doubted += row.share_of_misfit;
+    doubted += row.of_law ? 0.0 : row.share_of_misfit;
   }
   if (known <= 0.0) {
     return 1.0;
@@ -109,7 +113,7 @@ double unknown_share(const Verdict& verdict, const Evidence& evidence) {
 }  // namespace
 
 const Evidence& evidence_for(const Named& named, const Evidence& evidence) {
-  return named.of_law ? evidence.behind_asked.front() : evidence;
+  return named.behind_asked ? evidence.behind_asked.front() : evidence;
 }
 
 const Candidate& candidate_of(const Named& named, const Evidence& evidence) {
@@ -182,6 +186,7 @@ Verdict answer_of(const Evidence& evidence) {
     std::vector<Named> rows = named(k, evidence.behind_asked.front());
     for (Named& row : rows) {
       row.of_law = evidence.model;
+      row.behind_asked = true;
     }
     // Else it is no shape of the augmented model either: the law has it.
     if (rows.front().grade != Grade::none && evidence.doubt_of_data.empty()) {

@@ -32,11 +32,11 @@ struct Named {
   std::vector<std::string> indistinguishable_from;
   double robustness = 0.0;                 // robustness value
   double share_of_misfit = 0.0;            // gain over what the base model leaves beyond the noise
-  std::size_t candidate = 0;               // of the evidence, or of `behind_asked` where of_law says so
+  std::size_t candidate = 0;               // of the evidence, or of what was found behind the law asked for
   std::optional<std::string> in_place_of;  // the candidate's id, of another member of its set
-  // The law that took the place of the one asked for and has the candidate as a part of its own: the evidence is what
-  // was found behind the law asked for.
+  // The law that took the place of the one asked for and has the candidate as a part of its own.
   std::optional<std::string> of_law = {};
+  bool behind_asked = false;  // judged by what was found behind the law asked for
 };
 
 // The evidence that a name was judged by, and the candidate there.

@@ -27,6 +27,7 @@ struct Found {
   std::vector<Rival> rivals;               // best first
   bool told = false;                       // by the channels, without a model (SearchOptions::told)
   std::optional<std::string> by_law = {};  // the parameter whose richer law in the drive shows the effect
+  std::optional<std::string> of_law = {};  // the augmented model's law, which has it as a part of its own
   std::vector<Contrast> contrasts = {};    // of what `without` leaves of the fitted recordings; taken after the search
 };
 

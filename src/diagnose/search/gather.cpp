@@ -251,13 +251,15 @@ Evidence evidence_of(const Search& search, const Workbench& fine, const Circumst
   const LeftOut& augmented = *looked.find(search.augmented);
   LeftOut before = base;
   for (const Found& found : search.found) {
-    before = left_out_beside(fine, search.base, found.part, std::move(before));
+    before = found.of_law ? std::move(before) : left_out_beside(fine, search.base, found.part, std::move(before));
   }
   result.augmented_over_base = comparison(augmented, before, noise);
 
   for (std::size_t k = 0; k < search.found.size(); ++k) {
     const Found& found = search.found[k];
-    const LeftOut without = left_out_beside(fine, found.without, found.part, *looked.find(found.without));
+    // A law's own part is marched as the law is.
+    const LeftOut& less = *looked.find(found.without);
+    const LeftOut without = found.of_law ? less : left_out_beside(fine, found.without, found.part, less);
     Candidate one;
     one.id = found.part.effect;
     one.gain = without.squares - augmented.squares;
@@ -265,7 +267,7 @@ Evidence evidence_of(const Search& search, const Workbench& fine, const Circumst
     one.gain_alone = found.alone;
     for (const Tried& tried : search.first_stage) {
       // An effect that a richer law in the drive shows was tried as such a law.
-      if (found.by_law ? tried.part.is_law() : tried.part == found.part) {
+      if (!found.of_law && (found.by_law ? tried.part.is_law() : tried.part == found.part)) {
         one.gain_alone = std::max(one.gain_alone, tried.gain);
       }
     }
@@ -284,7 +286,8 @@ Evidence evidence_of(const Search& search, const Workbench& fine, const Circumst
     for (const Swap& swap : search.swaps) {
       // A law that has the effect as a parameter of its own loses nothing without it, and one that runs away tells
       // nothing.
-      if (!is_part_of(one.id, swap.model) && std::max(swap.without[k], swap.squares) < diverged_cost) {
+      if (k < swap.without.size() && !is_part_of(one.id, swap.model) &&
+          std::max(swap.without[k], swap.squares) < diverged_cost) {
         one.kept.push_back((swap.without[k] - swap.squares) / std::max(found.gain, 1e-300));
       }
     }
@@ -294,6 +297,7 @@ Evidence evidence_of(const Search& search, const Workbench& fine, const Circumst
       return !p.bound.empty() && !is_plain_end(one.id, p.name, p.bound == "upper" ? BoxEnd::upper : BoxEnd::lower);
     }));
     one.signatures = signatures_of(found.contrasts);
+    one.of_law = found.of_law.has_value();
     one.as_channels = found.told || (one.id == channel_lag && as_channels_show(search.augmented, known));
     result.candidates.push_back(std::move(one));
   }

@@ -101,8 +101,19 @@ bool is_plain_end(const std::string& effect, const std::string& parameter, BoxEn
   });
 }
 
+const PartOfLaw* part_of_law(const std::string& effect, const std::string& law) {
+  const std::span<const PartOfLaw> rows = knowledge_of(effect).part_of;
+  const auto at = std::ranges::find(rows, law, &PartOfLaw::law);
+  return at == rows.end() ? nullptr : &*at;
+}
+
+std::string rest_of_law(const std::string& effect, const std::string& law) {
+  const PartOfLaw* part = part_of_law(effect, law);
+  return part == nullptr ? std::string{} : std::string(part->rest);
+}
+
 bool is_part_of(const std::string& effect, const std::string& law) {
-  if (names(knowledge_of(effect).part_of, law)) {
+  if (part_of_law(effect, law) != nullptr) {
     return true;
   }
   const Part* part = find_effect(effect);

@@ -37,6 +37,10 @@ bool is_plain_end(const std::string& effect, const std::string& parameter, BoxEn
 // Whether the law has the effect as a part of its own: the effect's card says so, or it is a linear parameter of the
 // law, as a stiffness or an offset. All that it has.
 bool is_part_of(const std::string& effect, const std::string& law);
+// What the effect's card says of itself as a part of the law; null where it says nothing.
+const PartOfLaw* part_of_law(const std::string& effect, const std::string& law);
+// The law that is left without the effect; empty where the card knows none.
+std::string rest_of_law(const std::string& effect, const std::string& law);
 std::vector<std::string> parts_of(const std::string& law);
 
 // The effect that a lag of the velocity channel is, which the channels show without any model.

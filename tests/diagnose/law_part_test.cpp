@@ -1,0 +1,74 @@
+#include "diagnose/search/law_part.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "diagnose/concealed_damper.hpp"
+#include "diagnose/search/of_fit.hpp"
+
+namespace hysteron {
+namespace {
+
+using testing::campaign_of;
+using testing::seed;
+
+const SearchProgress silent = [](double, const std::string&) {};
+
+// A damper of the modified Bouc-Wen law with a mass, of which Bouc-Wen misses the series dashpot and the mass.
+Workbenches benches() {
+  const Campaign campaign = campaign_of("modified-bouc-wen", {"inertia"},
+                                        {{"alpha", 600.0},
+                                         {"c0", 1500.0},
+                                         {"c1", 3e4},
+                                         {"k0", 2000.0},
+                                         {"k1", 0.0},
+                                         {"x_y", 8e-4},
+                                         {"share", 0.6},
+                                         {"n", 1.5},
+                                         {"inertia.m", 8.0}},
+                                        0.01);
+  DiagnoseOptions options;
+  options.model = "bouc-wen";
+  options.seed = seed;
+  std::vector<std::string> notes;
+  return workbenches_of(campaign, split_of(campaign), options, notes);
+}
+
+TEST(LawPart, IsWhatTheLawGainsOverTheOneAskedForWithTheSameEffects) {
+  const Workbenches bench = benches();
+  SearchOptions options;
+  options.candidates = {"inertia", "series-dashpot", "compliance", "quadratic-damping"};
+  options.most_effects = 0;
+  const Search asked = search(bench.quick, bench.fine, {"bouc-wen", {}, {}}, options, silent);
+  options.most_effects = 1;
+  Search behind = search(bench.quick, bench.fine, {"modified-bouc-wen", {}, {}}, options, silent);
+  ASSERT_EQ(behind.found.size(), 1U);
+  take_parts_of_law(behind, asked, bench.quick, options, silent);
+  ASSERT_EQ(behind.found.size(), 2U);
+  const Found& part = behind.found.back();
+  EXPECT_EQ(part.part.effect, "series-dashpot");
+  EXPECT_EQ(part.of_law, "modified-bouc-wen");
+  EXPECT_EQ(part.without.what, (Hypothesis{"bouc-wen", {"inertia"}, {}}));
+  EXPECT_NEAR(part.gain, squared(part.without.cost) - squared(behind.quick_augmented.cost), 1e-15);
+  EXPECT_GT(part.gain, 10.0 * squared(behind.quick_augmented.cost)) << "the dashpot is most of what Bouc-Wen misses";
+  EXPECT_NEAR(part.alone, squared(asked.quick_base.cost) - squared(behind.quick_base.cost), 1e-15);
+  EXPECT_TRUE(std::ranges::any_of(part.rivals, [](const Rival& rival) {
+    return rival.part.effect == "compliance" && rival.fit;
+  })) << "its relative is refitted in its place";
+  EXPECT_TRUE(std::ranges::none_of(part.rivals, [](const Rival& rival) { return rival.part.effect == "inertia"; }));
+}
+
+TEST(LawPart, IsNoneWhereTheLawsDifferInMore) {
+  const Workbenches bench = benches();
+  SearchOptions options;
+  options.candidates = {"series-dashpot"};
+  options.most_effects = 0;
+  const Search asked = search(bench.quick, bench.fine, {"hyperbolic-tangent", {}, {}}, options, silent);
+  Search behind = search(bench.quick, bench.fine, {"modified-bouc-wen", {}, {}}, options, silent);
+  take_parts_of_law(behind, asked, bench.quick, options, silent);
+  EXPECT_TRUE(behind.found.empty());
+}
+
+}  // namespace
+}  // namespace hysteron
