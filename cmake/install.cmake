@@ -27,8 +27,8 @@ if(NOT CMAKE_CROSSCOMPILING)
 endif()
 
 # Every box but those of the program alone.
-set(boxes core io simulate fit judge diagnose report presets datasets challenge export compare respond external plugin
-  study task)
+set(boxes core io simulate fit check judge diagnose report presets datasets challenge export compare respond external
+  plugin study task)
 add_library(hysteron_library INTERFACE)
 set_target_properties(hysteron_library PROPERTIES EXPORT_NAME hysteron)
 foreach(box IN LISTS boxes)

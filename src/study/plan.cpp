@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "check/campaign.hpp"
 #include "core/error.hpp"
 #include "datasets/dataset.hpp"
 #include "external/external_solver.hpp"
@@ -59,7 +60,10 @@ Campaign load(const DataSpec& spec, const std::string& file, std::vector<Remark>
   if (spec.dataset.empty()) {
     ReadOptions read;
     read.remark = [&](const Remark& remark) { remarks.push_back(remark); };
-    return load_paths(spec, file, read);
+    Campaign campaign = load_paths(spec, file, read);
+    const std::vector<Remark> of_campaign = remarks_on(campaign.recordings, Moving::damper);
+    remarks.insert(remarks.end(), of_campaign.begin(), of_campaign.end());
+    return campaign;
   }
   const DatasetEntry* entry = find_dataset(spec.dataset);
   if (entry == nullptr) throw InputError("unknown dataset '" + spec.dataset + "', see `hysteron list datasets`");

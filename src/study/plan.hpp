@@ -38,7 +38,7 @@ struct Plan {
   Study study;
   std::vector<StudyProblem> problems;
   std::vector<PlannedRun> runs;      // problems, then budgets, then seeds, then solvers
-  std::vector<Remark> remarks = {};  // of the readers of the recordings
+  std::vector<Remark> remarks = {};  // of the readers, and on what recordings look like beside each other
 };
 
 // Reads the recordings and names every run. Throws InputError, at the study's line where it can, for data and models

@@ -5,11 +5,9 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "check/campaign.hpp"
 #include "core/printable.hpp"
 #include "io/campaign.hpp"
-#include "task/beside_others.hpp"
-#include "task/copies.hpp"
-#include "task/sampling.hpp"
 
 namespace hysteron {
 
@@ -19,14 +17,9 @@ Loaded load_with_remarks(const std::vector<std::string>& data, ReadOptions optio
   std::vector<Remark> remarks;
   options.remark = [&](const Remark& remark) { remarks.push_back(remark); };
   Campaign campaign = load_campaign(data, options);
-  for (const Recording& recording : campaign.recordings) {
-    // An excitation is no motion of the damper.
-    if (required == Required::nothing) break;
-    if (const auto remark = remark_on_sampling(recording)) remarks.push_back(*remark);
-  }
-  for (const auto& of_campaign : {remarks_beside_others(campaign.recordings), remarks_on_copies(campaign.recordings)}) {
-    remarks.insert(remarks.end(), of_campaign.begin(), of_campaign.end());
-  }
+  const std::vector<Remark> of_campaign =
+      remarks_on(campaign.recordings, required == Required::nothing ? Moving::excitation : Moving::damper);
+  remarks.insert(remarks.end(), of_campaign.begin(), of_campaign.end());
   return {std::move(campaign), std::move(remarks)};
 }
 

@@ -99,8 +99,14 @@ TEST_F(Remarks, CopiesOfARecordingAreTold) {
   write(folder_ / "data/r1 (copy).csv", csv(1.0, 0.2));
   const Outcome outcome = run({"fit", "data", "--model", "viscous", "--budget", "50", "--quiet", "--out", "out"});
   EXPECT_EQ(outcome.status, 0);
-  EXPECT_NE(outcome.err.find("warning: r1.csv: holds the same bytes as r1 (copy).csv"), std::string::npos)
-      << outcome.err;
+  const std::string said = "warning: r1.csv: holds the same bytes as r1 (copy).csv";
+  EXPECT_NE(outcome.err.find(said), std::string::npos) << outcome.err;
+  write(folder_ / "study.toml",
+        "schema = \"hysteron.study/1\"\nmodels = [\"viscous\"]\nsolvers = [\"pso\"]\nbudgets = 20\nseeds = 1\n"
+        "[[data]]\nrecordings = \"data\"\n");
+  const Outcome study = run({"bench", "study.toml", "--quiet", "--out", "b"});
+  EXPECT_EQ(study.status, 0) << study.err;
+  EXPECT_NE(study.err.find(said), std::string::npos) << study.err;
 }
 
 TEST_F(Remarks, EveryCommandSkipsLinesWhereThatIsAsked) {

@@ -23,6 +23,7 @@ const Allowed& allowed() {
       {"models", {"simulate", "scalar"}},
       {"models/effects", {"models", "simulate", "scalar"}},
       {"src/fit", {"core", "scalar", "simulate"}},
+      {"src/check", {"core", "fit", "io"}},
       {"src/external", {"core", "fit"}},
       {"algorithms", {"algorithms/support", "core", "fit"}},
       {"src/diagnose/signal", {"core", "fit", "io", "simulate"}},
@@ -41,10 +42,11 @@ const Allowed& allowed() {
       {"presets", {"presets/support"}},
       {"datasets", {"core", "datasets/support", "io", "presets/support", "simulate"}},
       {"src/study",
-       {"core", "datasets", "datasets/support", "external", "fit", "io", "presets/support", "report", "simulate"}},
+       {"check", "core", "datasets", "datasets/support", "external", "fit", "io", "presets/support", "report",
+        "simulate"}},
       {"src/task",
-       {"compare", "core", "datasets", "diagnose", "diagnose/search", "fit", "io", "presets", "report", "respond",
-        "simulate", "study"}},
+       {"check", "compare", "core", "datasets", "diagnose", "diagnose/search", "fit", "io", "presets", "report",
+        "respond", "simulate", "study"}},
   };
   return table;
 }

@@ -1,4 +1,4 @@
-#include "task/beside_others.hpp"
+#include "check/beside_others.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "task/copies.hpp"
+#include "check/copies.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "task/sampling.hpp"
+#include "check/sampling.hpp"
 
 #include <fmt/format.h>
 

@@ -1,0 +1,22 @@
+#include "check/campaign.hpp"
+
+#include "check/beside_others.hpp"
+#include "check/copies.hpp"
+#include "check/sampling.hpp"
+
+namespace hysteron {
+
+std::vector<Remark> remarks_on(const std::vector<Recording>& recordings, Moving moving) {
+  std::vector<Remark> result;
+  if (moving == Moving::damper) {
+    for (const Recording& recording : recordings) {
+      if (const auto remark = remark_on_sampling(recording)) result.push_back(*remark);
+    }
+  }
+  for (const auto& of_campaign : {remarks_beside_others(recordings), remarks_on_copies(recordings)}) {
+    result.insert(result.end(), of_campaign.begin(), of_campaign.end());
+  }
+  return result;
+}
+
+}  // namespace hysteron
