@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fit/correlation.hpp"
+#include "fit/curvature_directions.hpp"
 #include "fit/free_coordinates.hpp"
 
 namespace hysteron {

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "core/unit_text.hpp"
-#include "fit/correlation.hpp"
+#include "fit/curvature_directions.hpp"
 #include "fit/free_coordinates.hpp"
 #include "fit/identify.hpp"
 #include "fit/jackknife.hpp"

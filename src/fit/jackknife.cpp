@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <boost/math/distributions/students_t.hpp>
 
-#include "fit/correlation.hpp"
+#include "fit/curvature_directions.hpp"
 
 namespace hysteron {
 namespace {

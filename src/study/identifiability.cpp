@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "core/error.hpp"
-#include "fit/correlation.hpp"
+#include "fit/curvature_directions.hpp"
 #include "fit/driver.hpp"
 #include "fit/free_coordinates.hpp"
 #include "fit/identify.hpp"
