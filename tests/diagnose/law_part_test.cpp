@@ -16,17 +16,17 @@ using testing::seed;
 const SearchProgress silent = [](double, const std::string&) {};
 
 // A damper of the modified Bouc-Wen law with a mass, of which Bouc-Wen misses the series dashpot and the mass.
-Workbenches benches() {
+Workbenches benches(double c1, double mass) {
   const Campaign campaign = campaign_of("modified-bouc-wen", {"inertia"},
                                         {{"alpha", 600.0},
                                          {"c0", 1500.0},
-                                         {"c1", 3e4},
+                                         {"c1", c1},
                                          {"k0", 2000.0},
                                          {"k1", 0.0},
                                          {"x_y", 8e-4},
                                          {"share", 0.6},
                                          {"n", 1.5},
-                                         {"inertia.m", 8.0}},
+                                         {"inertia.m", mass}},
                                         0.01);
   DiagnoseOptions options;
   options.model = "bouc-wen";
@@ -36,7 +36,7 @@ Workbenches benches() {
 }
 
 TEST(LawPart, IsWhatTheLawGainsOverTheOneAskedForWithTheSameEffects) {
-  const Workbenches bench = benches();
+  const Workbenches bench = benches(3e4, 8.0);
   SearchOptions options;
   options.candidates = {"inertia", "series-dashpot", "compliance", "quadratic-damping"};
   options.most_effects = 0;
@@ -59,8 +59,25 @@ TEST(LawPart, IsWhatTheLawGainsOverTheOneAskedForWithTheSameEffects) {
   EXPECT_TRUE(std::ranges::none_of(part.rivals, [](const Rival& rival) { return rival.part.effect == "inertia"; }));
 }
 
+// As an effect behind Bouc-Wen the part is the same physics.
+TEST(LawPart, IsWorthAsMuchBehindALawThatLacksIt) {
+  const Workbenches bench = benches(2e5, 40.0);
+  SearchOptions options;
+  options.candidates = {"inertia", "series-dashpot"};
+  options.laws = {"bouc-wen"};
+  options.most_effects = 0;
+  const Search asked = search(bench.quick, bench.fine, {"bouc-wen", {}, {}}, options, silent);
+  options.most_effects = 1;
+  Search behind = search(bench.quick, bench.fine, {"modified-bouc-wen", {}, {}}, options, silent);
+  take_parts_of_law(behind, asked, bench.quick, options, silent);
+  ASSERT_EQ(behind.found.size(), 2U);
+  ASSERT_EQ(behind.swaps.size(), 1U);
+  ASSERT_EQ(behind.swaps[0].without.size(), 2U);
+  EXPECT_NEAR(behind.swaps[0].without[1] - behind.swaps[0].squares, behind.found[1].gain, 0.2 * behind.found[1].gain);
+}
+
 TEST(LawPart, IsNoneWhereTheLawsDifferInMore) {
-  const Workbenches bench = benches();
+  const Workbenches bench = benches(3e4, 8.0);
   SearchOptions options;
   options.candidates = {"series-dashpot"};
   options.most_effects = 0;

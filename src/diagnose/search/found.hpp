@@ -31,4 +31,13 @@ struct Found {
   std::vector<Contrast> contrasts = {};    // of what `without` leaves of the fitted recordings; taken after the search
 };
 
+// Their effects, in this order.
+inline std::vector<std::string> effects_of(const std::vector<Found>& found) {
+  std::vector<std::string> result;
+  for (const Found& one : found) {
+    result.push_back(one.part.effect);
+  }
+  return result;
+}
+
 }  // namespace hysteron

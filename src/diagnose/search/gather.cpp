@@ -286,8 +286,7 @@ Evidence evidence_of(const Search& search, const Workbench& fine, const Circumst
     for (const Swap& swap : search.swaps) {
       // A law that has the effect as a parameter of its own loses nothing without it, and one that runs away tells
       // nothing.
-      if (k < swap.without.size() && !is_part_of(one.id, swap.model) &&
-          std::max(swap.without[k], swap.squares) < diverged_cost) {
+      if (!is_part_of(one.id, swap.model) && std::max(swap.without[k], swap.squares) < diverged_cost) {
         one.kept.push_back((swap.without[k] - swap.squares) / std::max(found.gain, 1e-300));
       }
     }

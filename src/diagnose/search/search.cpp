@@ -16,8 +16,6 @@ namespace {
 // that are looked for then.
 constexpr double most_of_the_misfit = 0.5;
 constexpr int effects_beside_a_better_law = 2;
-// Other laws behind which the effects are tried.
-constexpr std::size_t laws_tried = 2;
 
 // Richer laws that were found are no effects, but for a yield force that saturates.
 void name_laws(Search& result) {
@@ -90,15 +88,8 @@ Search search(const Workbench& bench, const Workbench& fine, const Hypothesis& b
   std::ranges::stable_sort(result.found, [](const Found& a, const Found& b) { return a.gain > b.gain; });
   if (!result.found.empty()) {
     progress(0.9, "trying the effects behind other damper laws");
-    std::vector<std::string> found;
-    for (const Found& one : result.found) {
-      found.push_back(one.part.effect);
-    }
-    const std::size_t laws = std::ranges::any_of(found, in_series) ? 1 : laws_tried;
-    // A law that does as well without them is tried with a search of its own.
-    if (best_law > squared(current.cost) || found.size() == 1) {
-      result.swaps = swaps(bench, result.quick_base, result.other_laws, found, laws);
-    }
+    // A law that does as well without any effect tells most: what is the device's own is worth as much behind it.
+    result.swaps = swaps(bench, result.quick_base, result.other_laws, effects_of(result.found));
   }
   return result;
 }

@@ -10,6 +10,9 @@ namespace {
 
 constexpr int adding_rounds = 4;     // of the descent after each effect that is added
 constexpr int comparing_rounds = 6;  // of the descents that are compared
+// Other laws behind which the effects are tried: fewer where a simulation takes several times as long.
+constexpr std::size_t laws_tried = 2;
+constexpr std::size_t laws_tried_in_series = 1;
 
 Swap swapped(const Workbench& bench, const Fit& law, const std::vector<std::string>& effects) {
   Fit full = law;
@@ -29,7 +32,7 @@ Swap swapped(const Workbench& bench, const Fit& law, const std::vector<std::stri
 }  // namespace
 
 std::vector<Swap> swaps(const Workbench& bench, const Fit& base, const std::vector<Fit>& laws,
-                        const std::vector<std::string>& effects, std::size_t most) {
+                        const std::vector<std::string>& effects) {
   std::vector<const Fit*> order;
   for (const Fit& law : laws) {
     if (squared(law.cost) < comparable * squared(base.cost)) {
@@ -37,7 +40,8 @@ std::vector<Swap> swaps(const Workbench& bench, const Fit& base, const std::vect
     }
   }
   std::ranges::stable_sort(order, {}, [](const Fit* fit) { return fit->cost; });
-  order.resize(std::min(order.size(), most));
+  const bool series = std::ranges::any_of(effects, in_series);
+  order.resize(std::min(order.size(), series ? laws_tried_in_series : laws_tried));
   std::vector<Swap> result(order.size());
   const Workbench single = bench.single_threaded();
   parallel_for(order.size(), bench.options().threads,

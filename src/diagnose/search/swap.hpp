@@ -9,10 +9,10 @@
 
 namespace hysteron {
 
-// Another law with the effects of the augmented model.
 // A law that leaves so many times the squares of another says nothing of what is missing behind it.
 constexpr double comparable = 2.0;
 
+// Another law with the effects of the augmented model.
 struct Swap {
   std::string model;
   double squares_alone = 0.0;   // of NRMSE, without effects
@@ -20,9 +20,9 @@ struct Swap {
   std::vector<double> without;  // squares with all of them but the k-th, refitted
 };
 
-// Behind the best `most` of `laws`, fits of other laws without effects, of those that leave at most twice the squares
-// of `base`. `effects`, strongest first, are added in this order.
+// Behind the best of `laws`, fits of other laws without effects, of those that leave at most twice the squares of
+// `base`. `effects`, strongest first, are added in this order.
 std::vector<Swap> swaps(const Workbench& bench, const Fit& base, const std::vector<Fit>& laws,
-                        const std::vector<std::string>& effects, std::size_t most);
+                        const std::vector<std::string>& effects);
 
 }  // namespace hysteron
