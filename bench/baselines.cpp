@@ -26,6 +26,7 @@
 #include "diagnose/diagnose.hpp"
 #include "diagnose/search/observe.hpp"
 #include "diagnose/search/of_fit.hpp"
+#include "diagnose/workbenches.hpp"
 #include "io/campaign.hpp"
 #include "io/file.hpp"
 #include "io/output.hpp"

@@ -27,6 +27,7 @@
 #include "diagnose/diagnose.hpp"
 #include "diagnose/residual/leftover.hpp"
 #include "diagnose/residual/tone.hpp"
+#include "diagnose/workbenches.hpp"
 #include "io/campaign.hpp"
 #include "io/output.hpp"
 

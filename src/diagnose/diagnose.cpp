@@ -3,134 +3,21 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <map>
-#include <set>
 
 #include "core/drive.hpp"
 #include "core/error.hpp"
 #include "diagnose/account.hpp"
-#include "diagnose/residual/leftover.hpp"
-#include "diagnose/residual/tone.hpp"
-#include "diagnose/residual/wander.hpp"
-#include "diagnose/search/law_part.hpp"
-#include "diagnose/search/left_out.hpp"
+#include "diagnose/doubts.hpp"
+#include "diagnose/judgement.hpp"
 #include "diagnose/search/of_fit.hpp"
-#include "diagnose/search/relatives.hpp"
 #include "diagnose/search/wording.hpp"
 #include "diagnose/signal/noise.hpp"
 #include "diagnose/signal/thin.hpp"
 #include "diagnose/summary.hpp"
-#include "fit/identify.hpp"
+#include "diagnose/workbenches.hpp"
 #include "io/outliers.hpp"
-#include "io/velocity.hpp"
 
 namespace hysteron {
-namespace {
-
-// What hypotheses are compared on.
-constexpr std::size_t quick_samples = 3000;
-constexpr std::size_t quick_recordings = 8;
-// A held-out recording that is this many times further above its white noise, in squares, than every fitted one shows
-// what these do not.
-constexpr double surprise = 4.0;
-// Squares over those of the white noise above which what is left is asked whether it follows the force.
-constexpr double above_white = 1.5;
-// Squares over those of the noise above which what is left is asked whether its size follows the motion.
-constexpr double above_floor = 1.5;
-// Two standard errors: the law asked for is given up for no less.
-constexpr double surely = 2.0;
-// Independent values for each parameter without which nothing left cannot be told from too little data.
-constexpr double values_per_parameter = 4.0;
-// Least share of the largest force that counts as noise there.
-constexpr double least_noise = 1e-4;
-// A recorded velocity correlates with the slope of the displacement at least so.
-constexpr double least_likeness = 0.5;
-// What the base and the augmented model are then fitted on; every sample is predicted in the end.
-constexpr std::size_t fine_samples = 8000;
-
-std::vector<Estimate> estimates_of(const Workbench& bench, const Fit& fit) {
-  const Objective objective(*fit.layout, bench.split().fit, bench.options());
-  Identification identification{*fit.layout, fit.terms, {}, {}, 0, fit.cost, {}, {}, {}, false, {}};
-  estimate(identification, objective, fit.point, bench.split().fit.front().drive_kind);
-  return identification.estimates;
-}
-
-// Estimates of the fits that have been asked for: one fit is asked for several effects, and derivatives behind series
-// elements take long.
-class Estimates {
- public:
-  explicit Estimates(const Workbench& bench) : bench_(&bench) {}
-
-  // Valid until the next one.
-  const std::vector<Estimate>& of(const Fit& fit) {
-    const auto known =
-        std::ranges::find_if(known_, [&](const Known& one) { return one.what == fit.what && one.point == fit.point; });
-    if (known != known_.end()) {
-      return known->estimates;
-    }
-    return known_.emplace_back(Known{fit.what, fit.point, estimates_of(*bench_, fit)}).estimates;
-  }
-
- private:
-  struct Known {
-    Hypothesis what;
-    std::vector<double> point;
-    std::vector<Estimate> estimates;
-  };
-  const Workbench* bench_;
-  std::vector<Known> known_;
-};
-
-// Of an effect of the fit, or of the parameter in which its law has it as a part of its own.
-std::vector<ParameterInterval> intervals_of(const std::vector<Estimate>& estimates, const std::string& effect,
-                                            const Fit& fit) {
-  const bool joined = contains(fit.what, effect_extension(effect));
-  const PartOfLaw* part = joined ? nullptr : part_of_law(effect, fit.what.model);
-  const std::string own(part == nullptr ? std::string_view{} : part->parameter);
-  const std::string prefix = effect + ".";
-  std::vector<ParameterInterval> result;
-  for (const Estimate& row : estimates) {
-    const bool of_law = !own.empty() && (row.name == own || row.name.starts_with(own + "*"));
-    if (of_law || row.name.starts_with(prefix)) {
-      result.push_back({of_law ? row.name : row.name.substr(prefix.size()), row.unit, row.term.value, row.half_width,
-                        row.at_bound.value_or(""), row.lower});
-    }
-  }
-  return result;
-}
-
-// Files of the held-out recordings that show what the fitted ones do not.
-std::vector<std::string> surprises(const Workbench& bench, const Fit& fit) {
-  const auto above_noise = [&](const Recording& recording) {
-    const double least = least_noise * normaliser(recording, Normalisation::max_abs);
-    const double white = noise_floor(recording).white;
-    return bench.residual(fit, recording).mean_square() / (white * white + least * least);
-  };
-  double usual = 1.0;
-  for (const Recording& recording : bench.split().fit) {
-    usual = std::max(usual, above_noise(recording));
-  }
-  std::vector<std::string> result;
-  for (const Judged& judged : bench.split().judge) {
-    if (judged.from == 0 && above_noise(judged.recording) > surprise * usual) {
-      result.push_back(judged.recording.file);
-    }
-  }
-  return result;
-}
-
-}  // namespace
-
-std::vector<std::string> alternative_laws() {
-  std::vector<std::string> result;
-  for (const Part* law : model_catalogue()) {
-    if (law->alternative) {
-      result.emplace_back(law->id);
-    }
-  }
-  return result;
-}
 
 std::vector<Named> listed(const Verdict& verdict) {
   std::vector<Named> result = verdict.effects;
@@ -167,45 +54,7 @@ const Fit& without_of(const Diagnosis& diagnosis, const Named& named) {
   return found->without;
 }
 
-std::map<std::string, int> base_laws(const std::string& model, const std::vector<Recording>& recordings) {
-  std::set<long> levels;
-  for (const Recording& recording : recordings) {
-    for (const double drive : recording.drive) {
-      levels.insert(std::lround(1e3 * drive));
-    }
-  }
-  std::map<std::string, int> result;
-  const Part* part = find_model(model);
-  if (levels.size() < 2 || part == nullptr) {
-    return result;
-  }
-  for (const Parameter& parameter : part->parameters) {
-    const bool follows = parameter.role == PhysicalRole::yield_force || parameter.role == PhysicalRole::damping;
-    if (follows && !parameter.fixed) {
-      result[std::string(parameter.name)] = 1;
-    }
-  }
-  return result;
-}
-
 namespace {
-
-// The laws of the user's choice, or the base model's own with a note.
-LayoutOptions with_laws(const DiagnoseOptions& options, const Campaign& campaign, std::vector<std::string>& notes) {
-  LayoutOptions layout = options.layout;
-  if (!layout.by_current.empty() || !layout.by_frequency.empty()) {
-    return layout;
-  }
-  layout.by_current = base_laws(options.model, campaign.recordings);
-  std::string list;
-  for (const auto& [name, order] : layout.by_current) {
-    list += (list.empty() ? "" : ",") + fmt::format("{}:{}", name, order);
-  }
-  if (!list.empty()) {
-    notes.push_back("the drive varies and no laws were given: --by-current " + list + " assumed");
-  }
-  return layout;
-}
 
 // Effects that the inputs excite; the others are noted as not observable.
 std::vector<std::string> candidates_of(const DiagnoseOptions& options, Diagnosis& diagnosis) {
@@ -222,207 +71,6 @@ std::vector<std::string> candidates_of(const DiagnoseOptions& options, Diagnosis
     }
   }
   return result;
-}
-
-// In N. Of every sample: a thinned recording has no high frequencies.
-std::optional<Tone> tone_left(const Search& search, const Workbench& bench) {
-  const std::vector<Recording>& recordings = bench.split().fit;
-  return tone_of(
-      leftovers_of(recordings, bench.plain_residuals(search.augmented), std::vector<double>(recordings.size(), 1.0)));
-}
-
-// Why more than noise is left though no effect helps: a held-out recording, or the residual's bond to the force, shows
-// it. Empty where nothing does.
-struct Doubt {
-  std::string why;
-  bool of_tone = false;
-};
-Doubt doubt_of_completeness(const Search& search, const Workbench& fine, const std::vector<std::string>& surprising,
-                            const std::optional<Tone>& tone) {
-  if (!surprising.empty()) {
-    return {"nothing but noise is left on the fitted recordings, but not on " + joined(surprising, " and ") +
-            ": what is missing shows there only, and only a fitted recording can tell its cause"};
-  }
-  const Misfit& left = search.misfit;
-  const auto parameters = static_cast<double>(search.augmented.dimension());
-  if (left.independent < values_per_parameter * parameters) {
-    return {fmt::format(
-        "what is left holds {:.0f} independent values for {:.0f} parameters: too few to tell noise from what is "
-        "missing",
-        left.independent, parameters)};
-  }
-  if (left.squares <= above_white * left.white) {
-    return {};
-  }
-  if (left.squares > above_floor * left.floor && uneven(left.evenness)) {
-    return {"the size of what is left follows the motion, as that of noise does not"};
-  }
-  if (tone) {
-    return {sentence_of(*tone), true};
-  }
-  const Residuals residuals = fine.residuals(search.augmented);
-  const Wandering wander = wandering(leftovers_of(fine.split().fit, residuals.of, residuals.norms));
-  if (!wanders(wander)) {
-    return {};
-  }
-  return {
-      fmt::format("{:.0f} % of what is left is a factor of the force that {}", 100.0 * wander.share,
-                  wander.period > 0.0
-                      ? fmt::format("swings with a period of {:.2g} s whatever the motion, as of a supply that cycles",
-                                    wander.period)
-                      : std::string("changes from moment to moment, as of a supply or a grip that changes"))};
-}
-
-// Why no name can be given: the recorded velocity is not that of the displacement, and effects would explain a fault of
-// the data. Empty where it is.
-std::string doubt_of_velocity(const std::vector<Recording>& recordings) {
-  for (const Recording& recording : recordings) {
-    if (!recording.velocity_measured) {
-      continue;
-    }
-    const std::vector<double> slope = derive_velocity(recording.time, recording.displacement);
-    double product = 0.0;
-    double squares = 0.0;
-    double recorded = 0.0;
-    for (std::size_t n = 0; n < slope.size(); ++n) {
-      product += slope[n] * recording.velocity[n];
-      squares += slope[n] * slope[n];
-      recorded += recording.velocity[n] * recording.velocity[n];
-    }
-    const double alike = product / std::max(std::sqrt(squares * recorded), 1e-300);
-    if (alike < least_likeness) {
-      return fmt::format(
-          "{}: the recorded velocity is not the slope of the displacement (correlation {:.2f}); without that column "
-          "the velocity would be derived",
-          recording.file, alike);
-    }
-  }
-  return {};
-}
-
-// A search with what it allows to say.
-struct Judgement {
-  Search search;
-  std::vector<std::string> surprising;
-  std::optional<Tone> tone;
-  bool tone_doubts = false;
-  std::vector<Contrast> contrasts;
-  std::optional<Belonging> belonging;
-  std::optional<ColumnTold> column;
-  Evidence evidence;
-  Verdict verdict;
-  std::optional<Estimates> estimates;
-  std::optional<Search> asked;  // behind the law whose place this one takes
-};
-
-Judgement judged(Search found, const Workbench& bench, const Workbench& fine, const std::string& doubt_of_data) {
-  Judgement result;
-  result.estimates.emplace(fine);
-  result.search = std::move(found);
-  // Of every sample: what relaxes after a stop, or lags, is over within what a thinned recording leaves out.
-  result.contrasts = contrasts(bench.split().fit, bench.plain_residuals(result.search.base));
-  for (Found& one : result.search.found) {
-    one.contrasts = one.without.what == result.search.base.what
-                        ? result.contrasts
-                        : contrasts(bench.split().fit, bench.plain_residuals(one.without));
-  }
-  const Circumstances known = {
-      [&](const Fit& fit, const std::string& effect) { return intervals_of(result.estimates->of(fit), effect, fit); },
-      velocity_channel_lag(bench.split().fit), result.contrasts,
-      [&](const Fit& fit) { return contrasts(bench.split().fit, bench.plain_residuals(fit), Placebos::none); }};
-  result.surprising = surprises(bench, result.search.augmented);
-  result.tone = tone_left(result.search, bench);
-  result.evidence = evidence_of(result.search, fine, known);
-  const Doubt doubt = doubt_of_completeness(result.search, fine, result.surprising, result.tone);
-  result.evidence.doubt_of_completeness = doubt.why;
-  result.tone_doubts = doubt.of_tone;
-  result.evidence.doubt_of_data = doubt_of_data;
-  return result;
-}
-
-// Recordings, and how they are searched.
-struct Searching {
-  const Workbench& bench;
-  const Workbench& quick;
-  const Workbench& fine;
-  const Workbench& every;
-  SearchOptions options;
-  std::string doubt_of_data;  // why no name can be given on these recordings, known before any search
-
-  [[nodiscard]] Search search_behind(const std::string& law, const SearchProgress& progress) const {
-    return search(quick, fine, {law, {}, {}}, options, progress);
-  }
-  [[nodiscard]] Judgement judged(Search found) const {
-    return hysteron::judged(std::move(found), bench, fine, doubt_of_data);
-  }
-  [[nodiscard]] Judgement behind(const std::string& law, const SearchProgress& progress) const {
-    return judged(search_behind(law, progress));
-  }
-  // With whether the recordings belong together or follow a column, judging ones too: that is no matter of how well a
-  // fit predicts.
-  [[nodiscard]] Judgement whole(Judgement judgement) const {
-    const ByRecording base = by_recording(every, judgement.search.base);
-    judgement.column = unused_column(every, base);
-    if (judgement.evidence.doubt_of_data.empty()) {
-      judgement.belonging = belonging_of(every, base, judgement.search.augmented);
-      judgement.evidence.doubt_of_data = mixed(judgement.belonging) ? sentence_of(*judgement.belonging) : std::string{};
-    }
-    judgement.verdict = verdict_of(judgement.evidence);
-    return judgement;
-  }
-};
-
-// Behind `asked`. Where another damper law does as well without any effect, what is missing behind that one is looked
-// for. It takes the place of the one asked for where it surely predicts recordings left out better, effects and all,
-// than the one asked for with all the effects that the recordings ask for (with two of them where these leave twice the
-// squares of the other): a law that does no better than that is no reason to doubt it.
-Judgement behind_asked_or_better(Searching searching, const std::string& asked, const SearchProgress& progress,
-                                 std::vector<std::string>& notes) {
-  Judgement first = searching.behind(asked, progress);
-  const std::string law = better_law(first.evidence);
-  const SearchProgress behind_law = [&](double share, const std::string& stage) {
-    progress(0.9 + 0.02 * share, "behind " + law + ": " + stage);
-  };
-  std::optional<Search> other;
-  if (!law.empty()) {
-    other = searching.search_behind(law, behind_law);
-  }
-  const bool beaten = other && squared(first.search.augmented.cost) > comparable * squared(other->augmented.cost);
-  if (first.search.limited && !beaten) {
-    searching.options.in_full = true;
-    first = searching.behind(asked, [&](double share, const std::string& stage) {
-      progress(0.92 + 0.02 * share, "behind " + asked + " again: " + stage);
-    });
-  }
-  if (!other) {
-    return searching.whole(std::move(first));
-  }
-  const std::vector<LeftOut> both = left_out(searching.fine, {&first.search.augmented, &other->augmented});
-  if (block_score(both[0].predicted, both[1].predicted, noise_of(searching.fine)).z() < surely) {
-    return searching.whole(std::move(first));
-  }
-  take_parts_of_law(*other, first.search, searching.quick, searching.options, behind_law);
-  Judgement second = searching.judged(std::move(*other));
-  second.evidence.asked_for = asked;
-  second.evidence.behind_asked = {first.evidence};
-  second = searching.whole(std::move(second));
-  // Of the misfit of the law asked for, part of which the other law takes.
-  const Left before = first.evidence.base;
-  const double left = std::clamp(second.evidence.base.excess() / std::max(before.excess(), 1e-300), 0.0, 1.0);
-  second.verdict.unknown_share *= left;
-  for (std::vector<Named>* list : {&second.verdict.effects, &second.verdict.suggestions, &second.verdict.doubtful}) {
-    for (Named& named : *list) {
-      named.share_of_misfit *= named.of_law ? 1.0 : left;
-    }
-  }
-  second.search.base = first.search.base;
-  second.search.base_misfit = first.search.base_misfit;
-  second.asked = std::move(first.search);
-  notes.push_back(
-      fmt::format("{} takes the place of {}, with which recordings left out are predicted worse: what is "
-                  "named is missing behind {}",
-                  law, asked, law));
-  return second;
 }
 
 // The names that come from the search behind the law asked for, or the others.
@@ -482,31 +130,6 @@ void check_samples(const Split& split) {
 }
 
 }  // namespace
-
-Workbenches workbenches_of(const Campaign& campaign, const Split& split, const DiagnoseOptions& options,
-                           std::vector<std::string>& notes) {
-  const LayoutOptions layout = with_laws(options, campaign, notes);
-  const DataScale scale = scale_of(campaign.recordings);
-  ObjectiveOptions objective = options.objective;
-  objective.skip_run_in = true;
-  objective.stopped = options.stopped;
-  ObjectiveOptions coarse = objective;
-  coarse.comparing = true;
-  Split fewer{thinned(spread(split.fit, quick_recordings), quick_samples), {}, {}, false};
-  Split some{thinned(split.fit, fine_samples), {}, {}, false};
-  Workbenches result{Workbench(scale, split, layout, objective, options.seed, options.stopped),
-                     Workbench(scale, std::move(fewer), layout, coarse, options.seed, options.stopped),
-                     Workbench(scale, std::move(some), layout, coarse, options.seed, options.stopped),
-                     Workbench(scale, {thinned(campaign.recordings, fine_samples), {}, {}, false}, layout, coarse,
-                               options.seed, options.stopped)};
-  result.quick.take_noise_of(result.whole);
-  if (options.checkpoint != nullptr) {
-    for (Workbench* bench : {&result.whole, &result.quick, &result.fine, &result.every}) {
-      bench->keep_in(*options.checkpoint);
-    }
-  }
-  return result;
-}
 
 std::string without_outliers(Campaign& campaign) {
   std::size_t replaced = 0;
@@ -583,7 +206,7 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const Split& split
   diagnosis.drift_of_augmented = drift_of(fine, diagnosis.search.augmented);
   for (const Named& named : names) {
     const Fit& fit = fit_of(diagnosis, named);
-    diagnosis.parameters.push_back(intervals_of(judgement.estimates->of(fit), named.id, fit));
+    diagnosis.parameters.push_back(judgement.estimates->intervals(fit, named.id));
     diagnosis.sentences.push_back(
         sentence_of(diagnosis, named, diagnosis.parameters.back()) +
         (instead.empty() ? ""
@@ -597,7 +220,7 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const Split& split
   }
   for (const Named& shape : diagnosis.verdict.doubtful) {
     const Fit& fit = diagnosis.search.augmented;
-    diagnosis.shapes.push_back(intervals_of(judgement.estimates->of(fit), shape.id, fit));
+    diagnosis.shapes.push_back(judgement.estimates->intervals(fit, shape.id));
   }
   std::vector<std::string> absent;
   for (const std::string& id : searching.candidates) {

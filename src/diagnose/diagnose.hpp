@@ -7,6 +7,7 @@
 #include "diagnose/column.hpp"
 #include "diagnose/groups.hpp"
 #include "diagnose/judge/verdict.hpp"
+#include "diagnose/options.hpp"
 #include "diagnose/residual/contrast_view.hpp"
 #include "diagnose/residual/drift.hpp"
 #include "diagnose/residual/locate.hpp"
@@ -16,26 +17,6 @@
 #include "diagnose/signal/noise.hpp"
 
 namespace hysteron {
-
-// Damper laws whose cards say that `diagnose` tries them in place of the one asked for, of plugins too.
-std::vector<std::string> alternative_laws();
-
-struct DiagnoseOptions {
-  std::string model;
-  LayoutOptions layout;  // laws of the base model; none given and a drive that varies: see base_laws
-  ObjectiveOptions objective;
-  std::uint64_t seed = 1;
-  int most_effects = 5;
-  std::vector<std::string> candidates;                 // empty: every effect of the catalogue
-  std::vector<std::string> laws = alternative_laws();  // that the base law is set against
-  // Asked often while fitting; once true the fits end soon and the progress is told, which may throw.
-  std::function<bool()> stopped = [] { return false; };
-  // Where finished pieces of the work are kept, and taken from; outlives the diagnosis.
-  Checkpoint* checkpoint = nullptr;
-  // Told of the base model and then of every model that takes the place of what stood before, on the recordings
-  // compared. Of what is known so far, for one who may not wait.
-  std::function<void(const Fit& fit)> stands = [](const Fit&) {};
-};
 
 struct Rejected {
   std::string id;
@@ -90,25 +71,9 @@ const Fit& without_of(const Diagnosis& diagnosis, const Named& named);
 // The law of the augmented model where that is not the one asked for; empty where it is.
 std::string law_instead(const Search& search);
 
-// Orders of the laws of a base model when none are given: every yield force and damping that has a drive to depend on
-// becomes linear in it.
-std::map<std::string, int> base_laws(const std::string& model, const std::vector<Recording>& recordings);
-
 // Takes what stands out alone from the forces, and the noise from the drive, which thinned samples tell less well; the
 // note that says so, empty where nothing stands out.
 std::string without_outliers(Campaign& campaign);
-
-// What hypotheses are fitted on: the split itself, few recordings and samples to compare hypotheses, more of them for
-// what a search ends with. One box; only `whole` and `every` see the judging recordings. Where the laws of the base
-// model are the program's own choice, a note says so.
-struct Workbenches {
-  Workbench whole;
-  Workbench quick;
-  Workbench fine;
-  Workbench every;  // as fine, of all recordings
-};
-Workbenches workbenches_of(const Campaign& campaign, const Split& split, const DiagnoseOptions& options,
-                           std::vector<std::string>& notes);
 
 // Throws InputError for an unknown model or a campaign that leaves nothing to fit.
 std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const DiagnoseOptions& options,

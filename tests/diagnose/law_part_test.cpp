@@ -6,6 +6,7 @@
 
 #include "diagnose/concealed_damper.hpp"
 #include "diagnose/search/of_fit.hpp"
+#include "diagnose/workbenches.hpp"
 
 namespace hysteron {
 namespace {

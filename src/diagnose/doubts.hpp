@@ -1,0 +1,32 @@
+// What keeps a diagnosis from saying that nothing is missing, or from naming anything.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "diagnose/residual/tone.hpp"
+#include "diagnose/search/search.hpp"
+
+namespace hysteron {
+
+// Files of the held-out recordings that show what the fitted ones do not.
+std::vector<std::string> surprises(const Workbench& bench, const Fit& fit);
+
+// In N. Of every sample: a thinned recording has no high frequencies.
+std::optional<Tone> tone_left(const Search& search, const Workbench& bench);
+
+// Why more than noise is left though no effect helps: a held-out recording, or the residual's bond to the force, shows
+// it. Empty where nothing does.
+struct Doubt {
+  std::string why;
+  bool of_tone = false;
+};
+Doubt doubt_of_completeness(const Search& search, const Workbench& fine, const std::vector<std::string>& surprising,
+                            const std::optional<Tone>& tone);
+
+// Why no name can be given: the recorded velocity is not that of the displacement, and effects would explain a fault of
+// the data. Empty where it is.
+std::string doubt_of_velocity(const std::vector<Recording>& recordings);
+
+}  // namespace hysteron

@@ -1,0 +1,44 @@
+#include "diagnose/intervals.hpp"
+
+#include <algorithm>
+
+#include "diagnose/search/relatives.hpp"
+
+namespace hysteron {
+namespace {
+
+std::vector<Estimate> estimates_of(const Workbench& bench, const Fit& fit) {
+  const Objective objective(*fit.layout, bench.split().fit, bench.options());
+  Identification identification{*fit.layout, fit.terms, {}, {}, 0, fit.cost, {}, {}, {}, false, {}};
+  estimate(identification, objective, fit.point, bench.split().fit.front().drive_kind);
+  return identification.estimates;
+}
+
+}  // namespace
+
+const std::vector<Estimate>& Estimates::of(const Fit& fit) {
+  const auto known =
+      std::ranges::find_if(known_, [&](const Known& one) { return one.what == fit.what && one.point == fit.point; });
+  if (known != known_.end()) {
+    return known->estimates;
+  }
+  return known_.emplace_back(Known{fit.what, fit.point, estimates_of(*bench_, fit)}).estimates;
+}
+
+std::vector<ParameterInterval> Estimates::intervals(const Fit& fit, const std::string& effect) {
+  const bool joined = contains(fit.what, effect_extension(effect));
+  const PartOfLaw* part = joined ? nullptr : part_of_law(effect, fit.what.model);
+  const std::string own(part == nullptr ? std::string_view{} : part->parameter);
+  const std::string prefix = effect + ".";
+  std::vector<ParameterInterval> result;
+  for (const Estimate& row : of(fit)) {
+    const bool of_law = !own.empty() && (row.name == own || row.name.starts_with(own + "*"));
+    if (of_law || row.name.starts_with(prefix)) {
+      result.push_back({of_law ? row.name : row.name.substr(prefix.size()), row.unit, row.term.value, row.half_width,
+                        row.at_bound.value_or(""), row.lower});
+    }
+  }
+  return result;
+}
+
+}  // namespace hysteron

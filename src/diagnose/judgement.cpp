@@ -1,0 +1,114 @@
+#include "diagnose/judgement.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "diagnose/doubts.hpp"
+#include "diagnose/search/law_part.hpp"
+#include "diagnose/search/left_out.hpp"
+#include "diagnose/search/of_fit.hpp"
+
+namespace hysteron {
+namespace {
+
+// The law asked for is given up for no less.
+constexpr double two_standard_errors = 2.0;
+
+Judgement judged(Search found, const Searching& searching) {
+  const Workbench& bench = searching.bench;
+  const Workbench& fine = searching.fine;
+  Judgement result;
+  result.estimates.emplace(fine);
+  result.search = std::move(found);
+  // Of every sample: what relaxes after a stop, or lags, is over within what a thinned recording leaves out.
+  result.contrasts = contrasts(bench.split().fit, bench.plain_residuals(result.search.base));
+  for (Found& one : result.search.found) {
+    one.contrasts = one.without.what == result.search.base.what
+                        ? result.contrasts
+                        : contrasts(bench.split().fit, bench.plain_residuals(one.without));
+  }
+  const Circumstances known = {
+      [&](const Fit& fit, const std::string& effect) { return result.estimates->intervals(fit, effect); },
+      velocity_channel_lag(bench.split().fit), result.contrasts,
+      [&](const Fit& fit) { return contrasts(bench.split().fit, bench.plain_residuals(fit), Placebos::none); }};
+  result.surprising = surprises(bench, result.search.augmented);
+  result.tone = tone_left(result.search, bench);
+  result.evidence = evidence_of(result.search, fine, known);
+  const Doubt doubt = doubt_of_completeness(result.search, fine, result.surprising, result.tone);
+  result.evidence.doubt_of_completeness = doubt.why;
+  result.tone_doubts = doubt.of_tone;
+  result.evidence.doubt_of_data = searching.doubt_of_data;
+  return result;
+}
+
+Search search_behind(const std::string& law, const Searching& searching, const SearchProgress& progress) {
+  return search(searching.quick, searching.fine, {law, {}, {}}, searching.options, progress);
+}
+
+// With whether the recordings belong together or follow a column, judging ones too: that is no matter of how well a
+// fit predicts.
+Judgement whole(Judgement judgement, const Searching& searching) {
+  const ByRecording base = by_recording(searching.every, judgement.search.base);
+  judgement.column = unused_column(searching.every, base);
+  if (judgement.evidence.doubt_of_data.empty()) {
+    judgement.belonging = belonging_of(searching.every, base, judgement.search.augmented);
+    judgement.evidence.doubt_of_data = mixed(judgement.belonging) ? sentence_of(*judgement.belonging) : std::string{};
+  }
+  judgement.verdict = verdict_of(judgement.evidence);
+  return judgement;
+}
+
+}  // namespace
+
+Judgement behind_asked_or_better(Searching searching, const std::string& asked, const SearchProgress& progress,
+                                 std::vector<std::string>& notes) {
+  Judgement first = judged(search_behind(asked, searching, progress), searching);
+  const std::string law = better_law(first.evidence);
+  const SearchProgress behind_law = [&](double share, const std::string& stage) {
+    progress(0.9 + 0.02 * share, "behind " + law + ": " + stage);
+  };
+  std::optional<Search> other;
+  if (!law.empty()) {
+    other = search_behind(law, searching, behind_law);
+  }
+  const bool beaten = other && squared(first.search.augmented.cost) > comparable * squared(other->augmented.cost);
+  if (first.search.limited && !beaten) {
+    searching.options.in_full = true;
+    const SearchProgress again = [&](double share, const std::string& stage) {
+      progress(0.92 + 0.02 * share, "behind " + asked + " again: " + stage);
+    };
+    first = judged(search_behind(asked, searching, again), searching);
+  }
+  if (!other) {
+    return whole(std::move(first), searching);
+  }
+  const std::vector<LeftOut> both = left_out(searching.fine, {&first.search.augmented, &other->augmented});
+  if (block_score(both[0].predicted, both[1].predicted, noise_of(searching.fine)).z() < two_standard_errors) {
+    return whole(std::move(first), searching);
+  }
+  take_parts_of_law(*other, first.search, searching.quick, searching.options, behind_law);
+  Judgement second = judged(std::move(*other), searching);
+  second.evidence.asked_for = asked;
+  second.evidence.behind_asked = {first.evidence};
+  second = whole(std::move(second), searching);
+  // Of the misfit of the law asked for, part of which the other law takes.
+  const Left before = first.evidence.base;
+  const double left = std::clamp(second.evidence.base.excess() / std::max(before.excess(), 1e-300), 0.0, 1.0);
+  second.verdict.unknown_share *= left;
+  for (std::vector<Named>* list : {&second.verdict.effects, &second.verdict.suggestions, &second.verdict.doubtful}) {
+    for (Named& named : *list) {
+      named.share_of_misfit *= named.of_law ? 1.0 : left;
+    }
+  }
+  second.search.base = first.search.base;
+  second.search.base_misfit = first.search.base_misfit;
+  second.asked = std::move(first.search);
+  notes.push_back(
+      fmt::format("{} takes the place of {}, with which recordings left out are predicted worse: what is "
+                  "named is missing behind {}",
+                  law, asked, law));
+  return second;
+}
+
+}  // namespace hysteron

@@ -1,0 +1,58 @@
+#include "diagnose/workbenches.hpp"
+
+#include <fmt/format.h>
+
+#include "diagnose/signal/thin.hpp"
+
+namespace hysteron {
+namespace {
+
+// What hypotheses are compared on.
+constexpr std::size_t quick_samples = 3000;
+constexpr std::size_t quick_recordings = 8;
+
+// The laws of the user's choice, or the base model's own with a note.
+LayoutOptions with_laws(const DiagnoseOptions& options, const Campaign& campaign, std::vector<std::string>& notes) {
+  LayoutOptions layout = options.layout;
+  if (!layout.by_current.empty() || !layout.by_frequency.empty()) {
+    return layout;
+  }
+  layout.by_current = base_laws(options.model, campaign.recordings);
+  std::string list;
+  for (const auto& [name, order] : layout.by_current) {
+    list += (list.empty() ? "" : ",") + fmt::format("{}:{}", name, order);
+  }
+  if (!list.empty()) {
+    notes.push_back("the drive varies and no laws were given: --by-current " + list + " assumed");
+  }
+  return layout;
+}
+
+}  // namespace
+
+Workbenches workbenches_of(const Campaign& campaign, const Split& split, const DiagnoseOptions& options,
+                           std::vector<std::string>& notes) {
+  const LayoutOptions layout = with_laws(options, campaign, notes);
+  const DataScale scale = scale_of(campaign.recordings);
+  ObjectiveOptions objective = options.objective;
+  objective.skip_run_in = true;
+  objective.stopped = options.stopped;
+  ObjectiveOptions coarse = objective;
+  coarse.comparing = true;
+  Split fewer{thinned(spread(split.fit, quick_recordings), quick_samples), {}, {}, false};
+  Split some{thinned(split.fit, fine_samples), {}, {}, false};
+  Workbenches result{Workbench(scale, split, layout, objective, options.seed, options.stopped),
+                     Workbench(scale, std::move(fewer), layout, coarse, options.seed, options.stopped),
+                     Workbench(scale, std::move(some), layout, coarse, options.seed, options.stopped),
+                     Workbench(scale, {thinned(campaign.recordings, fine_samples), {}, {}, false}, layout, coarse,
+                               options.seed, options.stopped)};
+  result.quick.take_noise_of(result.whole);
+  if (options.checkpoint != nullptr) {
+    for (Workbench* bench : {&result.whole, &result.quick, &result.fine, &result.every}) {
+      bench->keep_in(*options.checkpoint);
+    }
+  }
+  return result;
+}
+
+}  // namespace hysteron
