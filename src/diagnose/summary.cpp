@@ -10,6 +10,7 @@
 #include "diagnose/judge/speaking.hpp"
 #include "diagnose/search/relatives.hpp"
 #include "diagnose/search/wording.hpp"
+#include "diagnose/shown.hpp"
 
 namespace hysteron {
 namespace {
@@ -160,35 +161,6 @@ std::string sentence_of_place(const Diagnosis& diagnosis) {
                      percent(place.share_of_samples));
 }
 
-// What the contrasts say that speak for nothing that is listed, loudest first: facts of the recordings, which are no
-// names. Where the answer is that nothing is missing they would be those of chance.
-std::string sentence_of_contrasts(const Diagnosis& diagnosis) {
-  const Evidence& evidence = diagnosis.evidence;
-  if (diagnosis.verdict.answer == Answer::complete || !evidence.doubt_of_data.empty()) {
-    return {};
-  }
-  const std::vector<Named> names = listed(diagnosis.verdict);
-  std::vector<const Signature*> loud;
-  for (const Signature& row : evidence.signatures) {
-    const bool told = std::ranges::any_of(row.speaks_for, [&](const std::string& effect) {
-      return std::ranges::find(names, effect, &Named::id) != names.end();
-    });
-    if (!told && speaks({&row, loudness(row)})) {
-      loud.push_back(&row);
-    }
-  }
-  std::ranges::stable_sort(loud, std::greater{}, [](const Signature* row) { return loudness(*row); });
-  std::vector<std::string> phrases;
-  for (const Signature* row : loud) {
-    phrases.push_back(fmt::format("{}, {} ({:.0f} of {} recordings)", row->what, size_text(row->value, row->unit, 2),
-                                  std::round(row->consistency * static_cast<double>(row->recordings)),
-                                  row->recordings));
-  }
-  return phrases.empty()
-             ? std::string{}
-             : fmt::format("What {} leaves shows, whatever its cause: {}.", evidence.model, joined(phrases, "; and "));
-}
-
 void add(std::vector<std::string>& summary, const std::string& sentence) {
   if (!sentence.empty()) {
     summary.push_back(sentence);
@@ -216,7 +188,10 @@ std::vector<std::string> summary_of(const Diagnosis& diagnosis) {
   for (const Grade grade : {Grade::established, Grade::supported, Grade::suggested}) {
     add(summary, sentence_of_grade(diagnosis, grade));
   }
-  add(summary, sentence_of_contrasts(diagnosis));
+  // Where the answer is that nothing is missing they would be those of chance.
+  if (verdict.answer != Answer::complete && diagnosis.evidence.doubt_of_data.empty()) {
+    add(summary, sentence_of_contrasts(diagnosis.evidence, listed(verdict)));
+  }
   add(summary, sentence_of_shapes(diagnosis));
   add(summary, sentence_of_errors(diagnosis));
   add(summary, sentence_of_unknown(diagnosis));

@@ -1,0 +1,72 @@
+#include "diagnose/shown.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "diagnose/judge/speaking.hpp"
+#include "diagnose/search/wording.hpp"
+
+namespace hysteron {
+namespace {
+
+bool speaks_by_itself(const Signature& row) { return speaks({&row, loudness(row)}); }
+
+// Those that speak, and for none of the names.
+std::vector<const Signature*> untold(const std::vector<Signature>& signatures, const std::vector<Named>& names) {
+  std::vector<const Signature*> result;
+  for (const Signature& row : signatures) {
+    const bool told = std::ranges::any_of(row.speaks_for, [&](const std::string& effect) {
+      return std::ranges::find(names, effect, &Named::id) != names.end();
+    });
+    if (!told && speaks_by_itself(row)) {
+      result.push_back(&row);
+    }
+  }
+  std::ranges::stable_sort(result, std::greater{}, [](const Signature* row) { return loudness(*row); });
+  return result;
+}
+
+// Whether a contrast no longer shows among others, or can no longer be taken.
+bool gone(const Signature& row, const std::vector<Signature>& others) {
+  const auto at = std::ranges::find(others, row.id, &Signature::id);
+  return at == others.end() || !shows({&*at, loudness(*at)});
+}
+
+std::string phrase_of(const Signature& row, const std::string& more) {
+  return fmt::format("{}, {} ({:.0f} of {} recordings{})", row.what, size_text(row.value, row.unit, 2),
+                     std::round(row.consistency * static_cast<double>(row.recordings)), row.recordings, more);
+}
+
+}  // namespace
+
+std::string sentence_of_contrasts(const Evidence& evidence, const std::vector<Named>& names) {
+  const bool replaced = !evidence.behind_asked.empty();
+  const Evidence& asked = replaced ? evidence.behind_asked.front() : evidence;
+  std::vector<std::string> phrases;
+  for (const Signature* row : untold(asked.signatures, names)) {
+    phrases.push_back(
+        phrase_of(*row, replaced && gone(*row, evidence.signatures) ? "; gone with " + evidence.model : std::string{}));
+  }
+  std::string text;
+  if (!phrases.empty()) {
+    text = fmt::format("What {} leaves shows, whatever its cause: {}.", asked.model, fmt::join(phrases, "; "));
+  }
+  phrases.clear();
+  for (const Signature* row : untold(evidence.signatures, names)) {
+    const auto before = std::ranges::find(asked.signatures, row->id, &Signature::id);
+    if (replaced && (before == asked.signatures.end() || !speaks_by_itself(*before))) {
+      phrases.push_back(phrase_of(*row, {}));
+    }
+  }
+  if (!phrases.empty()) {
+    text += fmt::format("{}What {} leaves shows{}: {}.", text.empty() ? "" : " ", evidence.model,
+                        text.empty() ? ", whatever its cause" : " besides", fmt::join(phrases, "; "));
+  }
+  return text;
+}
+
+}  // namespace hysteron
