@@ -374,7 +374,8 @@ int run(int argc, char** argv) {
     page += " " + std::filesystem::path(folder).filename().string();
   }
   page +=
-      " --page results/grades.md --out\nsrc/diagnose/judge/table_data.cpp`. docs/challenge.md says how the folders are "
+      " --page results/grades.md --out\nsrc/diagnose/judge/table_data.cpp`. results/challenge/README.md says how the "
+      "folders are "
       "made.\n";
   for (const Learned& table : tables) {
     source += "\n" + source_of(table);

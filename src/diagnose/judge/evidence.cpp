@@ -17,7 +17,7 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ContrastLeft, effect, signature, instead, law
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FirstLook, id, gain, refitted)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Evidence, model, asked_for, recordings, base, augmented, first_stage, candidates,
                                    base_compared, augmented_compared, augmented_over_base, other_laws, signatures,
-                                   signatures_left, contrasts_left, behind_asked, doubt_of_completeness, doubt_of_data)
+                                   contrasts_left, behind_asked, doubt_of_completeness, doubt_of_data)
 
 bool Comparison::surely_better() const {
   // Quantile of Student's distribution for that of the normal at two, in powers of one over the degrees of freedom
@@ -32,7 +32,6 @@ namespace {
 
 // Records of earlier programs hold none of these.
 void complete(nlohmann::json& evidence) {
-  evidence.emplace("signatures_left", nlohmann::json::array());
   evidence.emplace("contrasts_left", nlohmann::json::array());
   evidence.emplace("behind_asked", nlohmann::json::array());
   for (nlohmann::json& candidate : evidence.at("candidates")) {

@@ -126,7 +126,6 @@ struct Evidence {
   Comparison augmented_over_base;
   std::vector<OtherLaw> other_laws;
   std::vector<Signature> signatures;
-  std::vector<double> signatures_left;       // z of each of them in what the augmented model leaves
   std::vector<ContrastLeft> contrasts_left;  // of candidates for which a contrast speaks
   // Where `model` took the place of `asked_for`: what was found behind that one. At most one.
   std::vector<Evidence> behind_asked = {};

@@ -8,30 +8,27 @@
 namespace hysteron {
 namespace {
 
-// Two standard errors.
-constexpr double surely = 2.0;
 // A contender of less than this share of the gain was never near, whatever its score.
 constexpr double near = 0.5;
 // Where no contrast can be taken, nothing is known: half.
 constexpr double unknown_contrast = 0.5;
+// Standard errors of a contrast that is noise.
+constexpr double of_noise = 1.0;
+// From so many on a contrast is no surer.
+constexpr double beyond_doubt = 4.0;
 // A prediction that is better by this block score is hardly better.
 constexpr double least_prediction = 1e-3;
 
 double unit(double value) { return std::isfinite(value) ? std::clamp(value, 0.0, 1.0) : 0.0; }
 
-// The largest |z| of the contrasts that speak for nothing in the augmented model, in what that leaves: what goes with
-// an effect of the model was its doing.
-double contrast_elsewhere(const Evidence& evidence) {
-  const bool left = evidence.signatures_left.size() == evidence.signatures.size();
-  double largest = 0.0;
-  for (std::size_t k = 0; k < evidence.signatures.size(); ++k) {
-    const Signature& row = evidence.signatures[k];
-    const bool explained = std::ranges::any_of(evidence.candidates, [&](const Candidate& candidate) {
-      return std::ranges::find(row.speaks_for, candidate.id) != row.speaks_for.end();
-    });
-    largest = std::max(largest, explained ? 0.0 : std::fabs(left ? evidence.signatures_left[k] : row.z));
+// Standard errors of the contrast that speaks for it, from those of chance to those beyond doubt; where it cannot be
+// told from its placebos it says nothing.
+double contrast_of(const Candidate& candidate) {
+  const std::optional<Speaking> contrast = speaking_for(candidate);
+  if (!contrast) {
+    return unknown_contrast;
   }
-  return largest;
+  return beyond_placebos(*contrast) ? unit((contrast->z - of_noise) / (beyond_doubt - of_noise)) : 0.0;
 }
 
 double chance(double value, double by_chance) { return std::max(0.0, value - std::max(by_chance, 0.0)); }
@@ -98,14 +95,12 @@ NameFeatures features_of(const Candidate& candidate, const Evidence& evidence) {
       law = std::max(law, (before - other.squares) / all);
     }
   }
-  const std::optional<Speaking> contrast = speaking_for(candidate);
-  const double elsewhere = std::max(contrast_elsewhere(evidence), surely);
   return {std::log10(1.0 + std::clamp(candidate.score.mean, 0.0, 1.0) / least_prediction),
           unit(1.0 - law),
           unit(gain / (gain + chance(evidence.augmented.recurring, evidence.augmented.recurring_by_chance) *
                                   evidence.augmented.squares)),
           1.0 - static_cast<double>(candidate.on_bound) / std::max(candidate.parameters, 1),
-          contrast ? unit(contrast->z / std::max(contrast->z, elsewhere)) : unknown_contrast,
+          contrast_of(candidate),
           unit(candidate.gain_alone / gain),
           unit(1.0 - candidate.gain_of_relative / (candidate.gain_of_relative + gain))};
 }

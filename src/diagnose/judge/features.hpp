@@ -23,9 +23,9 @@ inline constexpr std::array<Feature, 7> name_features = {{
      "off without any and explains its contrast too"},
     {"over_rest", "gain over itself and what stays and follows the motion, beyond chance"},
     {"inside", "1 less the share of its parameters that sit on an end of their box"},
-    {"contrast_lead",
-     "z of the signature contrast that speaks for it, in its sense, of what is left without it, over the largest that "
-     "the augmented model leaves of those that speak for nothing in it; a half where none can be taken"},
+    {"contrast",
+     "standard errors of the signature contrast that speaks for it, in its sense, of what is left without it, from one "
+     "(0) to four (1); 0 where 5 % of its placebos say as much, a half where none can be taken"},
     {"alone",
      "gain alone behind the base model over that in the augmented one: what only makes up for others has none"},
     {"no_relative",

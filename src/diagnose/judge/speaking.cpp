@@ -44,10 +44,12 @@ double loudness(const Signature& signature) {
   return result;
 }
 
-bool shows(const Speaking& speaking) {
-  constexpr double beyond_placebos = 0.95;
-  return speaking.z >= surely && speaking.signature->placebo_quantile >= beyond_placebos;
+bool beyond_placebos(const Speaking& speaking) {
+  constexpr double quantile = 0.95;
+  return speaking.signature->placebo_quantile >= quantile;
 }
+
+bool shows(const Speaking& speaking) { return speaking.z >= surely && beyond_placebos(speaking); }
 
 bool speaks(const Speaking& speaking) { return shows(speaking) && speaking.z >= loud; }
 

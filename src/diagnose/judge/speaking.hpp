@@ -24,6 +24,9 @@ double z_for(const std::string& effect, const Signature& signature);
 // z of a contrast in the sense that suits it best of those of the effects it speaks for.
 double loudness(const Signature& signature);
 
+// Beyond 95 % of the placebos.
+bool beyond_placebos(const Speaking& speaking);
+
 // Two standard errors in the effect's sense, and beyond 95 % of the placebos: enough to be seen by itself.
 bool shows(const Speaking& speaking);
 

@@ -168,15 +168,6 @@ class ContrastsLeft {
  public:
   ContrastsLeft(const Circumstances& known, const Evidence& evidence) : known_(&known), evidence_(&evidence) {}
 
-  // z of each signature; 0 where it cannot be taken any more, as the fit's own force holds all of it.
-  std::vector<double> all(const Fit& fit) {
-    std::vector<double> result;
-    for (const Signature& row : evidence_->signatures) {
-      result.push_back(z_of(fit, row.id, [](const Signature& left) { return left.z; }));
-    }
-    return result;
-  }
-
   void add(std::vector<ContrastLeft>& rows, const std::string& effect, const Fit& fit, const std::string& instead,
            bool law) {
     const auto candidate = std::ranges::find(evidence_->candidates, effect, &Candidate::id);
@@ -185,19 +176,18 @@ class ContrastsLeft {
       return;
     }
     const std::string& id = speaking->signature->id;
-    rows.push_back(
-        {effect, id, instead, law, z_of(fit, id, [&](const Signature& left) { return z_for(effect, left); })});
+    rows.push_back({effect, id, instead, law, z_of(fit, id, effect)});
   }
 
  private:
-  template <class Of>
-  double z_of(const Fit& fit, const std::string& id, const Of& of) {
+  // 0 where the contrast cannot be taken any more, as the fit's own force holds all of it.
+  double z_of(const Fit& fit, const std::string& id, const std::string& effect) {
     auto at = of_.find(&fit);
     if (at == of_.end()) {
       at = of_.emplace(&fit, signatures_of(known_->contrasts_of(fit))).first;
     }
     const auto left = std::ranges::find(at->second, id, &Signature::id);
-    return left == at->second.end() ? 0.0 : of(*left);
+    return left == at->second.end() ? 0.0 : z_for(effect, *left);
   }
 
   const Circumstances* known_;
@@ -308,7 +298,6 @@ Evidence evidence_of(const Search& search, const Workbench& fine, const Circumst
     }
   }
   ContrastsLeft contrasts_left(known, result);
-  result.signatures_left = contrasts_left.all(search.augmented);
   for (const Found& found : search.found) {
     const std::string& id = found.part.effect;
     contrasts_left.add(result.contrasts_left, id, search.augmented, {}, false);

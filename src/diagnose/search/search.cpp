@@ -88,8 +88,10 @@ Search search(const Workbench& bench, const Workbench& fine, const Hypothesis& b
   std::ranges::stable_sort(result.found, [](const Found& a, const Found& b) { return a.gain > b.gain; });
   if (!result.found.empty()) {
     progress(0.9, "trying the effects behind other damper laws");
-    // A law that does as well without any effect tells most: what is the device's own is worth as much behind it.
-    result.swaps = swaps(bench, result.quick_base, result.other_laws, effects_of(result.found));
+    // A law that does as well without them is tried with a search of its own.
+    if (best_law > squared(current.cost) || result.found.size() == 1) {
+      result.swaps = swaps(bench, result.quick_base, result.other_laws, effects_of(result.found));
+    }
   }
   return result;
 }
