@@ -17,8 +17,10 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <iterator>
 #include <map>
 #include <set>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -335,6 +337,77 @@ std::string page_of(const Learned& table, const Features& features) {
   return text;
 }
 
+std::string folder_of(const Row& row) { return row.campaign.substr(0, row.campaign.find('/')); }
+
+// What is said of the rows of a folder by a table that was learned from the others.
+struct Judged {
+  std::size_t rows = 0;
+  double log_loss = 0.0;                    // sum
+  std::array<std::size_t, 2> right = {};    // of those stated with supported_from and more, established_from and more
+  std::array<std::size_t, 2> stated = {};   // likewise, right and wrong
+  std::array<double, 2> promised = {0, 0};  // sum of their probabilities
+
+  void add(double probability, bool is_right) {
+    constexpr double most_sure = 0.99;
+    const double p = std::clamp(probability, 1.0 - most_sure, most_sure);
+    ++rows;
+    log_loss -= std::log(is_right ? p : 1.0 - p);
+    for (std::size_t k = 0; k < 2; ++k) {
+      if (probability >= (k == 0 ? hysteron::supported_from : hysteron::established_from)) {
+        ++stated[k];
+        right[k] += is_right ? 1 : 0;
+        promised[k] += probability;
+      }
+    }
+  }
+  [[nodiscard]] std::string line(const std::string& name) const {
+    std::string text = fmt::format("| {} | {} | {:.3f} |", name, rows, log_loss / static_cast<double>(rows));
+    for (std::size_t k = 0; k < 2; ++k) {
+      text += fmt::format(" {} of {}, {:.1f} |", right[k], stated[k], promised[k]);
+    }
+    return text + "\n";
+  }
+};
+
+std::string page_of_others(const std::vector<Row>& rows) {
+  std::set<std::string> folders;
+  for (const Row& row : rows) {
+    folders.insert(folder_of(row));
+  }
+  if (folders.size() < 2) {
+    return {};
+  }
+  std::string text = fmt::format(
+      "\n## Each folder judged by a table learned from the others\n\nLogarithmic loss of a name, probabilities between "
+      "1 "
+      "and 99 %; names that are right of those stated, and how many were promised.\n\n"
+      "| folder | names | loss | {:.2f} and more | {:.2f} and more |\n|---|--:|--:|--:|--:|\n",
+      hysteron::supported_from, hysteron::established_from);
+  Judged all;
+  for (const std::string& folder : folders) {
+    std::vector<Row> others;
+    std::ranges::copy_if(rows, std::back_inserter(others), [&](const Row& row) { return folder_of(row) != folder; });
+    const Learned learned = learned_table("name", "", others);
+    std::vector<hysteron::Knot> knots;
+    for (const Step& step : learned.steps) {
+      knots.push_back({step.score, step.probability()});
+    }
+    const std::span<const double> weights(learned.logistic.weights.data(),
+                                          static_cast<std::size_t>(learned.logistic.weights.size()));
+    const hysteron::Table table{learned.logistic.intercept, weights, knots};
+    Judged judged;
+    for (const Row& row : rows) {
+      if (folder_of(row) == folder) {
+        const double probability = table.probability(row.features);
+        judged.add(probability, row.right);
+        all.add(probability, row.right);
+      }
+    }
+    text += judged.line(folder);
+  }
+  return text + all.line("all");
+}
+
 int run(int argc, char** argv) {
   CLI::App program("learns the tables of grades from diagnosed challenges");
   std::vector<std::string> folders;
@@ -380,7 +453,8 @@ int run(int argc, char** argv) {
   for (const Learned& table : tables) {
     source += "\n" + source_of(table);
   }
-  page += page_of(tables[0], hysteron::name_features) + page_of(tables[1], hysteron::missing_features);
+  page += page_of(tables[0], hysteron::name_features) + page_of_others(rows.names) +
+          page_of(tables[1], hysteron::missing_features);
   const double told = (static_cast<double>(rows.told_rightly) + 0.5) / (static_cast<double>(rows.told) + 1.0);
   page += fmt::format(
       "\n## The channels tell it without a model\n\nThe contrast of a lag between velocity and displacement speaks in "
