@@ -3,8 +3,6 @@
 #include <cmath>
 #include <set>
 
-#include "simulate/part.hpp"
-
 namespace hysteron {
 
 std::vector<std::string> alternative_laws() {
