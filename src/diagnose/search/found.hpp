@@ -34,6 +34,7 @@ struct Found {
 // Their effects, in this order.
 inline std::vector<std::string> effects_of(const std::vector<Found>& found) {
   std::vector<std::string> result;
+  result.reserve(found.size());
   for (const Found& one : found) {
     result.push_back(one.part.effect);
   }

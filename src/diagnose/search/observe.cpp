@@ -107,7 +107,7 @@ std::optional<std::string> unmet(Need need, const std::vector<Recording>& record
 
 std::optional<std::string> excluded_by_inputs(const std::string& effect, const std::vector<Recording>& recordings) {
   for (const Need need : knowledge_of(effect).needs) {
-    if (const std::optional<std::string> reason = unmet(need, recordings)) {
+    if (std::optional<std::string> reason = unmet(need, recordings)) {
       return reason;
     }
   }
