@@ -7,6 +7,7 @@
 #include <set>
 
 #include "core/interval_text.hpp"
+#include "diagnose/doubts.hpp"
 #include "diagnose/judge/speaking.hpp"
 #include "diagnose/search/relatives.hpp"
 #include "diagnose/search/wording.hpp"
@@ -157,13 +158,6 @@ std::string sentence_of(const Diagnosis& diagnosis, const Named& named,
 
 std::string_view what_shapes_do(const Diagnosis& diagnosis) {
   return diagnosis.search.augmented.heldout < diagnosis.search.base.heldout ? "predict" : "fit";
-}
-
-std::string sentence_of(const Tone& tone) {
-  return fmt::format(
-      "a tone of {:.3g} Hz and {:.{}f} N runs through {} of {} recordings whatever the motion, as of a machine, the "
-      "mains or a sensor",
-      tone.frequency, tone.amplitude, tone.amplitude < 10.0 ? 2 : 0, tone.recordings, tone.of);
 }
 
 std::vector<Rejected> rejected_of(const Diagnosis& diagnosis) {

@@ -31,9 +31,6 @@ std::string sentence_of(const Diagnosis& diagnosis, const Named& named,
 // shapes that are no causes do better.
 std::string_view what_shapes_do(const Diagnosis& diagnosis);
 
-// "a tone of 50 Hz and 3.20 N runs through 6 of 6 recordings ...", of a tone in N, without a full stop.
-std::string sentence_of(const Tone& tone);
-
 // Effects that were tried and not named, with reasons.
 std::vector<Rejected> rejected_of(const Diagnosis& diagnosis);
 // A recording that would decide or confirm.

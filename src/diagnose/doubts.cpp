@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "diagnose/account.hpp"
 #include "diagnose/residual/leftover.hpp"
 #include "diagnose/residual/wander.hpp"
 #include "diagnose/search/of_fit.hpp"
@@ -55,6 +54,13 @@ std::optional<Tone> tone_left(const Search& search, const Workbench& bench) {
   const std::vector<Recording>& recordings = bench.split().fit;
   return tone_of(
       leftovers_of(recordings, bench.plain_residuals(search.augmented), std::vector<double>(recordings.size(), 1.0)));
+}
+
+std::string sentence_of(const Tone& tone) {
+  return fmt::format(
+      "a tone of {:.3g} Hz and {:.{}f} N runs through {} of {} recordings whatever the motion, as of a machine, the "
+      "mains or a sensor",
+      tone.frequency, tone.amplitude, tone.amplitude < 10.0 ? 2 : 0, tone.recordings, tone.of);
 }
 
 Doubt doubt_of_completeness(const Search& search, const Workbench& fine, const std::vector<std::string>& surprising,

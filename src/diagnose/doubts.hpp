@@ -15,6 +15,8 @@ std::vector<std::string> surprises(const Workbench& bench, const Fit& fit);
 
 // In N. Of every sample: a thinned recording has no high frequencies.
 std::optional<Tone> tone_left(const Search& search, const Workbench& bench);
+// "a tone of 50 Hz and 3.20 N runs through 6 of 6 recordings ...", of a tone in N, without a full stop.
+std::string sentence_of(const Tone& tone);
 
 // Why more than noise is left though no effect helps: a held-out recording, or the residual's bond to the force, shows
 // it. Empty where nothing does.

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
 #include "diagnose/account.hpp"
 #include "diagnose/judge/speaking.hpp"

@@ -10,8 +10,8 @@
 #include <optional>
 
 #include "core/random.hpp"
-#include "diagnose/account.hpp"
 #include "diagnose/concealed_damper.hpp"
+#include "diagnose/doubts.hpp"
 
 namespace hysteron {
 namespace {

@@ -12,6 +12,7 @@
 
 #include "core/random.hpp"
 #include "simulate/composite.hpp"
+#include "simulate/drawn.hpp"
 #include "simulate/motion.hpp"
 
 namespace hysteron {
@@ -125,7 +126,7 @@ std::vector<Case> cases() {
   return result;
 }
 
-class Contract : public testing::TestWithParam<Case> {};
+class Contract : public ::testing::TestWithParam<Case> {};
 
 TEST_P(Contract, CardIsComplete) {
   const Case& c = GetParam();
@@ -377,25 +378,15 @@ TEST_P(Contract, EffectVanishesInitially) {
   EXPECT_LT(distance(simulate(c.model, motion, p), bare), 1e-3 * largest(bare));
 }
 
-INSTANTIATE_TEST_SUITE_P(Catalogue, Contract, testing::ValuesIn(cases()),
-                         [](const testing::TestParamInfo<Case>& tested) {
+INSTANTIATE_TEST_SUITE_P(Catalogue, Contract, ::testing::ValuesIn(cases()),
+                         [](const ::testing::TestParamInfo<Case>& tested) {
                            std::string name = tested.param.name;
                            std::ranges::replace_if(
                                name, [](char ch) { return ch == '-' || ch == '+'; }, '_');
                            return name;
                          });
 
-// A parameter set by name on top of the initial values.
-Vector with(const CompositeModel& model, const std::vector<std::pair<std::string, double>>& values) {
-  Vector p = initial(model);
-  const auto names = model.parameter_names();
-  for (const auto& [name, value] : values) {
-    const auto at = std::ranges::find(names, name);
-    EXPECT_NE(at, names.end()) << name;
-    p[static_cast<std::size_t>(at - names.begin())] = value;
-  }
-  return p;
-}
+using hysteron::testing::with;
 
 TEST(Limits, NonlinearBiviscousSlopes) {
   const CompositeModel model = make_model("nonlinear-biviscous", {});

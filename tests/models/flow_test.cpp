@@ -9,24 +9,14 @@
 #include <vector>
 
 #include "simulate/composite.hpp"
+#include "simulate/drawn.hpp"
 #include "simulate/motion.hpp"
 
 namespace hysteron {
 namespace {
 
 using Vector = std::vector<double>;
-
-Vector with(const CompositeModel& model, const std::vector<std::pair<std::string, double>>& values) {
-  Vector p;
-  for (const Parameter& parameter : model.parameters()) p.push_back(parameter.initial);
-  const auto names = model.parameter_names();
-  for (const auto& [name, value] : values) {
-    const auto at = std::ranges::find(names, name);
-    EXPECT_NE(at, names.end()) << name;
-    p[static_cast<std::size_t>(at - names.begin())] = value;
-  }
-  return p;
-}
+using hysteron::testing::with;
 
 double flow_force(double speed, const std::vector<std::pair<std::string, double>>& values) {
   const CompositeModel model = make_model("quasi-static-flow", {});

@@ -78,21 +78,20 @@ std::vector<std::size_t> parts_of_the_law(const Evidence& evidence) {
   return result;
 }
 
-const Left& left_before(const Candidate& candidate, const Evidence& evidence) {
-  return candidate.of_law && !evidence.behind_asked.empty() ? evidence.behind_asked.front().base : evidence.base;
+const Evidence& before(const Candidate& candidate, const Evidence& evidence) {
+  return candidate.of_law && !evidence.behind_asked.empty() ? evidence.behind_asked.front() : evidence;
 }
 
 NameFeatures features_of(const Candidate& candidate, const Evidence& evidence) {
   const double gain = std::max(candidate.gain, 1e-300);
   double law = 0.0;
-  const double before = candidate.of_law && !evidence.behind_asked.empty() ? evidence.behind_asked.front().base_compared
-                                                                           : evidence.base_compared;
-  const double all = std::max(before - evidence.augmented_compared, 1e-300);
+  const double base = before(candidate, evidence).base_compared;
+  const double all = std::max(base - evidence.augmented_compared, 1e-300);
   for (const OtherLaw& other : evidence.other_laws) {
     // A law that has the candidate as a part of its own speaks for it.
     if (std::ranges::find(other.has, candidate.id) == other.has.end() &&
         !leaves_the_contrast(candidate, other.model, true, evidence)) {
-      law = std::max(law, (before - other.squares) / all);
+      law = std::max(law, (base - other.squares) / all);
     }
   }
   return {std::log10(1.0 + std::clamp(candidate.score.mean, 0.0, 1.0) / least_prediction),

@@ -57,8 +57,9 @@ double robustness_of(const Candidate& candidate, const Evidence& evidence);
 // limit of it that the data do not tell apart.
 std::vector<const Contender*> as_good(const Candidate& candidate, const Evidence& evidence);
 
-// What the asked law left, where the candidate is a part of the law that takes its place; else what the base left.
-const Left& left_before(const Candidate& candidate, const Evidence& evidence);
+// Whose base a candidate is weighed against: that of the law asked for, where it is a part of the law that took its
+// place.
+const Evidence& before(const Candidate& candidate, const Evidence& evidence);
 
 // Of the candidates behind the law asked for, those that the law in its place has as parts of its own and that are not
 // judged as such: what it does better may be their doing.

@@ -46,7 +46,7 @@ std::vector<Named> named(std::size_t index, const Evidence& evidence) {
   first.grade = grade_of(first.confidence);
   first.robustness = robustness_of(candidate, evidence);
   first.share_of_misfit =
-      std::clamp(candidate.gain / std::max(left_before(candidate, evidence).excess(), 1e-300), 0.0, 1.0);
+      std::clamp(candidate.gain / std::max(before(candidate, evidence).base.excess(), 1e-300), 0.0, 1.0);
   if (candidate.of_law) {
     first.of_law = evidence.model;
   }

@@ -17,12 +17,11 @@ Hypothesis behind(const std::string& model, Hypothesis what) {
   return what;
 }
 
-std::vector<Extension> in_its_place(const Extension& part, const Hypothesis& less, const SearchOptions& options) {
+std::vector<Extension> effects_but(const Extension& part, const std::vector<std::string>& ids) {
   std::vector<Extension> result;
-  for (const std::string& id : options.candidates) {
-    const Extension other = effect_extension(id);
-    if (other != part && !contains(less, other)) {
-      result.push_back(other);
+  for (const std::string& id : ids) {
+    if (effect_extension(id) != part) {
+      result.push_back(effect_extension(id));
     }
   }
   return result;
@@ -32,38 +31,34 @@ std::vector<Extension> in_its_place(const Extension& part, const Hypothesis& les
 
 void take_parts_of_law(Search& behind_law, const Search& asked, const Workbench& quick, const SearchOptions& options,
                        const SearchProgress& progress) {
-  const Fit& with = behind_law.quick_augmented;
-  const std::string& law = with.what.model;
+  const Fit& full = behind_law.quick_augmented;
+  const std::string& law = full.what.model;
+  const Hypothesis less = behind(asked.base.what.model, full.what);
   for (const std::string& id : options.candidates) {
     const Extension part = effect_extension(id);
-    if (rest_of_law(id, law) != asked.base.what.model || contains(with.what, part)) {
+    if (rest_of_law(id, law) != asked.base.what.model || contains(full.what, part)) {
       continue;
     }
-    progress(0.0, "what " + law + " gains by " + name_of(part));
+    progress(0.96, "what " + law + " gains by " + name_of(part));
     Found found;
     found.part = part;
     found.of_law = law;
-    const Hypothesis less = behind(asked.base.what.model, with.what);
-    found.without = quick.from_fit(less, with, fitting_rounds, &asked.quick_augmented);
-    found.gain = squared(found.without.cost) - squared(with.cost);
+    found.without = quick.from_fit(less, full, fitting_rounds, &asked.quick_augmented);
+    found.gain = squared(found.without.cost) - squared(full.cost);
     if (found.gain <= 0.0) {
       continue;
     }
-    found.evidence = evidence(squared(found.without.cost), squared(with.cost),
-                              static_cast<double>(with.dimension()) - static_cast<double>(found.without.dimension()),
+    found.evidence = evidence(squared(found.without.cost), squared(full.cost),
+                              static_cast<double>(full.dimension()) - static_cast<double>(found.without.dimension()),
                               behind_law.independent);
     found.alone = squared(asked.quick_base.cost) - squared(behind_law.quick_base.cost);
-    progress(0.3, "setting " + name_of(part) + " against its rivals");
-    std::vector<Extension> kin;
-    for (const std::string& relative : relatives(id)) {
-      kin.push_back(effect_extension(relative));
-    }
-    for (const Tried& tried :
-         stage(quick, found.without, in_its_place(part, less, options), behind_law.independent, nullptr, kin)) {
+    progress(0.98, "setting " + name_of(part) + " against its rivals");
+    for (const Tried& tried : stage(quick, found.without, effects_but(part, options.candidates), behind_law.independent,
+                                    nullptr, effects_but(part, relatives(id)))) {
       Rival rival{tried.part, tried.gain / found.gain, 0.0, tried.fit};
       if (tried.fit) {
-        rival.evidence = evidence(squared(tried.fit->cost), squared(with.cost),
-                                  static_cast<double>(with.dimension()) - static_cast<double>(tried.fit->dimension()),
+        rival.evidence = evidence(squared(tried.fit->cost), squared(full.cost),
+                                  static_cast<double>(full.dimension()) - static_cast<double>(tried.fit->dimension()),
                                   behind_law.independent);
       }
       found.rivals.push_back(std::move(rival));
