@@ -20,7 +20,6 @@ struct SensorDelay {
       {.name = "lag", .unit = "s", .meaning = "delay of the force channel", .box = {-0.02, 0.02}, .initial = 0},
   };
   static constexpr std::string_view kin[] = {"inertia", "velocity-lag", "compliance"};
-  static constexpr Need needs[] = {Need::several_frequencies};
   static constexpr Knowledge knowledge = {
       .family = families::phase,
       .in_words = "a delay between the motion and force channels",
@@ -28,7 +27,6 @@ struct SensorDelay {
       .experiment =
           "[a current step at constant velocity and ]sines at frequencies an octave apart: a delay stays constant in "
           "ms",
-      .needs = needs,
       .kin = kin,
   };
 

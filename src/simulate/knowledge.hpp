@@ -30,8 +30,7 @@ enum class Need {
   changing_drive,      // one that changes within a recording
   three_drive_levels,  // three levels of it, in one recording or several
   velocity,            // a velocity that was measured
-  lagging_velocity,    // one that lags or leads the slope of the displacement
-  several_frequencies  // of the motion, in one recording or several
+  lagging_velocity     // one that lags or leads the slope of the displacement
 };
 
 // The wider of two effects is the other, in every motion, where `parameter` of the wider is zero. Empty: in a limit

@@ -37,8 +37,6 @@ std::string_view words_of(Need need) {
       return "a measured velocity";
     case Need::lagging_velocity:
       return "a measured velocity that lags or leads the slope of the displacement";
-    case Need::several_frequencies:
-      return "several frequencies of the motion, in one recording or several";
   }
   return "";
 }

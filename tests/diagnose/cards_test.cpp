@@ -440,20 +440,6 @@ TEST(Cards, KindredParameters) {
   EXPECT_EQ(to, meant);
 }
 
-// At one frequency a lag in time is a phase, which a law of another shape makes too.
-TEST(Cards, ADelayAsksForSeveralFrequencies) {
-  const auto moved = [](const std::vector<testing::Tone>& tones) {
-    return testing::motion("r.csv", tones, 3.0, 400, 0.2);
-  };
-  const Recording slow = moved({{0.01, 2.0}});
-  const Recording large = moved({{0.02, 2.0}});
-  EXPECT_EQ(excluded_by_inputs("sensor-delay", {slow, large}),
-            "every motion is a sine of about 2 Hz: at one frequency a lag in time is a phase, as of any hysteresis");
-  EXPECT_NE(excluded_by_inputs("sensor-delay", {slow, moved({{0.01, 2.5}})}), std::nullopt);
-  EXPECT_EQ(excluded_by_inputs("sensor-delay", {slow, moved({{0.01, 3.0}})}), std::nullopt);
-  EXPECT_EQ(excluded_by_inputs("sensor-delay", {moved({{0.01, 1.0}, {0.003, 3.0}})}), std::nullopt);
-}
-
 TEST(Cards, InputsNeeded) {
   // Constant drives at two levels, a velocity that was derived.
   Recording low;

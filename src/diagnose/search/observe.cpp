@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
 #include <set>
 
 #include "diagnose/search/relatives.hpp"
@@ -23,38 +21,6 @@ std::size_t drive_levels(const std::vector<Recording>& recordings) {
     }
   }
   return levels.size();
-}
-
-// Half an octave: a lag in time then turns the phase by half as much again.
-constexpr double frequencies_apart = 1.41;
-
-double rms_about_mean(const std::vector<double>& values) {
-  double mean = 0.0;
-  for (const double value : values) {
-    mean += value / static_cast<double>(values.size());
-  }
-  double squares = 0.0;
-  for (const double value : values) {
-    squares += (value - mean) * (value - mean) / static_cast<double>(values.size());
-  }
-  return std::sqrt(squares);
-}
-
-// Whether the motions hold one frequency only, in Hz. The ratio of speed to stroke of a sine is that of acceleration to
-// speed, its frequency; of several frequencies the slow ones weigh in the first and the fast ones in the second.
-std::optional<double> only_frequency(const std::vector<Recording>& recordings) {
-  double low = std::numeric_limits<double>::infinity();
-  double high = 0.0;
-  for (const Recording& recording : recordings) {
-    const double stroke = rms_about_mean(recording.displacement);
-    const double speed = rms_about_mean(recording.velocity);
-    if (stroke > 0.0 && speed > 0.0) {
-      const double acceleration = rms_about_mean(derive_velocity(recording.time, recording.velocity));
-      low = std::min({low, speed / stroke, acceleration / speed});
-      high = std::max({high, speed / stroke, acceleration / speed});
-    }
-  }
-  return high > 0.0 && high < frequencies_apart * low ? std::optional(low / (2.0 * std::numbers::pi)) : std::nullopt;
 }
 
 }  // namespace
@@ -93,14 +59,6 @@ std::optional<std::string> unmet(Need need, const std::vector<Recording>& record
       }
       break;
     }
-    case Need::several_frequencies:
-      if (const std::optional<double> frequency = only_frequency(recordings)) {
-        return fmt::format(
-            "every motion is a sine of about {:.2g} Hz: at one frequency a lag in time is a phase, as of any "
-            "hysteresis",
-            *frequency);
-      }
-      break;
   }
   return std::nullopt;
 }
