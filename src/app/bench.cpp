@@ -51,7 +51,7 @@ void conclude(const Plan& plan, Store& store, const RunProgress& progress, const
   std::vector<RunRecord> records = store.records();
   // A shard knows a part of the runs only: the best may be elsewhere.
   if (options.shard_count == 1) add_identifiability(plan, store, records, options.threads, quiet);
-  fmt::print("{} runs done, {} found in {}\n\n", progress.done, progress.found, out);
+  fmt::print("{} run{} done, {} found in {}\n\n", progress.done, progress.done == 1 ? "" : "s", progress.found, out);
   const StudyView view = view_of(store, std::move(records), out);
   fmt::print("{}\nThe whole report: hysteron report {}\n", study_terminal(view.analysis, view.times), out);
 }

@@ -87,7 +87,9 @@ Judgement behind_asked_or_better(Searching searching, const std::string& asked, 
   if (block_score(both[0].predicted, both[1].predicted, noise_of(searching.fine)).z() < two_standard_errors) {
     return whole(std::move(first), searching);
   }
-  take_parts_of_law(*other, first.search, searching.quick, searching.options, behind_law);
+  take_parts_of_law(
+      *other, first.search, searching.quick, searching.options,
+      [&](double share, const std::string& stage) { progress(0.94 + 0.01 * share, "behind " + law + ": " + stage); });
   Judgement second = judged(std::move(*other), searching);
   second.evidence.asked_for = asked;
   second.evidence.behind_asked = {first.evidence};

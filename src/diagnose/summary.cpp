@@ -136,12 +136,17 @@ std::string sentence_of_unknown(const Diagnosis& diagnosis) {
   if (verdict.unknown_share < 0.005) {
     return "None of the misfit beyond the noise is left without a name.";
   }
-  const std::string instead = law_instead(diagnosis.search);
+  std::string rest;
+  if (const std::string instead = law_instead(diagnosis.search); !instead.empty()) {
+    // A part of the law is gone with the law.
+    const auto beside_the_law = [](const Named& named) { return !named.of_law; };
+    rest = "; the rest is gone with " + instead +
+           (std::ranges::any_of(verdict.effects, beside_the_law)       ? " and what is named"
+            : std::ranges::any_of(verdict.suggestions, beside_the_law) ? " and what is suggested"
+                                                                       : "");
+  }
   return fmt::format("{} of the misfit of {} beyond the noise has no name{}.", capital(percent(verdict.unknown_share)),
-                     diagnosis.search.base.what.model,
-                     instead.empty()           ? ""
-                     : listed(verdict).empty() ? "; the rest is gone with " + instead
-                                               : "; the rest is gone with " + instead + " and what is named");
+                     diagnosis.search.base.what.model, rest);
 }
 
 // Of what stays, else of what the base model misses.

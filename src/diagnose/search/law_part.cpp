@@ -39,7 +39,7 @@ void take_parts_of_law(Search& behind_law, const Search& asked, const Workbench&
     if (rest_of_law(id, law) != asked.base.what.model || contains(full.what, part)) {
       continue;
     }
-    progress(0.96, "what " + law + " gains by " + name_of(part));
+    progress(0.0, "what " + law + " gains by " + name_of(part));
     Found found;
     found.part = part;
     found.of_law = law;
@@ -52,7 +52,7 @@ void take_parts_of_law(Search& behind_law, const Search& asked, const Workbench&
                               static_cast<double>(full.dimension()) - static_cast<double>(found.without.dimension()),
                               behind_law.independent);
     found.alone = squared(asked.quick_base.cost) - squared(behind_law.quick_base.cost);
-    progress(0.98, "setting " + name_of(part) + " against its rivals");
+    progress(0.5, "setting " + name_of(part) + " against its rivals");
     for (const Tried& tried : stage(quick, found.without, effects_but(part, options.candidates), behind_law.independent,
                                     nullptr, effects_but(part, relatives(id)))) {
       Rival rival{tried.part, tried.gain / found.gain, 0.0, tried.fit};
