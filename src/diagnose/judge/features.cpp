@@ -43,14 +43,13 @@ double robustness_of(const Candidate& candidate, const Evidence& evidence) {
   return robustness_value(std::max(candidate.gain, 0.0) / std::max(excess, 1e-300));
 }
 
-std::vector<const Contender*> as_good(const Candidate& candidate, const Evidence& evidence) {
+std::vector<const Contender*> as_good(const Candidate& candidate) {
   std::vector<const Contender*> result;
   for (const Contender& row : candidate.contenders) {
     if (row.law) {
       continue;
     }
-    const bool told = (row.refitted && row.squares > 0.0 && row.behind.surely_better()) ||
-                      leaves_the_contrast(candidate, row.id, false, evidence);
+    const bool told = row.refitted && row.squares > 0.0 && row.behind.surely_better();
     const bool limit = row.held_by_the_candidate && !row.apart;
     // What holds the candidate as a limit always explains as much: it counts only where it is surely not at the limit.
     const bool idle = row.holds_the_candidate && !row.apart;

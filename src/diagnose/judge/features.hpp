@@ -53,9 +53,8 @@ double robustness_value(double f2);
 double robustness_of(const Candidate& candidate, const Evidence& evidence);
 
 // Related and unrelated effects that do as well in the candidate's place: the candidate predicts recordings left out no
-// better than two standard errors and the other explains its signature contrast too, or it ends as the other, or is the
-// limit of it that the data do not tell apart.
-std::vector<const Contender*> as_good(const Candidate& candidate, const Evidence& evidence);
+// better than two standard errors, or it ends as the other, or is the limit of it that the data do not tell apart.
+std::vector<const Contender*> as_good(const Candidate& candidate);
 
 // Whose base a candidate is weighed against: that of the law asked for, where it is a part of the law that took its
 // place.

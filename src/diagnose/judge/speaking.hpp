@@ -34,7 +34,7 @@ bool shows(const Speaking& speaking);
 bool speaks(const Speaking& speaking);
 
 // Whether a contrast that speaks for the candidate, and that the augmented model explains, speaks on where `instead`
-// takes the candidate's place (ContrastLeft): it explains the squares, not what the candidate does.
+// takes the candidate's place (ContrastLeft): in its own form it explains the squares, not what the candidate does.
 bool leaves_the_contrast(const Candidate& candidate, const std::string& instead, bool law, const Evidence& evidence);
 
 // Of the effects and laws that were set in the candidate's place, laws that have it as a part of their own apart.

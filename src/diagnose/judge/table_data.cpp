@@ -4,20 +4,20 @@
 namespace hysteron {
 namespace {
 
-constexpr double name_weights[] = {0.5131, 0.9915, 1.962, 1.111, 1.934, 1.266, 2.12};
-constexpr Knot name_knots[] = {{-4.113, 0.07143}, {-1.71, 0.2264}, {-0.2767, 0.3025}, {0.1722, 0.4512},
-                               {0.5388, 0.5492},  {0.81, 0.6905},  {1.082, 0.7927},   {1.564, 0.8223},
-                               {2.05, 0.9146},    {2.202, 0.9286}, {2.423, 0.959},    {2.7, 0.9754},
-                               {2.97, 0.98}};
-constexpr double name_intercept = -8.0615;
+constexpr double name_weights[] = {0.5537, 0.8312, 2.163, 1.293, 1.924, 1.038, 1.995};
+constexpr Knot name_knots[] = {{-4.179, 0.119},   {-3.192, 0.1667}, {-1.606, 0.2313}, {-0.4505, 0.3293},
+                               {-0.1286, 0.3525}, {0.113, 0.4048},  {0.3939, 0.4344}, {0.6619, 0.5952},
+                               {0.7735, 0.6429},  {1.017, 0.7683},  {1.223, 0.8333},  {1.641, 0.8404},
+                               {2.1, 0.8902},     {2.234, 0.9286},  {2.428, 0.959},   {2.822, 0.9881}};
+constexpr double name_intercept = -7.9545;
 
-constexpr double missing_weights[] = {1.542, 1.562, 1.1, 2.354, 1.568, 2.491};
-constexpr Knot missing_knots[] = {{-2.159, 0.06098}, {-1.948, 0.119},  {-1.66, 0.1341}, {-1.189, 0.2143},
-                                  {-0.6885, 0.4048}, {0.4563, 0.5476}, {1.53, 0.9286},  {7.08, 0.9981}};
-constexpr double missing_intercept = -2.1919;
+constexpr double missing_weights[] = {1.813, 1.809, 1.07, 2.536, 1.636, 2.371};
+constexpr Knot missing_knots[] = {{-2.13, 0.08537}, {-1.751, 0.1173}, {-1.153, 0.2143}, {-0.7115, 0.4048},
+                                  {0.2438, 0.5},    {1.174, 0.8333},  {7.289, 0.9984}};
+constexpr double missing_intercept = -2.149;
 
-constexpr double of_channels = 0.9762;
-constexpr double of_set = 0.6585;
+constexpr double of_channels = 0.98;
+constexpr double of_set = 0.6784;
 
 }  // namespace
 

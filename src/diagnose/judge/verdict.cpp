@@ -30,7 +30,7 @@ bool is_told_by_channels(const Candidate& candidate) {
 std::vector<Named> named(std::size_t index, const Evidence& evidence) {
   const Candidate& candidate = evidence.candidates[index];
   const NameFeatures features = features_of(candidate, evidence);
-  std::vector<const Contender*> others = as_good(candidate, evidence);
+  std::vector<const Contender*> others = as_good(candidate);
   // The channels tell a lag of one of them from a delay of the force.
   if (candidate.as_channels) {
     others.clear();
