@@ -57,8 +57,9 @@ class Descent {
     double squares = raw;
     project(point, squares, gradient, matrix);
     const bool first = told_ == 1;
-    if (first && raw - squares > 0.01 * raw) {
-      // The other columns were taken at the start's values of the projected coordinates: take them again.
+    if (first && raw - squares > tolerance_ * raw) {
+      // The other columns were taken at the start's values of the projected coordinates: take them again. Where nothing
+      // else is left to fit, this is the only step, and only what is told counts.
       next_ = point;
       told_ = 1;
       best_squares_ = raw;

@@ -136,6 +136,27 @@ TEST(Identify, ViscousFitIsTheClosedFormLeastSquares) {
   }
 }
 
+// Many samples are screened by every k-th one: the optimum of these is not that of all.
+TEST(Identify, AScreenedLinearFitIsThatOfAllSamples) {
+  for (std::uint64_t draw = 1; draw <= 4; ++draw) {
+    auto recordings = std::vector<Recording>{motion("long.csv", {{0.01, 1.0}}, 3.0, 15001, 0.0)};
+    Recording& recording = recordings[0];
+    const Stream stream(draw);
+    Eigen::MatrixXd rows(15001, 3);
+    Eigen::VectorXd force(15001);
+    for (std::size_t n = 0; n < recording.size(); ++n) {
+      const auto row = static_cast<Eigen::Index>(n);
+      rows.row(row) << recording.velocity[n], recording.displacement[n], 1.0;
+      force[row] = 2000.0 * recording.velocity[n] + 5000.0 * recording.displacement[n] + 20.0 + 5.0 * stream.normal(n);
+      recording.force.push_back(force[row]);
+    }
+    const Eigen::VectorXd exact = rows.colPivHouseholderQr().solve(force);
+    const Identification result = identify(campaign_of(recordings), "viscous", {}, {});
+    EXPECT_NEAR(estimate_of(result, "c0").term.value, exact[0], 1e-6 * exact[0]) << draw;
+    EXPECT_NEAR(estimate_of(result, "k0").term.value, exact[1], 1e-6 * exact[1]) << draw;
+  }
+}
+
 // A run cut anywhere and told again what it was told goes on as if it had not been cut.
 class Resume : public ::testing::TestWithParam<const char*> {};
 
