@@ -16,7 +16,7 @@ struct Viscous {
   static constexpr Parameter parameters[] = {
       {.name = "c0", .unit = "N s/m", .meaning = "viscous damping", .box = {0, 2e4}, .initial = 1e3, .linear = true, .role = PhysicalRole::damping},
       cards::k0,
-      {.name = "f0", .unit = "N", .meaning = "force at rest in the middle of the motion", .box = {-1.5e3, 1.5e3}, .initial = 0, .linear = true, .role = PhysicalRole::offset_force},
+      {.name = "f0", .unit = "N", .meaning = "force at rest at zero displacement", .box = {-1.5e3, 1.5e3}, .initial = 0, .linear = true, .role = PhysicalRole::offset_force},
   };
 
   template <class T>

@@ -67,6 +67,44 @@ void check_known(const std::vector<std::string>& names, const std::string& name,
   }
 }
 
+// Half periods within this share of their median, or within so many samples, belong to one frequency: where there is
+// one, sampling alone makes them differ by a sample.
+constexpr double alike_share = 0.05;
+constexpr double alike_samples = 1.01;
+// When the displacement turns at or beside this sample: the vertex of a parabola through it and its neighbours.
+double turn_at(const Recording& recording, std::size_t n) {
+  const std::vector<double>& x = recording.displacement;
+  if (n == 0 || n + 1 >= x.size()) {
+    return recording.time[n];
+  }
+  const double bend = x[n - 1] - 2.0 * x[n] + x[n + 1];
+  const double off = bend != 0.0 ? std::clamp(0.5 * (x[n - 1] - x[n + 1]) / bend, -0.5, 0.5) : 0.0;
+  return recording.time[n] + off * 0.5 * (recording.time[n + 1] - recording.time[n - 1]);
+}
+
+// Of the recordings' scale, where a card is written for 1 kN, 25 mm and 0.3 m/s.
+double factor_of(const Parameter& card, const DataScale& scale) {
+  return std::pow(scale.force / 1000.0, card.dimension.force) * std::pow(scale.length / 0.025, card.dimension.length) *
+         std::pow(scale.velocity / 0.3, card.dimension.velocity);
+}
+
+// Part of the half stroke that the middle of the motion may be off zero by before it counts.
+constexpr double off_middle = 0.25;
+
+// What an offset force has to make up for where the displacement does not swing about zero, as that of an absolute
+// scale: the stiffest spring of the box, over the distance of the motion's middle.
+double offset_of_springs(const std::vector<Parameter>& cards, const DataScale& scale) {
+  const double distance = std::max(0.0, std::fabs(scale.middle) - off_middle * scale.length);
+  double stiffest = 0.0;
+  for (const Parameter& card : cards) {
+    if (card.role == PhysicalRole::stiffness && card.linear) {
+      const double stiffness = std::max(std::fabs(card.box.lower), std::fabs(card.box.upper));
+      stiffest = std::max(stiffest, stiffness * factor_of(card, scale));
+    }
+  }
+  return stiffest * distance;
+}
+
 // A length or a time so far below those of the device has more steps in it than can be marched.
 constexpr double far_below_the_box = 1e-3;
 
@@ -117,7 +155,7 @@ double dominant_frequency(const Recording& recording) {
       extreme = x[n];
       at = n;
     } else if (std::fabs(x[n] - extreme) > threshold) {
-      turns.push_back(recording.time[at]);
+      turns.push_back(turn_at(recording, at));
       direction = -direction;
       extreme = x[n];
       at = n;
@@ -130,8 +168,21 @@ double dominant_frequency(const Recording& recording) {
   for (std::size_t k = 1; k < turns.size(); ++k) {
     halves.push_back(turns[k] - turns[k - 1]);
   }
-  std::ranges::nth_element(halves, halves.begin() + static_cast<std::ptrdiff_t>(halves.size() / 2));
-  return 0.5 / halves[halves.size() / 2];
+  const auto middle = halves.begin() + static_cast<std::ptrdiff_t>(halves.size() / 2);
+  std::ranges::nth_element(halves, middle);
+  const double median = *middle;
+  // In the mean of those like the median the errors of their ends cancel.
+  const double step = (recording.time.back() - recording.time.front()) / static_cast<double>(x.size() - 1);
+  const double alike = std::max(alike_share * median, alike_samples * step);
+  double sum = 0.0;
+  double count = 0.0;
+  for (const double half : halves) {
+    if (std::fabs(half - median) <= alike) {
+      sum += half;
+      count += 1.0;
+    }
+  }
+  return 0.5 * count / sum;
 }
 
 std::size_t ParameterLaw::count() const {
@@ -260,11 +311,10 @@ Layout::Layout(CompositeModel model, const DataScale& scale, const LayoutOptions
   for (const auto& [name, range] : options.bounds) {
     check_known(names_, name, "--bounds");
   }
+  const double of_springs = offset_of_springs(cards_, scale);
   for (std::size_t j = 0; j < cards_.size(); ++j) {
     Parameter& card = cards_[j];
-    const double factor = std::pow(scale.force / 1000.0, card.dimension.force) *
-                          std::pow(scale.length / 0.025, card.dimension.length) *
-                          std::pow(scale.velocity / 0.3, card.dimension.velocity);
+    const double factor = factor_of(card, scale);
     // Held times and speeds round off the equations and stay; a held force is one of the device.
     if (!card.fixed || card.dimension.force != 0.0) {
       card.box.lower *= factor;
@@ -274,6 +324,10 @@ Layout::Layout(CompositeModel model, const DataScale& scale, const LayoutOptions
       card.box.lower += shift;
       card.box.upper += shift;
       card.initial += shift;
+    }
+    if (!card.fixed && card.role == PhysicalRole::offset_force) {
+      card.box.lower -= of_springs;
+      card.box.upper += of_springs;
     }
     const Box of_device = card.box;
     if (const auto own = options.bounds.find(names_[j]); own != options.bounds.end()) {

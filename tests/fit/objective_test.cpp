@@ -616,6 +616,35 @@ TEST(Layout, FrequencyAndScaleOfARecording) {
   EXPECT_DOUBLE_EQ(scale.drive_high, 1.4);
 }
 
+// An absolute reading: the force at its zero is that of a spring over the way there, and the box holds it.
+TEST(Layout, AnOffsetForceMakesUpForAMotionOffItsZero) {
+  auto recordings = three_levels();
+  const Layout centred = layout_of("viscous", recordings, {});
+  for (Recording& recording : recordings) {
+    for (double& x : recording.displacement) {
+      x += 0.5;
+    }
+  }
+  const Layout off = layout_of("viscous", recordings, {});
+  const auto& stiffness = off.coordinates()[1];
+  EXPECT_GE(off.coordinates()[2].upper, 0.5 * stiffness.upper);
+  EXPECT_LE(off.coordinates()[2].lower, -0.5 * stiffness.upper);
+  EXPECT_NEAR(stiffness.upper, centred.coordinates()[1].upper, 1e-9 * stiffness.upper);
+  EXPECT_NEAR(centred.coordinates()[2].upper, 1.5 * 900.0, 1e-9) << "the recordings' peak force times that of the card";
+}
+
+// Twenty-one samples a period, so that a half period is no whole number of them.
+TEST(Layout, TheFrequencyIsNotRoundedToSamples) {
+  for (const double hertz : {4.0, 22.5, 24.0}) {
+    Recording recording;
+    for (int n = 0; n <= 1500; ++n) {
+      recording.time.push_back(n / 500.0);
+      recording.displacement.push_back(2e-3 * std::sin(2.0 * std::numbers::pi * hertz * recording.time.back()));
+    }
+    EXPECT_NEAR(dominant_frequency(recording), hertz, 2e-3 * hertz);
+  }
+}
+
 TEST(Layout, TermNames) {
   EXPECT_EQ(term_name("alpha", Term{0, 0, 0, 1.0}, {}), "alpha");
   EXPECT_EQ(term_name("alpha", Term{0, 1, 0, 1.0}, {}), "alpha*i");
