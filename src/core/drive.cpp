@@ -9,9 +9,26 @@ namespace {
 
 constexpr double least_variation = 0.02;  // of the largest size
 constexpr double least_over_noise = 12.0;
-constexpr double agreement = 5.7;  // four standard deviations of the difference of two samples
+constexpr double agreement = 9.8;  // four standard deviations of a second difference
 constexpr std::size_t reach = 8;
 constexpr std::size_t least_samples = 16;
+
+// At sample n, of the parabola of least squares through it and `beside` samples to both sides.
+//   y = sum_k w_k drive_(n+k),   w_k = 3 (3 m^2 + 3 m - 1 - 5 k^2) / ((2 m - 1) (2 m + 1) (2 m + 3))
+// Savitzky and Golay 1964, doi 10.1021/ac60214a047: a mean would flatten what is curved.
+double middle_of_parabola(const std::vector<double>& drive, std::size_t n, std::size_t beside) {
+  if (beside == 0) {
+    return drive[n];
+  }
+  const auto m = static_cast<double>(beside);
+  const double top = 3.0 * m * m + 3.0 * m - 1.0;
+  double sum = top * drive[n];
+  for (std::size_t k = 1; k <= beside; ++k) {
+    const auto away = static_cast<double>(k);
+    sum += (top - 5.0 * away * away) * (drive[n - k] + drive[n + k]);
+  }
+  return 3.0 * sum / ((2.0 * m - 1.0) * (2.0 * m + 1.0) * (2.0 * m + 3.0));
+}
 
 }  // namespace
 
@@ -56,16 +73,12 @@ std::vector<double> quiet_drive(const std::vector<double>& drive) {
   const double limit = agreement * drive_noise(drive);
   std::vector<double> result(drive.size());
   for (std::size_t n = 0; n < drive.size(); ++n) {
-    double sum = drive[n];
-    std::size_t count = 1;
-    for (std::size_t k = 1; k <= std::min({reach, n, drive.size() - 1 - n}); ++k) {
-      if (std::fabs(drive[n - k] - drive[n]) > limit || std::fabs(drive[n + k] - drive[n]) > limit) {
-        break;
-      }
-      sum += drive[n - k] + drive[n + k];
-      count += 2;
+    std::size_t alike = 0;
+    while (alike < std::min({reach, n, drive.size() - 1 - n}) &&
+           std::fabs(drive[n - alike - 1] + drive[n + alike + 1] - 2.0 * drive[n]) <= limit) {
+      ++alike;
     }
-    result[n] = sum / static_cast<double>(count);
+    result[n] = middle_of_parabola(drive, n, alike);
   }
   return result;
 }

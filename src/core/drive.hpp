@@ -16,8 +16,8 @@ double drive_noise(const std::vector<double>& drive);
 // Whether it moves by more than 2 % of its largest size, and by more than its noise does.
 bool varies(const std::vector<double>& drive);
 
-// Its mean where it does not vary; else each sample is the mean of up to 17 around it, as far to both sides as they
-// agree with it within their noise, so that steps and ramps stay.
+// Its mean where it does not vary; else each sample is that of a parabola through up to 17 around it, as far as
+// its neighbours to both sides lie on a line with it within their noise, so that steps, ramps and curves stay.
 std::vector<double> quiet_drive(const std::vector<double>& drive);
 
 // As quiet_drive, and one value alone where it does not vary.
