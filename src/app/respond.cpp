@@ -12,6 +12,7 @@
 #include "app/values.hpp"
 #include "core/drive.hpp"
 #include "core/error.hpp"
+#include "respond/one_period.hpp"
 #include "task/guesses.hpp"
 #include "task/model_file.hpp"
 
@@ -43,23 +44,10 @@ Recording read_excitation(const Options& options, const StoredModel& stored) {
   return campaign.recordings[0];
 }
 
-// `count` periods of a signal that repeats itself, at its own samples.
-std::vector<double> repeated_times(const std::vector<double>& time, int count) {
-  const double period =
-      (time.back() - time.front()) * static_cast<double>(time.size()) / static_cast<double>(time.size() - 1);
-  std::vector<double> result;
-  for (int k = 0; k < count; ++k) {
-    for (const double t : time) {
-      result.push_back(t + k * period);
-    }
-  }
-  return result;
-}
-
 void run(Options& options) {
   check_table(options.out, {options.model, options.data.data.front()});
   StoredModel stored = read_model(options.model);
-  const Recording recording = read_excitation(options, stored);
+  Recording recording = read_excitation(options, stored);
   follow_conditions(stored, {recording});
   if (std::isnan(options.drive)) {
     check_drive(stored, options.model, recording);
@@ -84,6 +72,16 @@ void run(Options& options) {
         "--interpolation linear: straight lines of a base have no acceleration, expected cubic or band-limited");
   }
   const bool periodic = options.periods > 0;
+  if (periodic && last_repeats_first(base ? ground : recording.force)) {
+    for (std::vector<double>* channel : channels_of(recording)) {
+      if (!channel->empty()) {
+        channel->pop_back();
+      }
+    }
+    warn_of({recording.file +
+             ": the last sample repeats the first and is left out; it is taken as the start of the next "
+             "period"});
+  }
   double frequency = options.frequency;
   Recording as_motion = recording;
   as_motion.displacement = base ? ground : recording.force;
@@ -180,8 +178,10 @@ void add_respond(CLI::App& program) {
       ->check(one_of({"linear", "cubic", "band-limited"}))
       ->capture_default_str();
   command
-      ->add_option("--periods", options->periods,
-                   "the excitation is one period: it is repeated so many times and the last response is written")
+      ->add_option(
+          "--periods", options->periods,
+          "the excitation is one period: it is repeated so many times and the last response is written; a last "
+          "sample that repeats the first is left out")
       ->transform(whole_number(0, 10000));
   command->add_option("--x0", options->respond.displacement, "displacement at the start, m, relative to the base")
       ->check(real_number(-farthest_motion, farthest_motion));
