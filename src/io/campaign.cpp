@@ -14,6 +14,7 @@
 #include "io/conditions.hpp"
 #include "io/file.hpp"
 #include "io/format.hpp"
+#include "io/plausible.hpp"
 #include "io/sha256.hpp"
 #include "io/text.hpp"
 
@@ -232,6 +233,7 @@ Campaign load_campaign(const std::vector<std::string>& data, const ReadOptions& 
     for (const auto& [name, number] : options.numbers) of_each.numbers.insert_or_assign(name, number);
     campaign.recordings.push_back(load_recording(item.path, of_each));
     campaign.recordings.back().file = valid_utf8(item.name);
+    remark_on_numbers(of_each, valid_utf8(item.name));
     take_numbers(campaign.recordings.back(), of_each);
     if (item.start) campaign.recordings.back().started = item.start;
     campaign.roles.push_back(item.role);

@@ -1,6 +1,7 @@
 #include "io/campaign_file.hpp"
 
 #include <cmath>
+#include <map>
 #include <optional>
 #include <set>
 #include <sstream>
@@ -98,11 +99,22 @@ class CampaignParser : private TomlReader {
     return *number;
   }
 
+  // A number without a unit is in SI where its name says what it is, and else of the unit of the others, if they have
+  // none.
+  void refuse_other_unit(const ConditionNumber& number, const ConditionNumber& first, std::string_view name) const {
+    const bool in_si = !unit_of_plain(lower_case(name)).empty() || lower_case(name) == "current";
+    if (number.unit == first.unit || (in_si && (number.unit.empty() || first.unit.empty()))) return;
+    const auto text = [](const std::string& unit) { return unit.empty() ? "without a unit" : "in " + in_quotes(unit); };
+    fail_at(number.line, in_quotes(name) + " is given " + text(number.unit) + " and in line " +
+                             std::to_string(first.line) + " " + text(first.unit) + ", expected one unit");
+  }
+
   [[nodiscard]] std::vector<CampaignEntry> entries_of(const toml::node& node) const {
     const auto* array = node.as_array();
     if (array == nullptr) fail(node, "'recording' is not an array of tables, expected [[recording]]");
     std::vector<CampaignEntry> entries;
     std::set<std::string> seen;
+    std::map<std::string, ConditionNumber> first;
     for (const auto& element : *array) {
       const auto* table = element.as_table();
       if (table == nullptr) fail(element, "'recording' is not an array of tables, expected [[recording]]");
@@ -129,6 +141,7 @@ class CampaignParser : private TomlReader {
           continue;
         }
         const ConditionNumber number = number_of(key, value);
+        refuse_other_unit(number, first.emplace(lower_case(key.str()), number).first->second, key.str());
         if (!entry.numbers.emplace(name_of(value, std::string(key.str()), "[[recording]]"), number).second) {
           fail(value, in_quotes(key.str()) + " is given twice, expected each once");
         }

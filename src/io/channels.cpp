@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/extent.hpp"
 #include "io/text.hpp"
 #include "io/velocity.hpp"
 
@@ -257,10 +258,37 @@ std::optional<Quantity> quantity_of_last_word(std::string_view name) {
   return last.size() > 1 ? quantity_of_name(last) : std::nullopt;
 }
 
+namespace {
+
+// "force / kN", "force/kN" and "force_kN": what stands behind the mark is a unit of what stands before it.
+void split_at_mark(Column& column) {
+  const std::string_view text = column.text;
+  for (const std::string_view mark : {" / ", "/", "_"}) {
+    const std::size_t cut = mark == "_" ? text.rfind(mark) : text.find(mark);
+    if (cut == std::string_view::npos) continue;
+    const std::string_view name = trimmed(text.substr(0, cut));
+    const std::string_view unit = trimmed(text.substr(cut + mark.size()));
+    std::optional<Quantity> quantity = quantity_of_name(name);
+    if (!quantity) quantity = quantity_of_last_word(name);
+    // With blanks around the stroke, as standards write it, the name may be that of any channel.
+    if (quantity ? find_unit(*quantity, unit).has_value() : mark == " / " && is_any_unit(unit)) {
+      column.name = name;
+      column.unit = unit;
+      return;
+    }
+  }
+}
+
+}  // namespace
+
 Column split_column(std::string_view text) {
   text = trimmed(text);
   Column column{std::string(text), std::string(text), {}, {}};
-  if (text.empty() || (text.back() != ']' && text.back() != ')')) return column;
+  if (text.empty()) return column;
+  if (text.back() != ']' && text.back() != ')') {
+    split_at_mark(column);
+    return column;
+  }
   const auto open = text.rfind(text.back() == ']' ? '[' : '(');
   if (open == std::string_view::npos) return column;
   column.name = trimmed(text.substr(0, open));
@@ -312,6 +340,8 @@ Recording make_recording(Channels&& channels) {
   recording.force = take(Quantity::force);
   recording.temperature = take(Quantity::temperature);
   recording.base = take(Quantity::base);
+  // A channel that is zero while the rod moves was not connected: remark_on_sizes tells of it.
+  if (peak_of(recording.velocity) == 0.0 && span_of(recording.displacement) > 0.0) recording.velocity.clear();
   recording.velocity_measured = !recording.velocity.empty();
   recording.drive = take(Quantity::current);
   recording.drive_kind = DriveKind::current;

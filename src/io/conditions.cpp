@@ -22,14 +22,6 @@ bool may_be_followed(Quantity quantity) {
                    in_quotes(name) + " is given for " + in_quotes(file) + ", which has a column of it, expected one");
 }
 
-// Of a plain number, which is in SI, where its name says what it is.
-std::string_view unit_of_plain(std::string_view name) {
-  if (name == "pressure") return "Pa";
-  if (name == quantity_name(Quantity::temperature)) return "degC";
-  if (name == quantity_name(Quantity::voltage)) return "V";
-  return {};
-}
-
 // The columns named so: by a mapping, else by their names without case and unit.
 int column_of(const std::string& name, const std::vector<Column>& columns, const ReadOptions& options,
               std::string& unit, const std::string& file, int line) {
@@ -79,6 +71,13 @@ void refuse_shared(const ConditionSource& source, const std::vector<ConditionSou
 }
 
 }  // namespace
+
+std::string_view unit_of_plain(std::string_view name) {
+  if (name == "pressure") return "Pa";
+  if (name == quantity_name(Quantity::temperature)) return "degC";
+  if (name == quantity_name(Quantity::voltage)) return "V";
+  return {};
+}
 
 std::string condition_name(std::string_view text, const std::string& where) {
   const std::string name = lower_case(trimmed(text));

@@ -16,6 +16,9 @@ namespace hysteron {
 // is said behind `where` in an InputError: empty, or a channel of the motion or the force.
 [[nodiscard]] std::string condition_name(std::string_view text, const std::string& where);
 
+// The unit of a plain number, which is in SI, where the condition's name says what it is; else empty.
+[[nodiscard]] std::string_view unit_of_plain(std::string_view name);
+
 // What a unit becomes inside: SI for every unit of a channel and of pressure, degC for temperatures; any other stays as
 // it is written.
 struct ConditionUnit {

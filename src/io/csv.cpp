@@ -239,8 +239,12 @@ class CsvReader {
       return std::ranges::any_of(
           cells, [](std::string_view cell) { return quantity_of_name(split_column(cell).name).has_value(); });
     };
+    const auto are_units = [](const std::vector<std::string_view>& cells) {
+      return std::ranges::all_of(cells, [](std::string_view cell) { return is_any_unit(without_brackets(cell)); });
+    };
     const auto begin = position_;
     const auto before = line_;
+    std::vector<std::string_view> above;
     for (int k = 0; k < most_lines; ++k) {
       const auto here = position_;
       const auto number = line_;
@@ -258,8 +262,7 @@ class CsvReader {
       if (begun && mostly_numbers(below)) break;
       // A row of units below the names, or words where numbers are expected, which is said then. Names of another
       // language are names too where units stand below.
-      const bool units =
-          std::ranges::all_of(below, [](std::string_view cell) { return is_any_unit(without_brackets(cell)); });
+      const bool units = are_units(below);
       if (below.size() == names.size() && !mostly_numbers(below) && (names_a_channel(names) || units) &&
           !names_columns(below)) {
         below = next_cells(delimiter);
@@ -267,13 +270,16 @@ class CsvReader {
       if (!begun && names.size() > 1 && below.size() == names.size() && mostly_numbers(below)) {
         position_ = here;
         line_ = number;
+        const bool units_above = above.size() == names.size() && are_units(above);
+        if (units_above) units_above_ = above;
         if (k > 0 && options_.remark) {
-          const std::string text =
-              "the header is taken from line " + std::to_string(at) + ", lines before it are not read";
+          const std::string text = "the header is taken from line " + std::to_string(at) +
+                                   (units_above ? ", units from the line before it" : ", lines before it are not read");
           options_.remark({file_, Remark::Kind::dialect, "header", text});
         }
         return;
       }
+      above = names;
       position_ = behind;
       line_ = at;
     }
@@ -299,6 +305,7 @@ class CsvReader {
     }
     for (const auto cell : cells) columns_.push_back(split_column(unquoted(cell)));
     read_unit_row();
+    take_units(units_above_);
     sources_ = assign_columns(columns_, options_, file_, header_line_);
     conditions_ = assign_conditions(columns_, sources_, options_, file_, header_line_);
     condition_row_.resize(conditions_.size());
@@ -321,10 +328,15 @@ class CsvReader {
       line_ = line_number;
       return;
     }
+    take_units(cells);
+    header_line_ = line_;
+  }
+
+  // Of the columns, from a row of its own.
+  void take_units(const std::vector<std::string_view>& cells) {
     for (std::size_t i = 0; i < std::min(cells.size(), columns_.size()); ++i) {
       (columns_[i].unit.empty() ? columns_[i].unit : columns_[i].other_unit) = without_brackets(unquoted(cells[i]));
     }
-    header_line_ = line_;
   }
 
   void read_rows() {
@@ -509,6 +521,7 @@ class CsvReader {
   DecimalMark mark_;
   bool ended_ = true;  // the current line has a line end
   std::vector<Column> columns_;
+  std::vector<std::string_view> units_above_;
   Sources sources_;
   bool in_rows_ = false;
   Channels channels_;

@@ -3,14 +3,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numbers>
 #include <optional>
+#include <string_view>
 #include <tuple>
 #include <vector>
 
 #include "core/drive.hpp"
 #include "core/extent.hpp"
 #include "io/channel_faults.hpp"
+#include "io/motion_faults.hpp"
 #include "io/outliers.hpp"
 #include "io/text.hpp"
 
@@ -164,6 +168,56 @@ bool drives_its_rig(const Recording& r) {
   return both < 0.0 && v_left > rounding * vv && f_left > rounding * ff && both * both > share * v_left * f_left;
 }
 
+// Samples that are lost, channels slower than the log, and a velocity that is late or off.
+void tell_of_motion(const Recording& recording, const Sources& sources, Remarks& remarks) {
+  // From here on a lag or an offset of the velocity is seen in the parameters: six degrees, a tenth of the speed.
+  constexpr double least_lag_share = 0.1;
+  constexpr double least_offset_share = 0.1;
+  const std::vector<double>& time = recording.time;
+  if (const auto leap = leap_of(recording.time, recording.displacement)) {
+    remarks.tell("leap", fmt::format("the displacement leaps by {:.3g} mm between {:.4g} and {:.4g} s, far beyond its "
+                                     "steps before and after: lost samples or two records joined look so; cut there",
+                                     1e3 * leap->size, time[leap->after], time[leap->after + 1]));
+  }
+  const double step = (time.back() - time.front()) / static_cast<double>(time.size() - 1);
+  for (const auto& [name, values] :
+       {std::pair("displacement", &recording.displacement), std::pair("force", &recording.force),
+        std::pair("velocity", &recording.velocity)}) {
+    const bool recorded = values != &recording.velocity || recording.velocity_measured;
+    const auto held = recorded ? held_samples_of(*values) : std::nullopt;
+    if (held) {
+      remarks.tell(std::string("held ") + name,
+                   fmt::format("the {} holds each value for {:.3g} samples: a sensor slower than the log looks so, and "
+                               "is {:.3g} ms late on average; record all channels at its rate, or interpolate it",
+                               name, *held, 0.5e3 * (*held - 1.0) * step));
+    }
+  }
+  const auto& velocity = sources[static_cast<std::size_t>(Quantity::velocity)];
+  if (velocity.column >= 0 && !recording.velocity_measured) {
+    remarks.tell(
+        "no velocity",
+        "the velocity is 0 throughout while the displacement moves: it is taken from the displacement instead");
+    return;
+  }
+  const VelocityFault fault = velocity_fault_of(recording);
+  if (fault.offset_share > least_offset_share) {
+    remarks.tell(
+        "velocity offset",
+        fmt::format("the velocity is {:.3g} m/s off what displacement and time tell on average, {:.0f} % of its "
+                    "largest: check the zero of the channel",
+                    fault.offset, 100.0 * fault.offset_share));
+  }
+  if (fault.lag_share > least_lag_share) {
+    remarks.tell(
+        "velocity lag",
+        fmt::format("the velocity is {} the slope of the displacement by {:.2g} ms: a phase of {:.2g} degrees, of "
+                    "which the model makes a stiffness that is not there; correct it, or remove the column: the "
+                    "slope is then taken",
+                    fault.lag > 0.0 ? "behind" : "ahead of", 1e3 * std::fabs(fault.lag),
+                    fault.lag_share * 180.0 / std::numbers::pi));
+  }
+}
+
 // A channel that stays while the other one goes on.
 void tell_of_motion_and_force(const Recording& recording, Remarks& remarks) {
   const auto tell_frozen = [&](const std::string& name, double value, const std::string& unit, const Stretch& stretch,
@@ -272,6 +326,7 @@ void remark_on_sizes(const Recording& recording, const Sources& sources, const s
                                out.size()));
     }
   }
+  tell_of_motion(recording, sources, remarks);
   if (const auto end = flat_end_of(recording.force)) {
     remarks.tell("flat end",
                  fmt::format("the force stays at exactly {:.4g} N, an end of its range, for {:.0f} % of the "
@@ -306,6 +361,32 @@ void remark_on_sizes(const Recording& recording, const Sources& sources, const s
                       "the calibration of the three",
                       std::sqrt(ratio.low * ratio.high)));
     }
+  }
+}
+
+void remark_on_numbers(const ReadOptions& options, const std::string& file) {
+  if (!options.remark) return;
+  struct Kind {
+    std::string_view name;
+    Range range;
+    std::string_view unit;
+    std::string_view as_in;
+  };
+  constexpr Range pressure_pa{1e3, 1e9};
+  const std::array<Kind, 4> kinds = {{{"current", current_a.assumed, "A", "500 mA"},
+                                      {"voltage", voltage_v.assumed, "V", "500 mV"},
+                                      {"temperature", temperature_c.assumed, "degC", "293 K"},
+                                      {"pressure", pressure_pa, "Pa", "2.1 bar"}}};
+  for (const Kind& kind : kinds) {
+    const auto given = options.numbers.find(std::string(kind.name));
+    if (given == options.numbers.end() || !given->second.unit.empty() || given->second.value == 0.0) continue;
+    const double value = kind.name == "temperature" ? given->second.value : std::fabs(given->second.value);
+    if (value >= kind.range.low && value <= kind.range.high) continue;
+    options.remark(
+        {file, Remark::Kind::implausible, std::string(kind.name) + " number",
+         fmt::format("the number {} = {:.6g} has no unit and was taken in {}: that is not of a damper's size; "
+                     "give the unit, as in {} = \"{}\"",
+                     kind.name, given->second.value, kind.unit, kind.name, kind.as_in)});
   }
 }
 

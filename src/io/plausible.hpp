@@ -14,4 +14,7 @@ namespace hysteron {
 void remark_on_sizes(const Recording& recording, const Sources& sources, const std::vector<Column>& columns,
                      const ReadOptions& options, const std::string& file);
 
+// Likewise of the numbers that campaign.toml or the command line gives for a whole recording.
+void remark_on_numbers(const ReadOptions& options, const std::string& file);
+
 }  // namespace hysteron

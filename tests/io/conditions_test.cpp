@@ -151,13 +151,14 @@ TEST(Conditions, UnitsThatCannotBeConvertedMustAgree) {
   const TemporaryFolder folder;
   folder.write("r1.csv", plain());
   folder.write("r2.csv", plain());
-  folder.write("campaign.toml", schema +
-                                    "[by.valve]\nc0 = 1\n[[recording]]\nfile = \"r1.csv\"\nvalve = \"2 turns\"\n"
-                                    "[[recording]]\nfile = \"r2.csv\"\nvalve = \"3 mm\"\n");
-  EXPECT_NE(message_of<InputError>([&] {
-              static_cast<void>(load_campaign({folder.path().string()}));
-            }).find("'valve' is in 'm'"),
-            std::string::npos);
+  const auto message = [&](const std::string& one, const std::string& other) {
+    folder.write("campaign.toml", schema + "[by.valve]\nc0 = 1\n[[recording]]\nfile = \"r1.csv\"\nvalve = " + one +
+                                      "\n[[recording]]\nfile = \"r2.csv\"\nvalve = " + other + "\n");
+    return message_of<InputError>([&] { static_cast<void>(load_campaign({folder.path().string()})); });
+  };
+  EXPECT_NE(message("\"2 turns\"", "\"3 mm\"").find("'valve' is given in 'm' and in line"), std::string::npos);
+  EXPECT_NE(message("\"50 %\"", "0.2").find("'valve' is given without a unit and in line"), std::string::npos);
+  EXPECT_NE(message("\"50 %\"", "0.2").find("in '%', expected one unit"), std::string::npos);
 }
 
 TEST(ClockTime, IsThatOfTheCalendar) {

@@ -1,0 +1,36 @@
+// What displacement and velocity show of faults of the motion's channels: samples that are lost, a channel that is
+// slower than the log, and a recorded velocity that lags the slope of the displacement or is off by a constant.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "core/recording.hpp"
+
+namespace hysteron {
+
+// The largest step of a channel that moves before and after it, many times longer than the steps around it: samples are
+// lost there, or two records were joined. Steps of time that are longer than the others make longer steps: a gap in the
+// times is no leap.
+struct Leap {
+  std::size_t after = 0;  // the step is from this sample to the next
+  double size = 0.0;      // in the channel's unit
+};
+std::optional<Leap> leap_of(const std::vector<double>& time, const std::vector<double>& values);
+
+// How many samples a channel holds each of its values for, where it does so throughout and its steps are not those of a
+// converter: a sensor that is slower than the log. Nothing for a channel that changes from sample to sample.
+std::optional<double> held_samples_of(const std::vector<double>& values);
+
+// A recorded velocity against the slope of the displacement.
+struct VelocityFault {
+  double offset = 0.0;  // m/s, that displacement and time do not bear out
+  double lag = 0.0;     // s, later than the slope; negative: earlier
+  // Of the largest speed, and of the root mean square of the speed that the lag makes of the acceleration.
+  double offset_share = 0.0;
+  double lag_share = 0.0;
+};
+VelocityFault velocity_fault_of(const Recording& recording);
+
+}  // namespace hysteron

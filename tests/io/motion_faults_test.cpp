@@ -1,0 +1,130 @@
+#include "io/motion_faults.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <sstream>
+#include <string>
+
+#include "core/random.hpp"
+#include "io/csv.hpp"
+
+namespace hysteron {
+namespace {
+
+constexpr double omega = 4.0 * std::numbers::pi;
+
+// Three seconds of 10 mm at 2 Hz, 500 samples a second, recorded by the channels given, each of the time and the
+// sample.
+using Channel = std::function<double(double time, int sample)>;
+double at(double t) { return 0.01 * std::sin(omega * t); }
+double speed(double t) { return 0.01 * omega * std::cos(omega * t); }
+double force(double t) { return 2000.0 * speed(t) + 5000.0 * at(t); }
+
+std::vector<std::string> remarks(
+    const Channel& x, const Channel& v, const Channel& f,
+    const std::function<double(int sample)>& time = [](int n) { return 0.002 * n; }) {
+  std::ostringstream text;
+  text.precision(12);
+  text << "time [s],displacement [m],velocity [m/s],force [N]\n";
+  for (int n = 0; n <= 1500; ++n) {
+    const double t = time(n);
+    text << t << "," << x(t, n) << "," << v(t, n) << "," << f(t, n) << "\n";
+  }
+  std::vector<std::string> said;
+  ReadOptions options;
+  options.remark = [&](const Remark& remark) { said.push_back(remark.text); };
+  (void)parse_csv(text.str(), "a.csv", options);
+  return said;
+}
+
+const Channel true_x = [](double t, int) { return at(t); };
+const Channel true_v = [](double t, int) { return speed(t); };
+const Channel true_f = [](double t, int) { return force(t); };
+
+void expect_one(const std::vector<std::string>& said, const std::string& beginning) {
+  ASSERT_EQ(said.size(), 1U) << beginning;
+  EXPECT_TRUE(said[0].starts_with(beginning)) << said[0];
+}
+
+TEST(MotionFaults, NothingIsSaidOfSoundChannels) {
+  EXPECT_TRUE(remarks(true_x, true_v, true_f).empty());
+  const Stream noise(3);
+  const auto said =
+      remarks([&](double t, int n) { return at(t) + 2e-5 * noise.normal(static_cast<std::uint64_t>(n)); },
+              [&](double t, int n) { return speed(t) + 2e-3 * noise.normal(5000 + static_cast<std::uint64_t>(n)); },
+              [&](double t, int n) { return force(t) + 5.0 * noise.normal(9000 + static_cast<std::uint64_t>(n)); });
+  EXPECT_TRUE(said.empty()) << said[0];
+}
+
+TEST(MotionFaults, AVelocityThatIsLate) {
+  expect_one(remarks(
+                 true_x, [](double t, int) { return speed(t - 0.015); }, true_f),
+             "the velocity is behind the slope of the displacement by 15 ms: a phase of 11 degrees");
+  expect_one(remarks(
+                 true_x, [](double t, int) { return speed(t + 0.015); }, true_f),
+             "the velocity is ahead of the slope of the displacement by 15 ms");
+  EXPECT_TRUE(remarks(
+                  true_x, [](double t, int) { return speed(t - 0.003); }, true_f)
+                  .empty())
+      << "two degrees";
+}
+
+TEST(MotionFaults, AVelocityThatIsOff) {
+  expect_one(remarks(
+                 true_x, [](double t, int) { return speed(t) + 0.04; }, true_f),
+             "the velocity is 0.04 m/s off what displacement and time tell on average, 32 % of its largest");
+}
+
+TEST(MotionFaults, AVelocityThatIsZero) {
+  expect_one(remarks(
+                 true_x, [](double, int) { return 0.0; }, true_f),
+             "the velocity is 0 throughout while the displacement moves: it is taken from the displacement instead");
+}
+
+TEST(MotionFaults, AChannelSlowerThanTheLog) {
+  expect_one(remarks(true_x, true_v, [](double, int n) { return force(0.002 * (n / 10 * 10)); }),
+             "the force holds each value for 10 samples: a sensor slower than the log looks so, and is 9 ms late");
+  // Five of its samples to twelve of the log's.
+  expect_one(remarks(true_x, true_v, [](double, int n) { return force(0.0048 * std::floor(n / 2.4)); }),
+             "the force holds each value for 2.4 samples");
+  // The steps of a converter, of a sine and of a straight line.
+  EXPECT_FALSE(held_samples_of({}).has_value());
+  for (const double step : {20.0, 80.0}) {
+    const auto said = remarks(true_x, true_v, [&](double t, int) { return step * std::round(force(t) / step); });
+    EXPECT_TRUE(said.empty()) << said[0];
+  }
+  std::vector<double> line;
+  for (int n = 0; n < 2000; ++n) {
+    line.push_back(0.1 * std::floor(n / 7.0));
+  }
+  EXPECT_FALSE(held_samples_of(line).has_value());
+}
+
+TEST(MotionFaults, LostSamples) {
+  // Sixty samples are gone and the times go on.
+  const auto skip = [](int n) { return 0.002 * (n < 700 ? n : n + 60); };
+  const auto said = remarks([&](double, int n) { return at(skip(n)); }, [&](double, int n) { return speed(skip(n)); },
+                            [&](double, int n) { return force(skip(n)); });
+  ASSERT_FALSE(said.empty());
+  EXPECT_TRUE(said[0].starts_with("the displacement leaps by 12.1 mm between 1.398 and 1.4 s")) << said[0];
+  // Where the times have the gap, it is no leap.
+  for (const std::string& text : remarks(true_x, true_v, true_f, skip)) {
+    EXPECT_FALSE(text.starts_with("the displacement leaps")) << text;
+  }
+}
+
+TEST(MotionFaults, AStepOfTheMotionIsNoLeap) {
+  std::vector<double> time;
+  std::vector<double> step;
+  for (int n = 0; n < 400; ++n) {
+    time.push_back(0.01 * n);
+    step.push_back(n < 200 ? 0.0 : 0.02);
+  }
+  EXPECT_FALSE(leap_of(time, step).has_value()) << "it rests before and after";
+}
+
+}  // namespace
+}  // namespace hysteron
