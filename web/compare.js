@@ -62,7 +62,7 @@ function draw() {
         r.models.map((y, m) => ({ x: r.time, y: y.map((v, i) => (isNumber(v) ? r.force_n[i] - v : null)), color: color(m), dash: dash(m) }))));
   };
   const lags = models[0].residual.autocorrelation.map((_, k) => k + 1);
-  const limit = 1.96 / Math.sqrt(models[0].residual.samples);
+  const limit = models[0].residual.white_band ?? 1.96 / Math.sqrt(models[0].residual.samples);
   const edge = (sign) => ({ x: [1, lags.length], y: [sign * limit, sign * limit], color: css("--muted"), dash: "3 3" });
   const reach = models[0].residual.histogram.reach;
   const bins = models[0].residual.histogram.density.length;

@@ -46,7 +46,7 @@ function residual(record, of) {
     ["Whiteness", `${percent(record.lags_outside, 2)} of ${record.autocorrelation.length} lags are outside the band within which white noise keeps 95 %`],
   ];
   const lags = record.autocorrelation.map((_, k) => k + 1);
-  const limit = 1.96 / Math.sqrt(record.samples);
+  const limit = record.white_band ?? 1.96 / Math.sqrt(record.samples);
   const edge = (sign) => ({ x: [1, lags.length], y: [sign * limit, sign * limit], cls: "measured", dash: "5 4" });
   const { reach, density } = record.histogram;
   const edges = density.map((_, k) => -reach + (2 * reach * k) / density.length);

@@ -14,12 +14,14 @@ double ResidualFacts::effective_samples() const {
 ResidualFacts residual_facts(const std::vector<std::vector<double>>& residuals) {
   ResidualFacts result;
   double square = 0.0;
+  double fourth = 0.0;  // of white noise of each recording's own size: variance of a sum of neighbours' products
   for (const std::vector<double>& series : residuals) {
     double own = 0.0;
     for (const double value : series) {
       own += value * value;
     }
     square += own;
+    fourth += own * own / static_cast<double>(std::max<std::size_t>(series.size(), 1));
     result.samples += series.size();
     if (!series.empty()) {
       result.mean_square += own / static_cast<double>(series.size()) / static_cast<double>(residuals.size());
@@ -30,7 +32,8 @@ ResidualFacts residual_facts(const std::vector<std::vector<double>>& residuals) 
   if (!(square > 0.0)) {
     return result;
   }
-  const double limit = 1.96 / std::sqrt(static_cast<double>(result.samples));
+  result.white_band = 1.96 * std::sqrt(fourth) / square;
+  std::size_t outside = 0;
   for (std::size_t lag = 1; lag <= residual_lags; ++lag) {
     double product = 0.0;
     for (const std::vector<double>& series : residuals) {
@@ -39,8 +42,9 @@ ResidualFacts residual_facts(const std::vector<std::vector<double>>& residuals) 
       }
     }
     result.autocorrelation[lag - 1] = product / square;
-    result.outside += std::fabs(product / square) > limit ? 1.0 / static_cast<double>(residual_lags) : 0.0;
+    outside += std::fabs(product / square) > result.white_band ? 1 : 0;
   }
+  result.outside = static_cast<double>(outside) / static_cast<double>(residual_lags);
   const double deviation = std::sqrt(square / static_cast<double>(result.samples));
   const double width = 2.0 * histogram_reach / static_cast<double>(histogram_bins);
   const double one = 1.0 / static_cast<double>(result.samples);

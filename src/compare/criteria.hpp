@@ -20,7 +20,10 @@ struct ResidualFacts {
   std::size_t samples = 0;
   double mean_square = 0.0;             // mean over the recordings of each one's
   std::vector<double> autocorrelation;  // at lags 1 .. residual_lags, about zero; 0 where the residual is
-  double outside = 0.0;                 // share of these lags beyond 1.96 / sqrt(samples), where white noise has 0.05
+  // Within which 95 % of the lags of white noise stay, each recording's noise of its own size:
+  //   1.96 sqrt(sum_r (sum r^2)^2 / N_r) / sum_r sum r^2, which is 1.96 / sqrt(N) where all are of one size.
+  double white_band = 0.0;
+  double outside = 0.0;  // share of these lags beyond it
   std::vector<double> histogram;        // density of residual / its root mean square, histogram_bins of equal width
   double beyond = 0.0;                  // share beyond histogram_reach
 

@@ -18,6 +18,7 @@ std::vector<double> normalised_residual(const Recording& recording, const std::v
 json residual_json(const ResidualFacts& facts) {
   return {{"samples", facts.samples},
           {"autocorrelation", facts.autocorrelation},
+          {"white_band", facts.white_band},
           {"lags_outside", facts.outside},
           {"histogram", {{"reach", histogram_reach}, {"density", facts.histogram}, {"beyond", facts.beyond}}}};
 }

@@ -36,6 +36,24 @@ TEST(Criteria, WhiteNoiseIsWhiteAndNormal) {
   EXPECT_NEAR(facts.histogram[histogram_bins / 2], 0.3989, 0.02);
 }
 
+// One recording whose noise is twenty times that of the others: it alone makes the sum.
+TEST(Criteria, WhiteNoiseOfUnequalSizesIsWhite) {
+  double outside = 0.0;
+  constexpr int draws = 50;
+  for (int k = 0; k < draws; ++k) {
+    std::vector<std::vector<double>> residuals;
+    for (int r = 0; r < 5; ++r) {
+      residuals.push_back(correlated(0.0, 1500, 700 + static_cast<std::uint64_t>(5 * k + r)));
+    }
+    for (double& value : residuals[0]) {
+      value *= 20.0;
+    }
+    outside += residual_facts(residuals).outside / draws;
+  }
+  EXPECT_NEAR(outside, 0.05, 0.02);  // four standard deviations of the mean share of 2,000 lags
+  EXPECT_NEAR(residual_facts({correlated(0.0, 900, 1)}).white_band, 1.96 / 30.0, 1e-12);
+}
+
 TEST(Criteria, AutocorrelationIsThatOfTheProcess) {
   const ResidualFacts facts = residual_facts({correlated(0.8, 200000, 3)});
   for (std::size_t lag = 1; lag <= 6; ++lag) {
