@@ -153,6 +153,30 @@ TEST(NoiseFloor, OfAMotionThatNeverRepeatsIsHighPass) {
       << "a ramp that never ends";
 }
 
+// A drive that steps out of time with the motion changes the force from period to period: that is no noise.
+TEST(NoiseFloor, WhatAVaryingDriveChangesIsNoNoise) {
+  Recording recording = noisy(10.0, 0.0, 0.0);
+  recording.drive_kind = DriveKind::current;
+  for (std::size_t n = 0; n < recording.size(); ++n) {
+    const double drive = std::fmod(recording.time[n], 0.34) < 0.17 ? 0.2 : 1.0;
+    recording.force[n] += 600.0 * drive * std::tanh(recording.velocity[n] / 0.02);
+    recording.drive.push_back(drive);
+  }
+  const NoiseFloor floor = noise_floor(recording);
+  EXPECT_EQ(floor.method, NoiseMethod::high_pass);
+  EXPECT_NEAR(floor.sigma, 10.0, 1.5);
+  // In time with the motion it repeats, and so does the force.
+  recording = noisy(10.0, 0.0, 0.0);
+  recording.drive_kind = DriveKind::current;
+  for (std::size_t n = 0; n < recording.size(); ++n) {
+    const double drive = std::fmod(recording.time[n], 0.5) < 0.25 ? 0.2 : 1.0;
+    recording.force[n] += 600.0 * drive * std::tanh(recording.velocity[n] / 0.02);
+    recording.drive.push_back(drive);
+  }
+  EXPECT_EQ(noise_floor(recording).method, NoiseMethod::cycles);
+  EXPECT_NEAR(noise_floor(recording).sigma, 10.0, 1.5);
+}
+
 TEST(NoiseFloor, OfFewSamplesIsUnknown) {
   Recording recording = noisy(10.0, 0.0, 0.0);
   for (std::vector<double>* channel : channels_of(recording)) {

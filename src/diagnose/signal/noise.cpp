@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 #include "core/drive.hpp"
 #include "core/random.hpp"
+#include "core/squared.hpp"
 #include "fit/layout.hpp"
 #include "io/velocity.hpp"
 
@@ -143,6 +145,7 @@ struct Piece {
   double count = 0.0;
   double compared = 0.0;
   double differences = 0.0;  // squared
+  double drives = 0.0;       // of the drive, squared
   double sum = 0.0;
   double squares = 0.0;
 };
@@ -152,9 +155,25 @@ struct Stretch {
   double usual = 0.0;  // what its displacements differ by, in the middle of its pieces, as the tolerance counts
 };
 
+// A drive that varies within the recording, without its noise; empty where it is constant.
+struct VaryingDrive {
+  explicit VaryingDrive(const Recording& recording) {
+    if (drive_varies(recording)) {
+      values = quiet_drive(recording.drive);
+      const auto count = static_cast<double>(values.size());
+      const double mean = std::accumulate(values.begin(), values.end(), 0.0) / count;
+      for (const double value : values) {
+        variance += squared(value - mean) / count;
+      }
+    }
+  }
+  std::vector<double> values;
+  double variance = 0.0;  // over the recording
+};
+
 // The longest run of pieces of a period in which the displacement comes again a period later within `tolerance` of its
-// standard deviation over the period from there on.
-Stretch longest_stretch(const Recording& recording, double period, double tolerance) {
+// standard deviation over the period from there on, and so does the drive within that of its own over the recording.
+Stretch longest_stretch(const Recording& recording, const VaryingDrive& drive, double period, double tolerance) {
   const double start = recording.time.front();
   const double length = period / static_cast<double>(pieces);
   const auto count = static_cast<std::size_t>((recording.time.back() - start) / length) + 1;
@@ -172,6 +191,7 @@ Stretch longest_stretch(const Recording& recording, double period, double tolera
       later.to(t + period);
       const double d = later.of(recording.displacement) - recording.displacement[n];
       piece.differences += d * d;
+      piece.drives += drive.values.empty() ? 0.0 : squared(later.of(drive.values) - drive.values[n]);
       piece.compared += 1.0;
     }
   }
@@ -197,7 +217,8 @@ Stretch longest_stretch(const Recording& recording, double period, double tolera
   std::vector<double> error(variance.size(), 1e300);
   for (std::size_t k = 0; k < variance.size(); ++k) {
     if (row[k].compared > 0.0 && variance[k] > least) {
-      error[k] = std::sqrt(0.5 * row[k].differences / (row[k].compared * variance[k]));
+      const double of_drive = drive.variance > 0.0 ? row[k].drives / drive.variance : 0.0;
+      error[k] = std::sqrt(0.5 * std::max(row[k].differences / variance[k], of_drive) / row[k].compared);
     }
     run = error[k] < tolerance ? run + 1 : 0;
     if (run > longest) {
@@ -330,6 +351,7 @@ Periodicity periodicity(const Recording& recording) {
   if (!(frequency > 0.0) || recording.size() < fewest_noise_samples) {
     return {};
   }
+  const VaryingDrive drive(recording);
   // Ramps and rests shift the period with which the whole repeats best: the stretch tells it better, and is then told
   // better itself. Its ends reach into the ramps as far as the tolerance lets them: what is usual in it bounds it
   // closer.
@@ -337,7 +359,7 @@ Periodicity periodicity(const Recording& recording) {
   constexpr int trials = 6;
   for (int k = -trials; k <= trials; ++k) {
     const double period = (1.0 + 0.04 * k / trials) / frequency;
-    const Periodicity found = longest_stretch(recording, period, nearly * repeating).cycle;
+    const Periodicity found = longest_stretch(recording, drive, period, nearly * repeating).cycle;
     if (found.ends - found.begins > best.ends - best.begins) {
       best = found;
     }
@@ -345,11 +367,11 @@ Periodicity periodicity(const Recording& recording) {
   if (!(best.period > 0.0)) {
     return {};
   }
-  Stretch found = longest_stretch(recording, refined(recording, best.period, best.begins, best.ends), repeating);
+  Stretch found = longest_stretch(recording, drive, refined(recording, best.period, best.begins, best.ends), repeating);
   best = found.cycle;
   for (int pass = 0; pass < 2 && found.cycle.period > 0.0; ++pass) {
     const double tolerance = std::clamp(usual_times * found.usual, least_tolerance, repeating);
-    found = longest_stretch(recording, refined(recording, best.period, best.begins, best.ends), tolerance);
+    found = longest_stretch(recording, drive, refined(recording, best.period, best.begins, best.ends), tolerance);
     best = found.cycle.period > 0.0 ? found.cycle : best;
   }
   return best;
