@@ -93,6 +93,10 @@ void run(const Options& options) {
     say_beside(options.out, result.note + "\n" + about_steps(vector));
     return;
   }
+  // An FMU is an archive, and replaced as one.
+  if (!one_file || result.files.size() > 1) {
+    refuse_foreign(folder, result.files);
+  }
   if (!folder.empty()) {
     make_output_folder(folder);
   }

@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <map>
 #include <memory>
 #include <utility>
 
@@ -38,18 +40,42 @@ std::string campaign_toml(const Campaign& campaign, const std::string& only) {
   return text;
 }
 
-// Measured recordings go byte for byte, with their card, their licence and the checksums of those written.
-void copy_shipped(const DatasetEntry& entry, const Campaign& campaign, const std::string& only,
-                  const std::filesystem::path& out) {
-  const std::filesystem::path folder = shipped_folder(entry.id);
+// Names and contents of the files of the recordings chosen. Measured ones go byte for byte, with their card, their
+// licence and the checksums of those written.
+std::map<std::string, std::string> files_of(const DatasetEntry& entry, const Campaign& campaign,
+                                            const std::string& only) {
+  std::map<std::string, std::string> files;
+  const bool shipped = !entry.licence.empty();
   std::string sums;
   for (const Recording& recording : campaign.recordings) {
     if (recording.file.find(only) == std::string::npos) continue;
-    write_file_atomically(out / recording.file, read_file(folder / recording.file));
+    files[recording.file] =
+        shipped ? read_file(shipped_folder(entry.id) / recording.file) : csv_of_simulated(recording);
     sums += recording.sha256 + "  " + recording.file + "\n";
   }
-  for (const char* name : {"README.md", "LICENSE"}) write_file_atomically(out / name, read_file(folder / name));
-  write_file_atomically(out / shipped_checksums, sums);
+  if (shipped) {
+    for (const char* name : {"README.md", "LICENSE"}) files[name] = read_file(shipped_folder(entry.id) / name);
+    files[std::string(shipped_checksums)] = sums;
+  } else if (std::string toml = campaign_toml(campaign, only); !toml.empty()) {
+    files["campaign.toml"] = std::move(toml);
+  }
+  return files;
+}
+
+// What is there of another hand would be lost, or rule the folder.
+void refuse_others(const std::filesystem::path& folder, const std::map<std::string, std::string>& files) {
+  const auto refuse = [&](const std::string& name, const std::string& why) {
+    throw InputError("--out " + folder.string() + ": " + name + " is there" + why + ", expected another folder");
+  };
+  std::error_code code;
+  for (const auto& [name, text] : files) {
+    if (std::filesystem::is_regular_file(folder / name, code) && read_file(folder / name) != text) {
+      refuse(name, " and differs from what would be written");
+    }
+  }
+  if (!files.contains("campaign.toml") && std::filesystem::exists(folder / "campaign.toml", code)) {
+    refuse("campaign.toml", ", which the dataset does not have");
+  }
 }
 
 // The one recording chosen, on standard output.
@@ -103,21 +129,13 @@ void add_generate(CLI::App& program) {
       print_one(*entry, campaign, options->only);
       return;
     }
+    const std::map<std::string, std::string> files = files_of(*entry, campaign, options->only);
+    refuse_others(options->out, files);
     make_output_folder(options->out);
+    for (const auto& [name, text] : files) write_file_atomically(std::filesystem::path(options->out) / name, text);
     const auto written = std::ranges::count_if(campaign.recordings, [&](const Recording& recording) {
       return recording.file.find(options->only) != std::string::npos;
     });
-    if (!entry->licence.empty()) {
-      copy_shipped(*entry, campaign, options->only, options->out);
-    } else {
-      for (const Recording& recording : campaign.recordings) {
-        if (recording.file.find(options->only) == std::string::npos) continue;
-        write_file_atomically(std::filesystem::path(options->out) / recording.file, csv_of_simulated(recording));
-      }
-      if (const std::string toml = campaign_toml(campaign, options->only); !toml.empty()) {
-        write_file_atomically(std::filesystem::path(options->out) / "campaign.toml", toml);
-      }
-    }
     fmt::print("{} recordings in {}\n", written, options->out);
   });
 }

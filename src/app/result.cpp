@@ -6,6 +6,7 @@
 
 #include "app/command.hpp"
 #include "core/error.hpp"
+#include "io/file.hpp"
 #include "io/format.hpp"
 #include "io/mat5_writer.hpp"
 #include "io/output.hpp"
@@ -37,6 +38,18 @@ void refuse_inputs(const std::string& out, const std::vector<std::string>& input
       throw InputError("--out " + out + ": " + (folder ? "is among the recordings of " + input : "is read") +
                        " and would be replaced, expected another file");
     }
+  }
+}
+
+void refuse_foreign(const std::filesystem::path& folder, const std::map<std::string, std::string>& files) {
+  for (const auto& [name, text] : files) {
+    const std::filesystem::path path = folder / name;
+    std::error_code code;
+    if (!std::filesystem::is_regular_file(path, code)) continue;
+    const std::string there = read_file(path);
+    if (there == text || there.find("hysteron") != std::string::npos) continue;
+    throw InputError("--out " + folder.string() + ": " + name +
+                     " is there and was not written by hysteron, expected another folder");
   }
 }
 

@@ -1,6 +1,8 @@
 // The one result of a command.
 #pragma once
 
+#include <filesystem>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -10,7 +12,10 @@ namespace hysteron::app {
 // Throws InputError where `out` is one of the files read, or the file of a recording in one of the folders read, which
 // the result would replace.
 void refuse_inputs(const std::string& out, const std::vector<std::string>& inputs);
-// The same for a table, whose ending must not be that of another kind of file.
+// Throws InputError where a file of `folder` that would be written is there, differs, and does not say that hysteron
+// wrote it.
+void refuse_foreign(const std::filesystem::path& folder, const std::map<std::string, std::string>& files);
+// As refuse_inputs for a table, whose ending must not be that of another kind of file.
 void check_table(const std::string& out, const std::vector<std::string>& inputs);
 // To a file as write_file_atomically does, or, for `-`, to standard output, whose failure main tells.
 void write_result(const std::string& out, std::string_view bytes);

@@ -106,6 +106,32 @@ TEST_F(Results, NothingThatIsReadIsReplaced) {
             "error: --out p.xlsx: tables are not written as .xlsx, expected .csv or .mat\n");
 }
 
+TEST_F(Results, NothingOfAnotherHandIsReplaced) {
+  fit();
+  const auto refused = [&](const std::vector<std::string>& words, const fs::path& file, const std::string& why) {
+    fs::create_directories((folder_ / file).parent_path());
+    write(folder_ / file, "mine\n");
+    const Outcome outcome = run(words);
+    EXPECT_EQ(outcome.status, 2) << words[0];
+    EXPECT_NE(outcome.err.find(why), std::string::npos) << outcome.err;
+    EXPECT_EQ(read(folder_ / file), "mine\n");
+  };
+  const std::vector<std::string> generate = {"generate", "rd8040-twin", "--only", "2.0Hz_0.5A", "--out", "twin"};
+  refused(generate, "twin/2.0Hz_0.5A.csv", "2.0Hz_0.5A.csv is there and differs from what would be written");
+  fs::remove(folder_ / "twin/2.0Hz_0.5A.csv");
+  refused(generate, "twin/campaign.toml", "campaign.toml is there, which the dataset does not have");
+  fs::remove(folder_ / "twin/campaign.toml");
+  EXPECT_EQ(run(generate).status, 0);
+  EXPECT_EQ(run(generate).status, 0) << "what it wrote itself";
+  const std::vector<std::string> exported = {"export", "fitted/model.json", "--to", "c", "--out", "c"};
+  refused(exported, "c/bouc_wen.c", "bouc_wen.c is there and was not written by hysteron");
+  fs::remove(folder_ / "c/bouc_wen.c");
+  EXPECT_EQ(run(exported).status, 0);
+  EXPECT_EQ(run(exported).status, 0);
+  refused({"minimise", "--objective", "python3 mine.py", "--box", "x=0:1", "--budget", "10", "--out", "mine.py"},
+          "mine.py", "--out mine.py: is read and would be replaced");
+}
+
 TEST_F(Results, RecordingsWithoutTheDriveThatParametersFollowAreRefused) {
   std::string without = csv(1.5, 0.5);
   for (auto at = without.find(",0.5\n"); at != std::string::npos; at = without.find(",0.5\n")) {
