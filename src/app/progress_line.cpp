@@ -14,7 +14,7 @@ using Clock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds tick{500};
 constexpr std::chrono::milliseconds fastest{100};
 // Before, what is left is a guess.
-constexpr double least_spent = 2.0;
+constexpr double least_spent = 4.0;
 constexpr double least_share = 0.03;
 
 std::size_t terminal_width() {
@@ -42,12 +42,14 @@ std::string cut(const std::string& text, std::size_t width) {
 
 std::string progress_text(const std::string& stage, double share, const std::string& detail, double spent,
                           std::size_t width) {
-  std::string text = fmt::format("{}  {:.0f} %", stage, 100.0 * share);
-  if (!detail.empty()) text += "  " + detail;
-  text += "  " + duration_text(spent);
+  // What is cut off a narrow terminal is the end of the words.
+  std::string text = fmt::format("{:.0f} %  {}", 100.0 * share, duration_text(spent));
   if (spent >= least_spent && share >= least_share) {
-    text += ", about " + duration_text(spent * (1.0 - share) / share) + " left";
+    const double left = spent * (1.0 - share) / share;
+    text += left < 1.0 ? ", nearly done" : ", about " + duration_text(left) + " left";
   }
+  text += "  " + stage;
+  if (!detail.empty()) text += "  " + detail;
   return cut(text, width);
 }
 

@@ -9,7 +9,7 @@
 
 namespace hysteron::app {
 
-// "stage  40 %  detail  12 s, about 18 s left", no wider than the terminal.
+// "40 %  12 s, about 18 s left  stage  detail", no wider than the terminal.
 std::string progress_text(const std::string& stage, double share, const std::string& detail, double spent,
                           std::size_t width);
 

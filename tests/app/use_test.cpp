@@ -233,11 +233,12 @@ TEST_F(Use, ProgressIsOneLineNoWiderThanTheTerminal) {
 
 TEST(ProgressText, SaysWhatHowFarHowLong) {
   using app::progress_text;
-  EXPECT_EQ(progress_text("pso", 0.25, "250 of 1000", 10.0, 80), "pso  25 %  250 of 1000  10 s, about 30 s left");
-  EXPECT_EQ(progress_text("pso", 0.25, "", 400.0, 80), "pso  25 %  7 min, about 20 min left");
-  EXPECT_EQ(progress_text("pso", 0.0, "", 5.0, 80), "pso  0 %  5 s") << "nothing is known of what is left";
-  EXPECT_EQ(progress_text("pso", 0.5, "", 1.0, 80), "pso  50 %  1 s");
-  EXPECT_EQ(progress_text("\xc3\xa9\xc3\xa9\xc3\xa9", 0.5, "", 1.0, 2), "\xc3\xa9\xc3\xa9") << "characters, not bytes";
+  EXPECT_EQ(progress_text("pso", 0.25, "250 of 1000", 10.0, 80), "25 %  10 s, about 30 s left  pso  250 of 1000");
+  EXPECT_EQ(progress_text("pso", 0.25, "", 400.0, 80), "25 %  7 min, about 20 min left  pso");
+  EXPECT_EQ(progress_text("pso", 0.0, "", 5.0, 80), "0 %  5 s  pso") << "nothing is known of what is left";
+  EXPECT_EQ(progress_text("pso", 0.5, "", 1.0, 80), "50 %  1 s  pso");
+  EXPECT_EQ(progress_text("pso", 0.99, "", 50.0, 80), "99 %  50 s, nearly done  pso");
+  EXPECT_EQ(progress_text("\xc3\xa9\xc3\xa9\xc3\xa9", 0.5, "", 1.0, 13), "50 %  1 s  \xc3\xa9\xc3\xa9") << "characters, not bytes";
 }
 
 // ---- Motions that are not those of a damper ----
