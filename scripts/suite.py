@@ -222,7 +222,7 @@ for budget, part, analysis in results:
     else:
         lines.append("No solver is worse than random search on any problem.")
     lines.append("")
-lines += ["Why some are worse than random search: a population has made three to five generations by 100 evaluations, each bound "
+lines += ["Likely reasons, not measured, why some are worse than random search: a population has made two to ten generations by 100 evaluations, each bound "
           "to where its first points fell, while random search still looks everywhere; a local method (pattern search, the "
           "simplex, BOBYQA) spends such a budget around one random start, and BOBYQA and pattern search also end in a local "
           "minimum later. With one seed a problem, single cases are chance too.", ""]
