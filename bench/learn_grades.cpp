@@ -125,7 +125,7 @@ void read(const std::filesystem::path& folder, Rows& rows) {
       row.id = candidate.id;
       row.features = listed(hysteron::features_of(candidate, of));
       row.right = truth.contains(candidate.id);
-      const std::vector<const hysteron::Contender*> others = hysteron::as_good(candidate);
+      const std::vector<const hysteron::Contender*> others = hysteron::equally_good(candidate);
       for (const hysteron::Contender* other : others) {
         row.right = row.right || truth.contains(other->id);
       }

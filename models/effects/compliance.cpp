@@ -22,7 +22,7 @@ struct Compliance {
   static constexpr Knowledge knowledge = {
       .family = families::series,
       .in_words = "a compliance in series",
-      .shows = "the rod travels further before the force has turned the larger the force is",
+      .shows = "the larger the force, the further the rod travels before the force has reversed",
       .experiment =
           "[current steps while the damper is held, and the same stroke at three currents|the same stroke at three "
           "speeds]: the deflection of a compliance grows with the force",

@@ -23,7 +23,7 @@ struct MagneticSaturation {
   static constexpr Knowledge knowledge = {
       .family = families::drive_path,
       .in_words = "magnetic saturation",
-      .shows = "the force rises ever less with the current",
+      .shows = "the force rises less and less with the current",
       .experiment = "at least five current levels up to the highest",
       .needs = needs,
       .kin = kin,

@@ -19,7 +19,7 @@ struct OffsetForce {
   static constexpr Knowledge knowledge = {
       .family = families::place,
       .in_words = "a constant offset force",
-      .shows = "the loops sit higher or lower by one force, at any place and speed",
+      .shows = "the loops sit higher or lower by a constant force, at any position and speed",
       .experiment = "a slow full stroke around two mid-positions: an offset is the same in both, a gas spring is not",
       .acts = Acts::by_place,
       .one_form = true,

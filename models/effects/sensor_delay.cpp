@@ -23,7 +23,7 @@ struct SensorDelay {
   static constexpr Knowledge knowledge = {
       .family = families::phase,
       .in_words = "a delay between the motion and force channels",
-      .shows = "the force lags motion[ and current] by one time at any frequency, and leads where the lag is negative",
+      .shows = "the force lags the motion[ and current] by the same time at every frequency, and leads where the lag is negative",
       .experiment =
           "[a current step at constant velocity and ]sines at frequencies an octave apart: a delay stays constant in "
           "ms",

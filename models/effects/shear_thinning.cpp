@@ -26,7 +26,7 @@ struct ShearThinning {
   static constexpr Knowledge knowledge = {
       .family = families::fluid,
       .in_words = "shear thinning",
-      .shows = "the force rises ever less with the speed",
+      .shows = "the force rises less and less with the speed",
       .experiment = "constant-velocity runs over at least a decade of speed",
       .kin = kin,
       .holds = holds,

@@ -22,7 +22,7 @@ struct VelocityLag {
   static constexpr Knowledge knowledge = {
       .family = families::phase,
       .in_words = "a lag of the velocity channel",
-      .shows = "the recorded velocity follows the slope of the displacement later by one time, at any frequency",
+      .shows = "the recorded velocity lags the slope of the displacement by the same time at every frequency",
       .experiment =
           "a sine at each of three frequencies with displacement and velocity recorded: the slope of the displacement "
           "shows the lag of the velocity channel",

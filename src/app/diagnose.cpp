@@ -185,7 +185,7 @@ void add_diagnose(CLI::App& program) {
       ->allow_extra_args(false);
   command
       ->add_option("--laws", options->laws,
-                   "damper laws that the base law is set against; `none`: it is taken for right")
+                   "damper laws to compare with the base law; `none`: the base law is taken for right")
       ->delimiter(',')
       ->allow_extra_args(false);
   command->add_option("--most-effects", options->most_effects, "effects the augmented model may have")

@@ -52,9 +52,8 @@ int run(int count, char** arguments) {
       "  hysteron generate rd8040-twin --only 2.0Hz --out twin\n"
       "  hysteron fit twin --model bouc-wen --by-current alpha:2,c0:2 --out out\n"
       "  hysteron diagnose twin --model bouc-wen --by-current alpha:2,c0:2 --out diagnosis\n"
-      "The last two write report.html, a page to open. With recordings of your own, a folder of CSV files takes the "
-      "place\n"
-      "of twin. Every command has its own --help, with examples.");
+      "The last two write report.html; open it in a browser. For recordings of your own, give a folder of CSV\n"
+      "files in place of twin. Every command has its own --help, with examples.");
   // Of several processes with one command line the first speaks.
   const auto started = launched();
   const auto complain = [&](const std::string& message) {
@@ -134,7 +133,7 @@ int main(int count, char** arguments) {
     occupy_standard_descriptors();
     return flushed(run(count, arguments));
   } catch (...) {
-    std::fputs("error: internal: no more is known\n", stderr);
+    std::fputs("error: internal: unknown exception\n", stderr);
     return 1;
   }
 }

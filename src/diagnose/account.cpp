@@ -40,7 +40,7 @@ std::string interval_text(const ParameterInterval& p) {
   const std::string value = size_text(p.value, p.unit, digits);
   if (!p.half_width) {
     return value +
-           (p.bound.empty() ? " (not told by these recordings)" : " (the " + p.bound + " end of what was searched)");
+           (p.bound.empty() ? " (not determined by these recordings)" : " (at the " + p.bound + " end of its box)");
   }
   auto [low, high] = interval_ends(p.value - *p.half_width, p.value + *p.half_width, digits,
                                    [&](double end, int digits_of_it) { return size_text(end, p.unit, digits_of_it); });
@@ -146,7 +146,7 @@ std::string sentence_of(const Diagnosis& diagnosis, const Named& named,
         in_its_place(candidate_of(named, diagnosis.evidence), evidence_for(named, diagnosis.evidence));
     if (others.leave_the_contrast > 0) {
       text += fmt::format(
-          ". Its signature contrast is gone with it and stays behind {} of {} effects and laws tried in its place",
+          ". Its signature contrast vanishes with it and remains with {} of {} effects and laws tried in its place",
           others.leave_the_contrast, others.tried);
     }
     text += fmt::format(
@@ -188,13 +188,13 @@ std::vector<Rejected> rejected_of(const Diagnosis& diagnosis) {
     }
     const double share = std::max(0.0, tried.gain);
     if (tried.evidence < 0.0) {
-      result.push_back({id, "alone it explains no more than chance would"});
+      result.push_back({id, "alone it gains no more than chance"});
     } else if (!diagnosis.search.found.empty()) {
       result.push_back({id, fmt::format("alone it explains {:.0f} % of what the augmented model explains",
                                         100.0 * std::min(share / all, 1.0))});
     } else {
-      result.push_back({id, fmt::format("alone it takes {:.2g} % off the squared error: too little, or not on "
-                                        "recordings left out",
+      result.push_back({id, fmt::format("alone it takes {:.2g} % off the squared error: too little, or not "
+                                        "confirmed by recordings left out",
                                         100.0 * share / base)});
     }
   }
@@ -253,8 +253,8 @@ void note_verdict(Diagnosis& diagnosis) {
   const Verdict& verdict = diagnosis.verdict;
   if (verdict.answer == Answer::complete && above_noise_floor(diagnosis)) {
     diagnosis.notes.push_back(
-        fmt::format("what is left is {:.2f} times the noise floor, {:.2f} times on the held-out recordings; too little "
-                    "of it is seen to follow the motion to tell it from slow noise, of which the floor misses a part",
+        fmt::format("the residual is {:.2f} times the noise floor, {:.2f} times on held-out recordings; too little of it "
+                    "follows the motion to tell it from slow noise, which the floor underestimates",
                     diagnosis.search.augmented.cost / diagnosis.noise_floor,
                     diagnosis.search.augmented.heldout / diagnosis.noise_floor_heldout));
   }
@@ -279,11 +279,12 @@ void note_verdict(Diagnosis& diagnosis) {
                                              : ", in the augmented model still"));
   }
   for (const Named& named : verdict.effects) {
-    const Candidate& candidate = candidate_of(named, diagnosis.evidence);
-    for (std::size_t k = 0; k < candidate.kept.size() && !named.in_place_of; ++k) {
-      diagnosis.notes.push_back(fmt::format("behind {} {} keeps {:.0f} % of its gain",
-                                            search_of(diagnosis, named).swaps[k].model, named.id,
-                                            100.0 * std::clamp(candidate.kept[k], 0.0, 1.0)));
+    if (named.in_place_of) {
+      continue;
+    }
+    for (const GainBehindLaw& row : candidate_of(named, diagnosis.evidence).behind_laws) {
+      diagnosis.notes.push_back(fmt::format("behind {} {} keeps {:.0f} % of its gain", row.law, named.id,
+                                            100.0 * std::clamp(row.share, 0.0, 1.0)));
     }
   }
   const std::set<std::string> richer(diagnosis.search.richer.begin(), diagnosis.search.richer.end());

@@ -81,7 +81,7 @@ Doubt doubt_of_completeness(const Search& search, const Workbench& fine, const s
     return {};
   }
   if (left.squares > above_floor * left.floor && uneven(left.evenness)) {
-    return {"the size of what is left follows the motion, as that of noise does not"};
+    return {"the size of the residual follows the motion, and that of noise would not"};
   }
   if (tone) {
     return {sentence_of(*tone), true};

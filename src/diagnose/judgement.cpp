@@ -12,10 +12,10 @@
 namespace hysteron {
 namespace {
 
-// The law asked for is given up for no less.
-constexpr double two_standard_errors = 2.0;
+// Standard errors by which another law must predict recordings left out better to take the place of the one asked for.
+constexpr double replacement_errors = 2.0;
 
-Judgement judged(Search found, const Searching& searching) {
+Judgement judge_search(Search found, const Searching& searching) {
   const Workbench& bench = searching.bench;
   const Workbench& fine = searching.fine;
   Judgement result;
@@ -46,9 +46,9 @@ Search search_behind(const std::string& law, const Searching& searching, const S
   return search(searching.quick, searching.fine, {law, {}, {}}, searching.options, progress);
 }
 
-// With whether the recordings belong together or follow a column, judging ones too: that is no matter of how well a
-// fit predicts.
-Judgement whole(Judgement judgement, const Searching& searching) {
+// Adds whether the recordings are of one device state and whether parameters follow an unused column; both use the
+// held-out recordings too, because neither measures prediction.
+Judgement with_recording_checks(Judgement judgement, const Searching& searching) {
   const ByRecording base = by_recording(searching.every, judgement.search.base);
   judgement.column = unused_column(searching.every, base);
   if (judgement.evidence.doubt_of_data.empty()) {
@@ -63,7 +63,7 @@ Judgement whole(Judgement judgement, const Searching& searching) {
 
 Judgement behind_asked_or_better(Searching searching, const std::string& asked, const SearchProgress& progress,
                                  std::vector<std::string>& notes) {
-  Judgement first = judged(search_behind(asked, searching, progress), searching);
+  Judgement first = judge_search(search_behind(asked, searching, progress), searching);
   const std::string law = better_law(first.evidence);
   const SearchProgress behind_law = [&](double share, const std::string& stage) {
     progress(0.9 + 0.02 * share, "behind " + law + ": " + stage);
@@ -78,22 +78,22 @@ Judgement behind_asked_or_better(Searching searching, const std::string& asked, 
     const SearchProgress again = [&](double share, const std::string& stage) {
       progress(0.92 + 0.02 * share, "behind " + asked + " again: " + stage);
     };
-    first = judged(search_behind(asked, searching, again), searching);
+    first = judge_search(search_behind(asked, searching, again), searching);
   }
   if (!other) {
-    return whole(std::move(first), searching);
+    return with_recording_checks(std::move(first), searching);
   }
   const std::vector<LeftOut> both = left_out(searching.fine, {&first.search.augmented, &other->augmented});
-  if (block_score(both[0].predicted, both[1].predicted, noise_of(searching.fine)).z() < two_standard_errors) {
-    return whole(std::move(first), searching);
+  if (block_score(both[0].predicted, both[1].predicted, noise_of(searching.fine)).z() < replacement_errors) {
+    return with_recording_checks(std::move(first), searching);
   }
   take_parts_of_law(
       *other, first.search, searching.quick, searching.options,
       [&](double share, const std::string& stage) { progress(0.94 + 0.01 * share, "behind " + law + ": " + stage); });
-  Judgement second = judged(std::move(*other), searching);
+  Judgement second = judge_search(std::move(*other), searching);
   second.evidence.asked_for = asked;
   second.evidence.behind_asked = {first.evidence};
-  second = whole(std::move(second), searching);
+  second = with_recording_checks(std::move(second), searching);
   // Of the misfit of the law asked for, part of which the other law takes.
   const Left before = first.evidence.base;
   const double left = std::clamp(second.evidence.base.excess() / std::max(before.excess(), 1e-300), 0.0, 1.0);

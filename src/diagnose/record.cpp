@@ -93,10 +93,10 @@ json rival_json(const Diagnosis& diagnosis, const Named& named) {
 
 json laws_json(const Diagnosis& diagnosis, const Named& named) {
   json rows = json::array();
-  const std::vector<double>& kept = candidate_of(named, diagnosis.evidence).kept;
-  for (std::size_t k = 0; k < kept.size() && !named.in_place_of; ++k) {
-    rows.push_back(
-        {{"model", search_of(diagnosis, named).swaps[k].model}, {"share_of_gain", std::clamp(kept[k], 0.0, 1.0)}});
+  if (!named.in_place_of) {
+    for (const GainBehindLaw& row : candidate_of(named, diagnosis.evidence).behind_laws) {
+      rows.push_back({{"model", row.law}, {"share_of_gain", std::clamp(row.share, 0.0, 1.0)}});
+    }
   }
   return rows;
 }

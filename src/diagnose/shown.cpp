@@ -31,7 +31,7 @@ std::vector<const Signature*> untold(const std::vector<Signature>& signatures, c
 }
 
 // Whether a contrast no longer shows among others, or can no longer be taken.
-bool gone(const Signature& row, const std::vector<Signature>& others) {
+bool no_longer_shows(const Signature& row, const std::vector<Signature>& others) {
   const auto at = std::ranges::find(others, row.id, &Signature::id);
   return at == others.end() || !shows({&*at, loudness(*at)});
 }
@@ -49,11 +49,11 @@ std::string sentence_of_contrasts(const Evidence& evidence, const std::vector<Na
   std::vector<std::string> phrases;
   for (const Signature* row : untold(asked.signatures, names)) {
     phrases.push_back(
-        phrase_of(*row, replaced && gone(*row, evidence.signatures) ? "; gone with " + evidence.model : std::string{}));
+        phrase_of(*row, replaced && no_longer_shows(*row, evidence.signatures) ? "; absent with " + evidence.model : std::string{}));
   }
   std::string text;
   if (!phrases.empty()) {
-    text = fmt::format("What {} leaves shows, whatever its cause: {}.", asked.model, fmt::join(phrases, "; "));
+    text = fmt::format("Whatever the cause, the residual of {} shows: {}.", asked.model, fmt::join(phrases, "; "));
   }
   phrases.clear();
   for (const Signature* row : untold(evidence.signatures, names)) {
@@ -63,8 +63,8 @@ std::string sentence_of_contrasts(const Evidence& evidence, const std::vector<Na
     }
   }
   if (!phrases.empty()) {
-    text += fmt::format("{}What {} leaves shows{}: {}.", text.empty() ? "" : " ", evidence.model,
-                        text.empty() ? ", whatever its cause" : " besides", fmt::join(phrases, "; "));
+    text += fmt::format("{} residual of {} {}shows: {}.", text.empty() ? "Whatever the cause, the" : " The",
+                        evidence.model, text.empty() ? "" : "also ", fmt::join(phrases, "; "));
   }
   return text;
 }

@@ -80,13 +80,12 @@ std::string sentence_of_shapes(const Diagnosis& diagnosis) {
   if (shapes.empty()) {
     return {};
   }
-  return fmt::format("Not sure enough to name: {}; {} {} better.", joined(shapes, "; and "),
+  return fmt::format("Too uncertain to name: {}; {} {} better.", joined(shapes, "; and "),
                      shapes.size() == 1 ? "it is a shape that" : "they are shapes that",
                      std::string(what_shapes_do(diagnosis)) + (shapes.size() == 1 ? "s" : ""));
 }
 
-// "modified-bouc-wen, which has a series dashpot as a part of its own,": what its card and those of effects say that
-// the law asked for lacks.
+// "modified-bouc-wen (which includes a series dashpot)": what the cards say that it has and the law asked for lacks.
 std::string law_with_parts(const std::string& law, const std::string& asked) {
   std::vector<std::string> parts;
   for (const std::string& effect : parts_of(law)) {
@@ -94,7 +93,7 @@ std::string law_with_parts(const std::string& law, const std::string& asked) {
       parts.push_back(title_of(effect));
     }
   }
-  return parts.empty() ? law : law + ", which has " + joined(parts, " and ") + " of its own,";
+  return parts.empty() ? law : law + " (which includes " + joined(parts, " and ") + ")";
 }
 
 std::string sentence_of_errors(const Diagnosis& diagnosis) {
@@ -109,7 +108,7 @@ std::string sentence_of_errors(const Diagnosis& diagnosis) {
                         : causes == 1                                      ? "It"
                                                                            : "Together they";
   if (!instead.empty()) {
-    subject = fmt::format("The augmented model, with {} in the place of {},",
+    subject = fmt::format("With {} in place of {}, the augmented model",
                           law_with_parts(instead, search.base.what.model), search.base.what.model);
   }
   if (search.augmented.what == search.base.what) {
@@ -134,18 +133,18 @@ std::string sentence_of_unknown(const Diagnosis& diagnosis) {
     return {};
   }
   if (verdict.unknown_share < 0.005) {
-    return "None of the misfit beyond the noise is left without a name.";
+    return "All of the misfit above the noise has a name.";
   }
   std::string rest;
   if (const std::string instead = law_instead(diagnosis.search); !instead.empty()) {
     // A part of the law is gone with the law.
     const auto beside_the_law = [](const Named& named) { return !named.of_law; };
-    rest = "; the rest is gone with " + instead +
+    rest = "; the rest is explained by " + instead +
            (std::ranges::any_of(verdict.effects, beside_the_law)       ? " and what is named"
             : std::ranges::any_of(verdict.suggestions, beside_the_law) ? " and what is suggested"
                                                                        : "");
   }
-  return fmt::format("{} of the misfit of {} beyond the noise has no name{}.", capital(percent(verdict.unknown_share)),
+  return fmt::format("{} of the misfit of {} above the noise has no name{}.", capital(percent(verdict.unknown_share)),
                      diagnosis.search.base.what.model, rest);
 }
 
@@ -177,17 +176,16 @@ std::vector<std::string> summary_of(const Diagnosis& diagnosis) {
   const Verdict& verdict = diagnosis.verdict;
   std::vector<std::string> summary;
   if (verdict.answer == Answer::complete) {
-    add(summary, above_noise_floor(diagnosis) ? "What is left cannot be told from noise: the base model is complete as "
-                                                "far as these recordings tell."
-                                              : "Nothing but noise is left: the base model is complete for these "
-                                                "recordings.");
+    add(summary, above_noise_floor(diagnosis) ? "The residual cannot be told from noise: the base model is complete as "
+                                                "far as these recordings show."
+                                              : "Only noise is left: the base model is complete for these recordings.");
   } else if (mixed(diagnosis.belonging)) {
-    add(summary, "T" + sentence_of(*diagnosis.belonging).substr(1) + ".");
+    add(summary, capital(sentence_of(*diagnosis.belonging)) + ".");
   } else if (verdict.effects.empty()) {
-    add(summary, "Something is missing, and no name is sure enough: " + verdict.reason + ".");
+    add(summary, "Physics is missing, but no effect is certain enough to name: " + verdict.reason + ".");
   }
   if (diagnosis.column) {
-    add(summary, "T" + sentence_of(*diagnosis.column).substr(1) + ".");
+    add(summary, capital(sentence_of(*diagnosis.column)) + ".");
   }
   for (const Grade grade : {Grade::established, Grade::supported, Grade::suggested}) {
     add(summary, sentence_of_grade(diagnosis, grade));

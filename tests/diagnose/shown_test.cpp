@@ -16,9 +16,10 @@ TEST(Shown, IsWhatSpeaksAndHasNoName) {
                          signature("loud", "stiction", 4.0), signature("louder", "pinching", 6.0)};
   Named mass;
   mass.id = "inertia";
-  EXPECT_EQ(sentence_of_contrasts(evidence, {mass}),
-            "What bouc-wen leaves shows, whatever its cause: what louder is, 20 N (6 of 8 recordings); what loud is, "
-            "20 N (6 of 8 recordings).");
+  EXPECT_EQ(
+      sentence_of_contrasts(evidence, {mass}),
+      "Whatever the cause, the residual of bouc-wen shows: what louder is, 20 N (6 of 8 recordings); what loud is, "
+      "20 N (6 of 8 recordings).");
   evidence.signatures.resize(2);
   EXPECT_EQ(sentence_of_contrasts(evidence, {mass}), "");
 }
@@ -33,15 +34,16 @@ TEST(Shown, SaysWhatIsGoneBehindTheLawThatTakesThePlace) {
   evidence.signatures = {signature("rest", "series-dashpot", 0.5), signature("travel", "compliance", 3.2),
                          signature("speed", "shear-thinning", 3.3)};
   evidence.behind_asked = {asked};
-  EXPECT_EQ(sentence_of_contrasts(evidence, {}),
-            "What bouc-wen leaves shows, whatever its cause: what travel is, 20 N (6 of 8 recordings); what rest is, "
-            "20 N (6 of 8 recordings; gone with modified-bouc-wen); what first is, 20 N (6 of 8 recordings; gone with "
-            "modified-bouc-wen). What modified-bouc-wen leaves shows besides: what speed is, 20 N (6 of 8 "
-            "recordings).");
+  EXPECT_EQ(
+      sentence_of_contrasts(evidence, {}),
+      "Whatever the cause, the residual of bouc-wen shows: what travel is, 20 N (6 of 8 recordings); what rest is, "
+      "20 N (6 of 8 recordings; absent with modified-bouc-wen); what first is, 20 N (6 of 8 recordings; absent with "
+      "modified-bouc-wen). The residual of modified-bouc-wen also shows: what speed is, 20 N (6 of 8 "
+      "recordings).");
   evidence.behind_asked.front().signatures.clear();
   evidence.signatures.resize(2);
   EXPECT_EQ(sentence_of_contrasts(evidence, {}),
-            "What modified-bouc-wen leaves shows, whatever its cause: what travel is, 20 N (6 of 8 recordings).");
+            "Whatever the cause, the residual of modified-bouc-wen shows: what travel is, 20 N (6 of 8 recordings).");
 }
 
 }  // namespace

@@ -55,7 +55,7 @@ Evidence plain() {
   one.score = {1.5, 0.1, 1.0, 6};
   one.gain_alone = one.gain;
   one.contenders = {contender("sensor-delay", 0.3, 10.0, true), contender("quadratic-damping", 0.1, 12.0)};
-  one.kept = {1.0, 0.9};
+  one.behind_laws = {{"lugre", 1.0}, {"bingham", 0.9}};
   one.signatures = {{"acceleration", "force with acceleration", "kg", 8.0, 0.1, 12.0, 1.0, 1.0, 6, {"inertia"}, {0}}};
   evidence.candidates = {one};
   evidence.other_laws = {{"lugre", 19.0 * floor_squares, false, {}}};
@@ -135,7 +135,7 @@ TEST(Features, AreFiniteAndSpeakForTheNameTheLargerTheyAre) {
   candidate.score = {0.1, 0.2, 0.5, 6};
   candidate.contenders[0].share = 0.9;
   candidate.contenders[1].share = 0.8;
-  candidate.kept = {0.1};
+  candidate.behind_laws = {{"lugre", 0.1}};
   candidate.on_bound = 1;
   candidate.gain_of_relative = candidate.gain;
   worse.other_laws[0].squares = 2.0 * floor_squares;
@@ -207,27 +207,27 @@ TEST(Comparison, FewClustersAskForMoreThanTwoStandardErrors) {
   EXPECT_TRUE((Comparison{0.201, 0.1, 1.0, 1000}.surely_better()));
 }
 
-TEST(AsGood, WhatIsNotSurelyWorse) {
+TEST(EquallyGood, WhatIsNotSurelyWorse) {
   Evidence evidence = plain();
   Candidate& candidate = evidence.candidates[0];
   candidate.contenders = {contender("sensor-delay", 0.95, 1.9, true), contender("compliance", 0.9, 2.7),
                           contender("velocity-lag", 0.4, 0.5)};
-  const std::vector<const Contender*> others = as_good(candidate);
+  const std::vector<const Contender*> others = equally_good(candidate);
   ASSERT_EQ(others.size(), 1U) << "told by the data, and never near";
   EXPECT_EQ(others[0]->id, "sensor-delay");
   // A wider form that is not surely away from its limit is the candidate itself.
   candidate.contenders[0].holds_the_candidate = true;
   candidate.contenders[0].apart = false;
-  EXPECT_TRUE(as_good(candidate).empty());
+  EXPECT_TRUE(equally_good(candidate).empty());
 }
 
-TEST(AsGood, AlsoWhatLeavesTheContrastOfTheCandidate) {
+TEST(EquallyGood, AlsoWhatLeavesTheContrastOfTheCandidate) {
   Evidence evidence = plain();
   Candidate& candidate = evidence.candidates[0];
   candidate.contenders = {contender("quadratic-damping", 0.9, 1.0)};
   evidence.contrasts_left = {{"inertia", "acceleration", "", false, 0.5},
                              {"inertia", "acceleration", "quadratic-damping", false, 4.0}};
-  EXPECT_EQ(as_good(candidate).size(), 1U) << "recordings left out do not tell the two apart";
+  EXPECT_EQ(equally_good(candidate).size(), 1U) << "recordings left out do not tell the two apart";
   EXPECT_EQ(in_its_place(candidate, evidence).tried, 1U);
   EXPECT_EQ(in_its_place(candidate, evidence).leave_the_contrast, 1U);
   evidence.contrasts_left[1].z = 2.5;
@@ -333,7 +333,7 @@ TEST(Verdict, AShapeThatEverythingSpeaksAgainstIsNoName) {
   candidate.gain = 5.0 * floor_squares;
   candidate.score = {0.02, 0.05, 0.5, 6};
   candidate.contenders = {contender("quadratic-damping", 0.97, 0.1), contender("shear-thinning", 0.96, 0.1)};
-  candidate.kept = {0.05, 0.1};
+  candidate.behind_laws = {{"lugre", 0.05}, {"bingham", 0.1}};
   evidence.other_laws[0].squares = 14.0 * floor_squares;
   candidate.signatures[0].z = 0.3;
   const Verdict verdict = verdict_of(evidence);
@@ -367,7 +367,7 @@ TEST(Verdict, WhatIsDoubtedHasItsPartOfWhatHasNoName) {
   doubted.gain = evidence.candidates[0].gain / 3.0;
   doubted.score = {0.0, 0.1, 0.5, 6};
   doubted.contenders = {contender("quadratic-damping", 1.0, 0.0), contender("asymmetry", 1.0, 0.0, true)};
-  doubted.kept = {0.0};
+  doubted.behind_laws = {{"lugre", 0.0}};
   doubted.gain_alone = 0.0;
   doubted.signatures[0].speaks_for = {"cavitation"};
   doubted.signatures[0].z = 0.2;
@@ -419,7 +419,7 @@ TEST(Verdict, WhatIsNotNoiseIsNotComplete) {
   Evidence evidence = nothing();
   evidence.doubt_of_completeness = "what is left is a factor of the force that swings";
   EXPECT_EQ(verdict_of(evidence).answer, Answer::unattributed);
-  EXPECT_EQ(verdict_of(evidence).reason, evidence.doubt_of_completeness + "; no known effect describes it");
+  EXPECT_EQ(verdict_of(evidence).reason, evidence.doubt_of_completeness + "; no effect of the catalogue explains it");
 }
 
 TEST(Verdict, EveryCandidateIsNamedSuggestedOrDoubted) {

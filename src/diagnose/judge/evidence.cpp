@@ -10,7 +10,8 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Contender, id, law, kin, share, refitted, squ
                                    held_by_the_candidate, apart, ended_as, follows_drive, as_channels)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Signature, id, what, unit, value, std_error, z, consistency, placebo_quantile,
                                    recordings, speaks_for, sign)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Candidate, id, gain, score, gain_alone, gain_of_relative, contenders, kept,
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(GainBehindLaw, law, share)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Candidate, id, gain, score, gain_alone, gain_of_relative, contenders, behind_laws,
                                    parameters, on_bound, as_channels, of_law, signatures)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(OtherLaw, model, squares, has_what_was_found, has)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ContrastLeft, effect, signature, instead, law, z)
@@ -37,6 +38,7 @@ void complete(nlohmann::json& evidence) {
   for (nlohmann::json& candidate : evidence.at("candidates")) {
     candidate.emplace("signatures", evidence.at("signatures"));
     candidate.emplace("of_law", false);
+    candidate.emplace("behind_laws", nlohmann::json::array());
   }
   for (nlohmann::json& row : evidence.at("contrasts_left")) {
     row.emplace("signature", "");

@@ -71,6 +71,12 @@ struct Signature {
   std::vector<int> sign;                // that the value has where each acts; 0: either
 };
 
+// What an effect is worth behind another damper law that has all effects found.
+struct GainBehindLaw {
+  std::string law;
+  double share = 0.0;  // of the effect's gain in the augmented model
+};
+
 // An effect of the augmented model.
 struct Candidate {
   std::string id;
@@ -79,7 +85,7 @@ struct Candidate {
   double gain_alone = 0.0;            // alone behind the base
   double gain_of_relative = 0.0;      // the largest of the related effects that the augmented model has too
   std::vector<Contender> contenders;  // best first
-  std::vector<double> kept;           // share of its gain behind other laws
+  std::vector<GainBehindLaw> behind_laws;
   int parameters = 1;
   int on_bound = 0;          // of these, at an end of their box
   bool as_channels = false;  // told by the channels without a model, or a lag of one and as large as they show

@@ -31,7 +31,7 @@ double contrast_of(const Candidate& candidate) {
   return beyond_placebos(*contrast) ? unit((contrast->z - of_noise) / (beyond_doubt - of_noise)) : 0.0;
 }
 
-double chance(double value, double by_chance) { return std::max(0.0, value - std::max(by_chance, 0.0)); }
+double above_chance(double value, double by_chance) { return std::max(0.0, value - std::max(by_chance, 0.0)); }
 
 }  // namespace
 
@@ -43,7 +43,7 @@ double robustness_of(const Candidate& candidate, const Evidence& evidence) {
   return robustness_value(std::max(candidate.gain, 0.0) / std::max(excess, 1e-300));
 }
 
-std::vector<const Contender*> as_good(const Candidate& candidate) {
+std::vector<const Contender*> equally_good(const Candidate& candidate) {
   std::vector<const Contender*> result;
   for (const Contender& row : candidate.contenders) {
     if (row.law) {
@@ -77,14 +77,14 @@ std::vector<std::size_t> parts_of_the_law(const Evidence& evidence) {
   return result;
 }
 
-const Evidence& before(const Candidate& candidate, const Evidence& evidence) {
+const Evidence& evidence_of_base(const Candidate& candidate, const Evidence& evidence) {
   return candidate.of_law && !evidence.behind_asked.empty() ? evidence.behind_asked.front() : evidence;
 }
 
 NameFeatures features_of(const Candidate& candidate, const Evidence& evidence) {
   const double gain = std::max(candidate.gain, 1e-300);
   double law = 0.0;
-  const double base = before(candidate, evidence).base_compared;
+  const double base = evidence_of_base(candidate, evidence).base_compared;
   const double all = std::max(base - evidence.augmented_compared, 1e-300);
   for (const OtherLaw& other : evidence.other_laws) {
     // A law that has the candidate as a part of its own speaks for it.
@@ -95,7 +95,7 @@ NameFeatures features_of(const Candidate& candidate, const Evidence& evidence) {
   }
   return {std::log10(1.0 + std::clamp(candidate.score.mean, 0.0, 1.0) / least_prediction),
           unit(1.0 - law),
-          unit(gain / (gain + chance(evidence.augmented.recurring, evidence.augmented.recurring_by_chance) *
+          unit(gain / (gain + above_chance(evidence.augmented.recurring, evidence.augmented.recurring_by_chance) *
                                   evidence.augmented.squares)),
           1.0 - static_cast<double>(candidate.on_bound) / std::max(candidate.parameters, 1),
           contrast_of(candidate),
@@ -108,7 +108,7 @@ MissingFeatures features_of(const Evidence& evidence) {
   const double noise = std::max(base.squares - base.structure, 1e-300);
   const double recurring =
       base.recurring_at_most > base.recurring_by_chance
-          ? chance(base.recurring, base.recurring_by_chance) / (base.recurring_at_most - base.recurring_by_chance)
+          ? above_chance(base.recurring, base.recurring_by_chance) / (base.recurring_at_most - base.recurring_by_chance)
           : 0.0;
   return {std::log10(1.0 + std::max(base.structure, 0.0) / noise),
           unit(base.predictable),

@@ -54,11 +54,11 @@ double robustness_of(const Candidate& candidate, const Evidence& evidence);
 
 // Related and unrelated effects that do as well in the candidate's place: the candidate predicts recordings left out no
 // better than two standard errors, or it ends as the other, or is the limit of it that the data do not tell apart.
-std::vector<const Contender*> as_good(const Candidate& candidate);
+std::vector<const Contender*> equally_good(const Candidate& candidate);
 
 // Whose base a candidate is weighed against: that of the law asked for, where it is a part of the law that took its
 // place.
-const Evidence& before(const Candidate& candidate, const Evidence& evidence);
+const Evidence& evidence_of_base(const Candidate& candidate, const Evidence& evidence);
 
 // Of the candidates behind the law asked for, those that the law in its place has as parts of its own and that are not
 // judged as such: what it does better may be their doing.

@@ -16,7 +16,7 @@ constexpr double structure_over_noise = 0.3;
 // Another law does as well when it takes off this part of what the effects take off.
 constexpr double law_share = 0.9;
 
-bool structured(const Left& left) {
+bool structure_remains(const Left& left) {
   return left.structure > structure_over_noise * std::max(left.squares - left.structure, 1e-300);
 }
 
@@ -30,7 +30,7 @@ bool is_told_by_channels(const Candidate& candidate) {
 std::vector<Named> named(std::size_t index, const Evidence& evidence) {
   const Candidate& candidate = evidence.candidates[index];
   const NameFeatures features = features_of(candidate, evidence);
-  std::vector<const Contender*> others = as_good(candidate);
+  std::vector<const Contender*> others = equally_good(candidate);
   // The channels tell a lag of one of them from a delay of the force.
   if (candidate.as_channels) {
     others.clear();
@@ -46,7 +46,7 @@ std::vector<Named> named(std::size_t index, const Evidence& evidence) {
   first.grade = grade_of(first.confidence);
   first.robustness = robustness_of(candidate, evidence);
   first.share_of_misfit =
-      std::clamp(candidate.gain / std::max(before(candidate, evidence).base.excess(), 1e-300), 0.0, 1.0);
+      std::clamp(candidate.gain / std::max(evidence_of_base(candidate, evidence).base.excess(), 1e-300), 0.0, 1.0);
   if (candidate.of_law) {
     first.of_law = evidence.model;
   }
@@ -177,7 +177,7 @@ namespace {
 // All but the share that has no name.
 Verdict answer_of(const Evidence& evidence) {
   Verdict verdict;
-  verdict.remaining_structure = structured(evidence.augmented);
+  verdict.remaining_structure = structure_remains(evidence.augmented);
   verdict.missing = missing_table().probability(features_of(evidence));
   bool alone = false;
   std::vector<std::vector<Named>> suggested;
@@ -225,7 +225,7 @@ Verdict answer_of(const Evidence& evidence) {
     verdict.answer = Answer::unattributed;
     verdict.reason =
         evidence.doubt_of_completeness +
-        (verdict.suggestions.empty() && evidence.candidates.empty() ? "; no known effect describes it" : "");
+        (verdict.suggestions.empty() && evidence.candidates.empty() ? "; no effect of the catalogue explains it" : "");
     return verdict;
   }
   if (!evidence.asked_for.empty()) {
@@ -237,7 +237,7 @@ Verdict answer_of(const Evidence& evidence) {
   verdict.answer =
       verdict.missing >= suggested_from || !verdict.suggestions.empty() ? Answer::unattributed : Answer::complete;
   if (verdict.answer == Answer::unattributed) {
-    verdict.reason = evidence.candidates.empty() ? "no known effect explains the misfit"
+    verdict.reason = evidence.candidates.empty() ? "no effect of the catalogue explains the misfit"
                                                  : "no effect explains enough of the misfit to be named";
   }
   return verdict;

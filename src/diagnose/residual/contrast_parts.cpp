@@ -11,14 +11,17 @@ namespace {
 
 // A recording holds the motion if its weight is this share of the mean one.
 constexpr double least_weight = 0.1;
+// From so many recordings on, the error over recordings counts.
 constexpr std::size_t fewest_recordings = 3;
 // A part with more of the weight than this is nearly all there is.
 constexpr double most_weight = 0.9;
 // Of the value: standard errors below it are those of rounding.
 constexpr double least_error = 1e-6;
+// Fewest degrees of freedom of Student's t.
 constexpr double least_degrees = 2.0;
 constexpr double margin = 0.08;           // of a recording, that a shift stays away from none at all
 constexpr double margin_of_period = 0.1;  // of a period, that it stays away from a multiple of one
+// Draws of a shift.
 constexpr std::uint32_t tries = 16;
 
 // Squared standard error of the weighted mean from the scores of its parts, each score enlarged by what its own part

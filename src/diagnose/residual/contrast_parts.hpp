@@ -13,9 +13,9 @@ namespace hysteron::contrast {
 
 constexpr std::size_t all_placebos = 199;  // so that a quantile of 0.995 can be told
 
-// What a placebo does to the samples of a residual: `by` samples of a circle of `size` on, in time.
-// By golden sections over the draws, at random from recording to recording; never near a multiple of `period`, in
-// samples, as far as that leaves a choice.
+// Samples by which a placebo shifts a residual of `size` samples in time: uniform at random for each placebo and
+// recording, at least 8 % from either end, and no nearer to a multiple of `period` (in samples) than a tenth of it, if
+// one of 16 draws is.
 std::size_t placebo_shift(std::size_t placebo, std::size_t recording, std::size_t size, double period);
 // 1 or -1, at random for each placebo, recording and part of it.
 double placebo_sign(std::size_t placebo, std::size_t recording, std::size_t part);

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "core/drive.hpp"
+#include "core/extent.hpp"
 #include "io/velocity.hpp"
 
 namespace hysteron::contrast {
@@ -137,13 +138,10 @@ std::optional<Track> track_of(const Recording& recording, const Residual& residu
   }
   const auto [low, high] = std::ranges::minmax(track.x);
   track.stroke = 0.5 * (high - low);
-  double squares = 0.0;
-  for (std::size_t n = 0; n < size; ++n) {
-    track.speed = std::max(track.speed, std::fabs(track.v[n]));
-    squares = std::max(squares, std::fabs(track.force[n]));
-    track.peak = std::max(track.peak, std::fabs(track.simulated[n]));
-  }
-  if (!(track.stroke > 0.0) || !(track.speed > 0.0) || !(squares > 0.0) || !(track.peak > 0.0) ||
+  track.speed = peak_of(track.v);
+  track.peak = peak_of(track.simulated);
+  const double measured_peak = peak_of(track.force);
+  if (!(track.stroke > 0.0) || !(track.speed > 0.0) || !(measured_peak > 0.0) || !(track.peak > 0.0) ||
       !all_finite(track.force) || !all_finite(track.x) || !all_finite(track.v) || !all_finite(track.a)) {
     return std::nullopt;
   }
@@ -158,7 +156,7 @@ std::optional<Track> track_of(const Recording& recording, const Residual& residu
     track.duration[n - 1] += half;
     track.duration[n] += half;
   }
-  track.weight = 1.0 / (squares * squares * (track.time.back() - track.time[track.from]));
+  track.weight = 1.0 / (measured_peak * measured_peak * (track.time.back() - track.time[track.from]));
   track.travelled.assign(size, 0.0);
   track.work.assign(size, 0.0);
   for (std::size_t n = 1; n < size; ++n) {

@@ -16,9 +16,10 @@ constexpr double ridge = 1e-6;
 constexpr double as_good_as_alone = 0.05;
 // Draws of chance: ten of them lie beyond what is sure.
 constexpr std::size_t draws = 2000;
+// Of fewer recordings nothing is parted.
 constexpr std::size_t fewest_recordings = 4;
 
-// Adds up minimiser and finds their least values.
+// Minimises a sum of quadratics, damped by a share of the mean recording's curvature.
 class Minimiser {
  public:
   explicit Minimiser(const std::vector<Quadratic>& quadratics) {

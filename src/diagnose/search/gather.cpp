@@ -277,7 +277,7 @@ Evidence evidence_of(const Search& search, const Workbench& fine, const Circumst
       // A law that has the effect as a parameter of its own loses nothing without it, and one that runs away tells
       // nothing.
       if (!is_part_of(one.id, swap.model) && std::max(swap.without[k], swap.squares) < diverged_cost) {
-        one.kept.push_back((swap.without[k] - swap.squares) / std::max(found.gain, 1e-300));
+        one.behind_laws.push_back({swap.model, (swap.without[k] - swap.squares) / std::max(found.gain, 1e-300)});
       }
     }
     const std::vector<ParameterInterval> intervals = known.intervals(search.augmented, one.id);

@@ -7,6 +7,7 @@
 
 #include "diagnose/residual/misfit.hpp"
 #include "diagnose/signal/noise.hpp"
+#include "fit/free_coordinates.hpp"
 #include "fit/parallel.hpp"
 
 namespace hysteron {
@@ -14,8 +15,6 @@ namespace {
 
 constexpr std::size_t fewest_recordings = 4;  // of fewer, parts of each are left out
 constexpr std::size_t parts_of_few = 4;       // of each of few recordings
-// A coordinate this near the end of its box stays there.
-constexpr double at_end = 1e-6;
 // Of the diagonal: what the other recordings do not tell stays where it is.
 constexpr double ridge = 1e-6;
 // The step is to first order: no coordinate goes further than this part of its box.
@@ -67,12 +66,7 @@ LeftOut worked_out(const Workbench& bench, const Fit& fit) {
   const Objective objective(*fit.layout, bench.split().fit, bench.options());
   const std::vector<Linearised> all = objective.linearised(fit.point);
   const std::size_t d = fit.dimension();
-  std::vector<Eigen::Index> free;
-  for (std::size_t c = 0; c < d; ++c) {
-    if (fit.point[c] > at_end && fit.point[c] < 1.0 - at_end) {
-      free.push_back(static_cast<Eigen::Index>(c));
-    }
-  }
+  const std::vector<Eigen::Index> free = free_coordinates(fit.point);
   const std::vector<Stretch> parts = parts_of(all);
   const auto m = static_cast<Eigen::Index>(free.size());
   Eigen::MatrixXd hessian = Eigen::MatrixXd::Zero(m, m);

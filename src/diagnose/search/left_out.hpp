@@ -17,11 +17,11 @@ struct LeftOut {
 LeftOut left_out(const Workbench& bench, const Fit& fit);
 std::vector<LeftOut> left_out(const Workbench& bench, const std::vector<const Fit*>& fits);
 
-// Squared noise of each fitted recording over its normaliser^2: the floor of block_score.
-// Of a fit that `part` is then added to or was taken out of: with Workbench::beside, the one of both that leaves less.
-// `plain` is left_out of the fit.
+// For a fit to which `part` is to be added, or from which it was taken: `plain` (left_out of the fit) or left_out of
+// Workbench::beside, whichever has the smaller squares.
 LeftOut left_out_beside(const Workbench& bench, const Fit& fit, const Extension& part, LeftOut plain);
 
+// Squared noise of each fitted recording over its normaliser^2: the floor of block_score.
 std::vector<double> noise_of(const Workbench& bench);
 
 }  // namespace hysteron

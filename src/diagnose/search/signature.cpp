@@ -2,14 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "diagnose/search/tangent.hpp"
 #include "fit/parallel.hpp"
 
 namespace hysteron {
 namespace {
 
 constexpr double nudge = 1e-3;           // of the box, for a derivative
-constexpr double rank_tolerance = 1e-9;  // of the largest direction: below it there is none
+constexpr double rank_tolerance = 1e-9;  // of derivatives by differences
 
 }  // namespace
 
@@ -39,14 +41,7 @@ Eigen::MatrixXd imitable(const Workbench& bench, const Fit& fit, const Eigen::Ve
     const double by = fit.point[c] > 0.5 ? -nudge : nudge;
     slopes.col(static_cast<Eigen::Index>(c)) = (stacked(bench, moved(fit, {c}, by)) - at) / by;
   });
-  for (Eigen::Index c = 0; c < slopes.cols(); ++c) {
-    const double norm = slopes.col(c).norm();
-    slopes.col(c) =
-        std::isfinite(norm) && norm > 0.0 ? (slopes.col(c) / norm).eval() : Eigen::VectorXd::Zero(at.size());
-  }
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(slopes);
-  qr.setThreshold(rank_tolerance);
-  return qr.householderQ() * Eigen::MatrixXd::Identity(at.size(), qr.rank());
+  return orthonormal_basis(std::move(slopes), rank_tolerance);
 }
 
 std::vector<std::size_t> size_of(const Fit& fit, const std::string& effect) {

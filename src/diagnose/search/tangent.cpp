@@ -1,14 +1,26 @@
 #include "diagnose/search/tangent.hpp"
 
 #include <cmath>
+#include <utility>
 
 namespace hysteron {
 namespace {
 
-// Directions of the fit's derivatives that are nearly others.
+// Of exact derivatives.
 constexpr double rank_tolerance = 1e-7;
 
 }  // namespace
+
+Eigen::MatrixXd orthonormal_basis(Eigen::MatrixXd slopes, double rank_tolerance) {
+  for (Eigen::Index c = 0; c < slopes.cols(); ++c) {
+    const double norm = slopes.col(c).norm();
+    slopes.col(c) =
+        std::isfinite(norm) && norm > 0.0 ? (slopes.col(c) / norm).eval() : Eigen::VectorXd::Zero(slopes.rows()).eval();
+  }
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(slopes);
+  qr.setThreshold(rank_tolerance);
+  return qr.householderQ() * Eigen::MatrixXd::Identity(slopes.rows(), qr.rank());
+}
 
 Tangent tangent_of(const Workbench& bench, const Fit& fit) {
   const Objective objective(*fit.layout, bench.split().fit, bench.options());
@@ -26,14 +38,7 @@ Tangent tangent_of(const Workbench& bench, const Fit& fit) {
                                                                                                  size, d);
     row += size;
   }
-  for (Eigen::Index c = 0; c < d; ++c) {
-    const double norm = slopes.col(c).norm();
-    slopes.col(c) =
-        std::isfinite(norm) && norm > 0.0 ? (slopes.col(c) / norm).eval() : Eigen::VectorXd::Zero(slopes.rows()).eval();
-  }
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(slopes);
-  qr.setThreshold(rank_tolerance);
-  result.basis = qr.householderQ() * Eigen::MatrixXd::Identity(slopes.rows(), qr.rank());
+  result.basis = orthonormal_basis(std::move(slopes), rank_tolerance);
   result.left = result.residual - result.basis * (result.basis.transpose() * result.residual);
   return result;
 }

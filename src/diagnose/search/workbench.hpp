@@ -85,9 +85,9 @@ class Workbench {
   [[nodiscard]] std::vector<Residual> plain_residuals(const Fit& fit) const;
   // The same with all that is told of them: two simulations of each, in parallel.
   [[nodiscard]] Residuals residuals(const Fit& fit) const;
-  // Noise of the fitted recordings' forces.
-  // The noise of the same recordings before they were thinned, which tells it better; by their files.
+  // Takes the noise of the same files from `whole`, whose recordings are not thinned and tell it better.
   void take_noise_of(const Workbench& whole);
+  // Noise of the force of each fitted recording, in their order.
   [[nodiscard]] const std::vector<NoiseFloor>& noise() const { return noise_; }
   // How the residuals of a fit, those given, change with each parameter of its damper law that cannot be zero.
   [[nodiscard]] std::vector<Sensitivity> sensitivities(const Fit& fit, const Residuals& residuals) const;
