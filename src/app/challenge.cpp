@@ -38,6 +38,7 @@ struct Options {
   std::vector<double> sizes = {0.3, 1.0, 3.0};
   int placebos = -1;  // 60, or none where effects are named
   int campaigns = 300;
+  int most_recordings = 0;  // 0: all
   std::vector<std::string> levels;
   std::vector<std::string> effects;
   challenge::FormChoice choice;
@@ -55,7 +56,10 @@ std::vector<challenge::Task> tasks_of(const Options& options) {
   std::vector<challenge::Level> levels;
   for (const std::string& name : options.levels) levels.push_back(challenge::level_of(name));
   for (const std::string& id : options.effects) static_cast<void>(challenge::hidden_effect(id));
-  return challenge::plan(options.campaigns, levels, options.effects, options.seed, options.choice);
+  std::vector<challenge::Task> tasks =
+      challenge::plan(options.campaigns, levels, options.effects, options.seed, options.choice);
+  for (challenge::Task& task : tasks) task.most_recordings = options.most_recordings;
+  return tasks;
 }
 
 std::string last_line(const std::filesystem::path& path) {
@@ -258,6 +262,10 @@ void add_challenge(CLI::App& program) {
                    "only these levels: plain, buried, absorbed, pairs, wrong-base, foreign, beside, none, unexcited")
       ->delimiter(',')
       ->excludes(data);
+  command
+      ->add_option("--recordings", options->most_recordings,
+                   "each campaign keeps one to so many of its recordings; default all")
+      ->check(CLI::Range(1, 100));
   command->add_option("--effect", options->effects, "only these effects; with --in several at once as A+B")
       ->delimiter(',');
   command->add_option("--forms", options->choice.only, "only these forms of the effects, as EFFECT/FORM")

@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <optional>
+#include <type_traits>
+#include <utility>
 
 #include "challenge/absorption.hpp"
 #include "challenge/base.hpp"
@@ -460,6 +463,46 @@ bool runs(const Concealed& c) {
   return std::ranges::all_of(c.truths, [](const HiddenTruth& truth) { return !truth.excited || truth.share > 1e-4; });
 }
 
+// Whether the recordings have different levels of the drive, so that a law can follow it.
+bool several_levels(const std::vector<Measured>& recordings) {
+  double low = 1e300;
+  double high = -1e300;
+  for (const Measured& recording : recordings) {
+    for (const double drive : recording.drive) {
+      low = std::min(low, drive);
+      high = std::max(high, drive);
+    }
+  }
+  constexpr double least = 0.1;  // of the largest
+  return high - low > least * std::max(std::abs(low), std::abs(high));
+}
+
+// Leaves one to `most` of the recordings, as a user has them who made no more: without roles, and told no law in a
+// drive that does not change. The truths keep the sizes that they have in all.
+void keep_few(Concealed& c, int most, const Stream& stream) {
+  Draws draws(stream, "few");
+  const std::size_t all = c.recordings.size();
+  const auto count = std::min(all, static_cast<std::size_t>(draws.integer(1, most)));
+  std::vector<std::size_t> kept(all);
+  std::iota(kept.begin(), kept.end(), std::size_t{0});
+  for (std::size_t k = 0; k < count; ++k) {
+    std::swap(kept[k], kept[static_cast<std::size_t>(draws.integer(static_cast<int>(k), static_cast<int>(all) - 1))]);
+  }
+  kept.resize(count);
+  std::ranges::sort(kept);
+  const auto cut = [&](auto& rows) {
+    std::remove_reference_t<decltype(rows)> some;
+    for (const std::size_t k : kept) some.push_back(rows[k]);
+    rows = std::move(some);
+  };
+  cut(c.recordings);
+  cut(c.excitation.tests);
+  cut(c.peaks);
+  if (!c.left.empty()) cut(c.left);
+  c.roles_given = false;
+  if (!several_levels(c.recordings)) c.told_by_current.clear();
+}
+
 }  // namespace
 
 Concealed make_concealed(const Task& task, std::uint64_t seed) {
@@ -469,7 +512,9 @@ Concealed make_concealed(const Task& task, std::uint64_t seed) {
     for (std::uint64_t k = 0; k < attempts; ++k) {
       try {
         std::optional<Concealed> c = attempt(task, stream.child(k), strict);
-        if (c && runs(*c)) return *std::move(c);
+        if (!c || !runs(*c)) continue;
+        if (task.most_recordings > 0) keep_few(*c, task.most_recordings, stream);
+        return *std::move(c);
       } catch (const TooStiff&) {  // another draw
       }
     }

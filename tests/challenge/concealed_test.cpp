@@ -56,6 +56,30 @@ TEST(Concealed, ChangesTheForceByTheDrawnShare) {
   }
 }
 
+TEST(Concealed, FewRecordingsAreSomeOfTheSameCampaign) {
+  std::set<std::size_t> counts;
+  for (int number = 1; number <= 8; ++number) {
+    Task task{number, Level::plain, {"inertia"}};
+    const Concealed all = make_concealed(task, 5);
+    task.most_recordings = 3;
+    const Concealed few = make_concealed(task, 5);
+    counts.insert(few.recordings.size());
+    EXPECT_FALSE(few.roles_given);
+    ASSERT_EQ(few.recordings.size(), few.excitation.tests.size());
+    for (const Measured& recording : few.recordings) {
+      EXPECT_TRUE(
+          std::ranges::any_of(all.recordings, [&](const Measured& one) { return one.force == recording.force; }));
+    }
+    // A law in the drive is told where there are levels for it.
+    std::set<double> levels;
+    for (const Measured& recording : few.recordings) levels.insert(std::round(50.0 * recording.drive.front()));
+    if (few.recordings.size() > 1 && levels.size() == few.recordings.size()) {
+      EXPECT_EQ(few.told_by_current, all.told_by_current);
+    }
+  }
+  EXPECT_EQ(counts, (std::set<std::size_t>{1, 2, 3}));
+}
+
 TEST(Concealed, InertiaAtOneFrequencyIsTakenUpByTheLaw) {
   const Concealed c = make_concealed({2, Level::unexcited, {"inertia"}, {"inertia/sprung-fixture"}}, 3);
   EXPECT_GT(c.truths.at(0).change_nrmse, 1e-3);
