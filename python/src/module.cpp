@@ -1,6 +1,7 @@
 // The compiled part of the Python package hysteron; the package's own files are what users call.
 #include <pybind11/pybind11.h>
 
+#include "arguments.hpp"
 #include "core/error.hpp"
 #include "recordings.hpp"
 #include "work.hpp"
@@ -9,7 +10,14 @@ PYBIND11_MODULE(_hysteron, module) {
   namespace py = pybind11;
   module.doc() = "compiled part of the package hysteron";
   module.attr("version") = HYSTERON_VERSION;
-  py::register_exception<hysteron::InputError>(module, "InputError", PyExc_ValueError);
+  static const auto input_error = py::register_exception<hysteron::InputError>(module, "InputError", PyExc_ValueError);
+  py::register_exception_translator([](std::exception_ptr thrown) {
+    try {
+      if (thrown) std::rethrow_exception(thrown);
+    } catch (const hysteron::InputError& error) {
+      PyErr_SetString(input_error.ptr(), hysteron::python::with_arguments(error.what()).c_str());
+    }
+  });
   py::register_exception<hysteron::WorkError>(module, "WorkError", PyExc_RuntimeError);
   hysteron::python::add_recordings(module);
   hysteron::python::add_work(module);

@@ -51,9 +51,10 @@ int run(int count, char** arguments) {
       "First steps, with data that ship with the program:\n"
       "  hysteron generate rd8040-twin --only 2.0Hz --out twin\n"
       "  hysteron fit twin --model bouc-wen --by-current alpha:2,c0:2 --out out\n"
-      "  hysteron diagnose twin --model bouc-wen --by-current alpha:2,c0:2 --out diagnosis\n"
-      "The last two write report.html; open it in a browser. For recordings of your own, give a folder of CSV\n"
-      "files in place of twin. Every command has its own --help, with examples.");
+      "  hysteron generate rd8041-voltage-twin --out steps\n"
+      "  hysteron diagnose steps --out diagnosis\n"
+      "fit and diagnose write report.html; open it in a browser. For recordings of your own, give a folder of CSV\n"
+      "files in place of twin and steps. Every command has its own --help, with examples.");
   // Of several processes with one command line the first speaks.
   const auto started = launched();
   const auto complain = [&](const std::string& message) {

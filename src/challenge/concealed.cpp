@@ -463,18 +463,24 @@ bool runs(const Concealed& c) {
   return std::ranges::all_of(c.truths, [](const HiddenTruth& truth) { return !truth.excited || truth.share > 1e-4; });
 }
 
-// Whether the recordings have different levels of the drive, so that a law can follow it.
+// Whether the drive has different levels, beside its noise: from recording to recording, or within one.
 bool several_levels(const std::vector<Measured>& recordings) {
-  double low = 1e300;
-  double high = -1e300;
+  constexpr double least = 0.05;   // of the largest level
+  constexpr double within = 0.25;  // of it, between the tenths at both ends of a recording
+  std::vector<double> levels;
+  double widest = 0.0;
+  double largest = 0.0;
   for (const Measured& recording : recordings) {
-    for (const double drive : recording.drive) {
-      low = std::min(low, drive);
-      high = std::max(high, drive);
-    }
+    if (recording.drive.empty()) return false;
+    std::vector<double> sorted = recording.drive;
+    std::ranges::sort(sorted);
+    const std::size_t tenth = sorted.size() / 10;
+    levels.push_back(sorted[sorted.size() / 2]);
+    widest = std::max(widest, sorted[sorted.size() - 1 - tenth] - sorted[tenth]);
+    largest = std::max({largest, std::abs(sorted[tenth]), std::abs(sorted[sorted.size() - 1 - tenth])});
   }
-  constexpr double least = 0.1;  // of the largest
-  return high - low > least * std::max(std::abs(low), std::abs(high));
+  const auto [low, high] = std::ranges::minmax(levels);
+  return high - low > least * largest || widest > within * largest;
 }
 
 // Leaves one to `most` of the recordings, as a user has them who made no more: without roles, and told no law in a

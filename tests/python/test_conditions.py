@@ -124,7 +124,7 @@ class Conditions(InFolder):
         self.assertAlmostEqual(model.parameters.loc["k0", "value"], k, delta=0.001 * k)
         self.assertEqual(model.fit_json["response"]["excitation"], "base")
         self.same(model)
-        with self.assertRaisesRegex(hysteron.InputError, "no force column, expected one for --excitation force"):
+        with self.assertRaisesRegex(hysteron.InputError, "no force column, expected one for excitation force"):
             hysteron.fit(rig, "viscous", response={"mass": mass, "excitation": "force"})
 
 

@@ -28,6 +28,12 @@ class Data(InFolder):
         numpy.testing.assert_allclose(one.velocity, 2 * k, atol=1e-9)  # of a parabola, at 1 ms a sample
         self.assertEqual(list(one.frame.columns), ["time", "displacement", "velocity", "force"])
 
+    def test_errors_name_arguments_not_options(self):
+        time, displacement, force, current = sine(2.0, 0.01, 1.0)
+        one = hysteron.recording(time=time, displacement=displacement, force=force, current=current)
+        with self.assertRaisesRegex(hysteron.InputError, "^by_current: the model has no parameter 'f_c'"):
+            hysteron.fit([one], "bingham", by_current={"f_c": 1})
+
     def test_arrays_frames_and_files_are_one_recording(self):
         time, displacement, force, current = sine(2.0, 0.01, 1.0)
         arrays = hysteron.recording(time=time, displacement=displacement, force=force, current=current)

@@ -211,21 +211,10 @@ std::vector<std::string> told_by_channels(const std::vector<Recording>& recordin
   return result;
 }
 
-Evidence evidence_of(const Search& search, const Workbench& fine, const Circumstances& known) {
-  Evidence result;
-  result.model = search.base.what.model;
-  result.recordings = fine.split().fit.size();
-  result.base = left_of(search.base_misfit, fine, search.base);
-  const bool same = search.augmented.what == search.base.what;
-  result.augmented = same ? result.base : left_of(search.misfit, fine, search.augmented);
-  result.base_compared = squared(search.quick_base.cost);
-  result.augmented_compared = squared(search.quick_augmented.cost);
+namespace {
 
-  for (const Tried& tried : search.first_stage) {
-    result.first_stage.push_back({name_of(tried.part), tried.gain, tried.fit.has_value()});
-  }
-  result.signatures = signatures_of(known.contrasts);
-
+// The fits of a search that are compared closely, by what they would predict of recordings left out.
+Looked looked_at(const Search& search, const Workbench& fine) {
   Looked looked;
   looked.want(search.base);
   looked.want(search.augmented);
@@ -236,91 +225,156 @@ Evidence evidence_of(const Search& search, const Workbench& fine, const Circumst
     }
   }
   looked.look(fine);
-  const std::vector<double> noise = noise_of(fine);
-  const LeftOut& base = *looked.find(search.base);
-  const LeftOut& augmented = *looked.find(search.augmented);
-  LeftOut before = base;
+  return looked;
+}
+
+// Base and augmented model: what they leave, what was tried first, and the contrasts of what the base leaves.
+Evidence evidence_of_models(const Search& search, const Workbench& fine, const Circumstances& known,
+                            const Looked& looked, const std::vector<double>& noise) {
+  Evidence result;
+  result.model = search.base.what.model;
+  result.recordings = fine.split().fit.size();
+  result.base = left_of(search.base_misfit, fine, search.base);
+  const bool same = search.augmented.what == search.base.what;
+  result.augmented = same ? result.base : left_of(search.misfit, fine, search.augmented);
+  result.base_compared = squared(search.quick_base.cost);
+  result.augmented_compared = squared(search.quick_augmented.cost);
+  for (const Tried& tried : search.first_stage) {
+    result.first_stage.push_back({name_of(tried.part), tried.gain, tried.fit.has_value()});
+  }
+  result.signatures = signatures_of(known.contrasts);
+  LeftOut before = *looked.find(search.base);
   for (const Found& found : search.found) {
     before = found.of_law ? std::move(before) : left_out_beside(fine, search.base, found.part, std::move(before));
   }
-  result.augmented_over_base = comparison(augmented, before, noise);
+  result.augmented_over_base = comparison(*looked.find(search.augmented), before, noise);
+  return result;
+}
 
-  for (std::size_t k = 0; k < search.found.size(); ++k) {
-    const Found& found = search.found[k];
-    // A law's own part is marched as the law is.
-    const LeftOut& less = *looked.find(found.without);
-    const LeftOut without = found.of_law ? less : left_out_beside(fine, found.without, found.part, less);
-    Candidate one;
-    one.id = found.part.effect;
-    one.gain = without.squares - augmented.squares;
-    one.score = comparison(augmented, without, noise);
-    one.gain_alone = found.alone;
-    for (const Tried& tried : search.first_stage) {
-      // An effect that a richer law in the drive shows was tried as such a law.
-      if (!found.of_law && (found.by_law ? tried.part.is_law() : tried.part == found.part)) {
-        one.gain_alone = std::max(one.gain_alone, tried.gain);
-      }
+// Its gain alone behind the base, of the first stage too.
+double gain_alone_of(const Found& found, const Search& search) {
+  double gain = found.alone;
+  for (const Tried& tried : search.first_stage) {
+    // An effect that a richer law in the drive shows was tried as such a law.
+    if (!found.of_law && (found.by_law ? tried.part.is_law() : tried.part == found.part)) {
+      gain = std::max(gain, tried.gain);
     }
-    const std::vector<const Rival*> close = close_rivals(found);
-    for (const Rival& rival : found.rivals) {
-      Contender row = contender_of(rival, found, search, known);
-      if (std::ranges::find(close, &rival) != close.end()) {
-        const LeftOut& instead = *looked.find(*rival.fit);
-        row.squares = instead.squares;
-        row.share = (without.squares - instead.squares) / std::max(one.gain, 1e-300);
-        row.behind = comparison(augmented, instead, noise);
-      }
-      one.contenders.push_back(std::move(row));
-    }
-    std::ranges::stable_sort(one.contenders, [](const Contender& a, const Contender& b) { return a.share > b.share; });
-    for (const Swap& swap : search.swaps) {
-      // A law that has the effect as a parameter of its own loses nothing without it, and one that runs away tells
-      // nothing.
-      if (!is_part_of(one.id, swap.model) && std::max(swap.without[k], swap.squares) < diverged_cost) {
-        one.behind_laws.push_back({swap.model, (swap.without[k] - swap.squares) / std::max(found.gain, 1e-300)});
-      }
-    }
-    const std::vector<ParameterInterval> intervals = known.intervals(search.augmented, one.id);
-    one.parameters = static_cast<int>(intervals.size());
-    one.on_bound = static_cast<int>(std::ranges::count_if(intervals, [&](const ParameterInterval& p) {
-      return !p.bound.empty() && !is_plain_end(one.id, p.name, p.bound == "upper" ? BoxEnd::upper : BoxEnd::lower);
-    }));
-    one.signatures = signatures_of(found.contrasts);
-    one.of_law = found.of_law.has_value();
-    one.as_channels = found.told || (one.id == channel_lag && as_channels_show(search.augmented, known));
-    result.candidates.push_back(std::move(one));
   }
-  for (Candidate& one : result.candidates) {
-    for (const Candidate& other : result.candidates) {
+  return gain;
+}
+
+// What was set in the place of `found`, best first; `without` is left without it, and `gain` what it takes off that.
+std::vector<Contender> contenders_of(const Found& found, const Search& search, const Circumstances& known,
+                                     const Looked& looked, const LeftOut& without, double gain,
+                                     const std::vector<double>& noise) {
+  const LeftOut& augmented = *looked.find(search.augmented);
+  const std::vector<const Rival*> close = close_rivals(found);
+  std::vector<Contender> result;
+  for (const Rival& rival : found.rivals) {
+    Contender row = contender_of(rival, found, search, known);
+    if (std::ranges::find(close, &rival) != close.end()) {
+      const LeftOut& instead = *looked.find(*rival.fit);
+      row.squares = instead.squares;
+      row.share = (without.squares - instead.squares) / std::max(gain, 1e-300);
+      row.behind = comparison(augmented, instead, noise);
+    }
+    result.push_back(std::move(row));
+  }
+  std::ranges::stable_sort(result, [](const Contender& a, const Contender& b) { return a.share > b.share; });
+  return result;
+}
+
+// The k-th effect that was found.
+Candidate candidate_found(std::size_t k, const Search& search, const Workbench& fine, const Circumstances& known,
+                       const Looked& looked, const std::vector<double>& noise) {
+  const Found& found = search.found[k];
+  const LeftOut& augmented = *looked.find(search.augmented);
+  // A law's own part is marched as the law is.
+  const LeftOut& less = *looked.find(found.without);
+  const LeftOut without = found.of_law ? less : left_out_beside(fine, found.without, found.part, less);
+  Candidate one;
+  one.id = found.part.effect;
+  one.gain = without.squares - augmented.squares;
+  one.score = comparison(augmented, without, noise);
+  one.gain_alone = gain_alone_of(found, search);
+  one.contenders = contenders_of(found, search, known, looked, without, one.gain, noise);
+  for (const Swap& swap : search.swaps) {
+    // A law that has the effect as a parameter of its own loses nothing without it, and one that runs away tells
+    // nothing.
+    if (!is_part_of(one.id, swap.model) && std::max(swap.without[k], swap.squares) < diverged_cost) {
+      one.behind_laws.push_back({swap.model, (swap.without[k] - swap.squares) / std::max(found.gain, 1e-300)});
+    }
+  }
+  const std::vector<ParameterInterval> intervals = known.intervals(search.augmented, one.id);
+  one.parameters = static_cast<int>(intervals.size());
+  one.on_bound = static_cast<int>(std::ranges::count_if(intervals, [&](const ParameterInterval& p) {
+    return !p.bound.empty() && !is_plain_end(one.id, p.name, p.bound == "upper" ? BoxEnd::upper : BoxEnd::lower);
+  }));
+  one.signatures = signatures_of(found.contrasts);
+  one.of_law = found.of_law.has_value();
+  one.as_channels = found.told || (one.id == channel_lag && as_channels_show(search.augmented, known));
+  return one;
+}
+
+void add_gains_of_relatives(std::vector<Candidate>& candidates) {
+  for (Candidate& one : candidates) {
+    for (const Candidate& other : candidates) {
       if (is_kin(one.id, other.id)) {
         one.gain_of_relative = std::max(one.gain_of_relative, other.gain);
       }
     }
   }
-  ContrastsLeft contrasts_left(known, result);
+}
+
+// Of candidates in the order of `search.found`.
+std::vector<ContrastLeft> contrasts_left_of(const Search& search, const Circumstances& known,
+                                            const Evidence& evidence) {
+  std::vector<ContrastLeft> rows;
+  ContrastsLeft left(known, evidence);
   for (const Found& found : search.found) {
     const std::string& id = found.part.effect;
-    contrasts_left.add(result.contrasts_left, id, search.augmented, {}, false);
+    left.add(rows, id, search.augmented, {}, false);
     for (const Rival* rival : close_rivals(found)) {
-      contrasts_left.add(result.contrasts_left, id, *rival->fit, name_of(rival->part), false);
+      left.add(rows, id, *rival->fit, name_of(rival->part), false);
     }
     for (const Fit& law : search.other_laws) {
-      contrasts_left.add(result.contrasts_left, id, law, law.what.model, true);
+      left.add(rows, id, law, law.what.model, true);
     }
   }
-  std::ranges::stable_sort(result.candidates, [](const Candidate& a, const Candidate& b) { return a.gain > b.gain; });
+  return rows;
+}
+
+// Of candidates, strongest first.
+std::vector<OtherLaw> other_laws_of(const Search& search, const Evidence& evidence) {
+  std::vector<OtherLaw> result;
   for (const Fit& law : search.other_laws) {
-    OtherLaw row{law.what.model, squared(law.cost), !result.candidates.empty(), {}};
-    for (const Candidate& candidate : result.candidates) {
-      const bool has = is_part_of(candidate.id, row.model) && !is_part_of(candidate.id, result.model);
+    OtherLaw row{law.what.model, squared(law.cost), !evidence.candidates.empty(), {}};
+    for (const Candidate& candidate : evidence.candidates) {
+      const bool has = is_part_of(candidate.id, row.model) && !is_part_of(candidate.id, evidence.model);
       if (has) {
         row.has.push_back(candidate.id);
       }
       row.has_what_was_found =
-          row.has_what_was_found && (has || candidate.gain < trace * result.candidates.front().gain);
+          row.has_what_was_found && (has || candidate.gain < trace * evidence.candidates.front().gain);
     }
-    result.other_laws.push_back(std::move(row));
+    result.push_back(std::move(row));
   }
+  return result;
+}
+
+}  // namespace
+
+Evidence evidence_of(const Search& search, const Workbench& fine, const Circumstances& known) {
+  const Looked looked = looked_at(search, fine);
+  const std::vector<double> noise = noise_of(fine);
+  Evidence result = evidence_of_models(search, fine, known, looked, noise);
+  for (std::size_t k = 0; k < search.found.size(); ++k) {
+    result.candidates.push_back(candidate_found(k, search, fine, known, looked, noise));
+  }
+  add_gains_of_relatives(result.candidates);
+  result.contrasts_left = contrasts_left_of(search, known, result);
+  std::ranges::stable_sort(result.candidates, [](const Candidate& a, const Candidate& b) { return a.gain > b.gain; });
+  result.other_laws = other_laws_of(search, result);
   return result;
 }
 
