@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "core/extent.hpp"
+#include "core/robust.hpp"
 #include "fit/layout.hpp"
 
 namespace hysteron {
@@ -68,9 +69,7 @@ std::optional<double> median_of(const std::vector<Figures>& all, std::size_t fig
     if (one[figure] > 0.0) values.push_back(one[figure]);
   }
   if (values.empty()) return std::nullopt;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
+  return hysteron::median_of(std::move(values));
 }
 
 // The ranges of the recordings that are near the median in all figures; nothing where these are not most of them.

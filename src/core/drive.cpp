@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/robust.hpp"
+
 namespace hysteron {
 namespace {
 
@@ -46,11 +48,7 @@ double drive_noise(const std::vector<double>& drive) {
   if (drive.size() < least_samples) {
     return 0.0;
   }
-  std::vector<double> sizes = fourth_differences(drive);
-  std::ranges::transform(sizes, sizes.begin(), [](double v) { return std::fabs(v); });
-  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-  std::ranges::nth_element(sizes, middle);
-  return 1.4826 * *middle;
+  return robust_deviation(fourth_differences(drive));
 }
 
 bool varies(const std::vector<double>& drive) {

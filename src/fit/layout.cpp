@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "core/error.hpp"
+#include "core/robust.hpp"
 #include "core/suggest.hpp"
 #include "core/unit_text.hpp"
 
@@ -168,9 +169,7 @@ double dominant_frequency(const Recording& recording) {
   for (std::size_t k = 1; k < turns.size(); ++k) {
     halves.push_back(turns[k] - turns[k - 1]);
   }
-  const auto middle = halves.begin() + static_cast<std::ptrdiff_t>(halves.size() / 2);
-  std::ranges::nth_element(halves, middle);
-  const double median = *middle;
+  const double median = median_of(halves);
   // In the mean of those like the median the errors of their ends cancel.
   const double step = (recording.time.back() - recording.time.front()) / static_cast<double>(x.size() - 1);
   const double alike = std::max(alike_share * median, alike_samples * step);

@@ -13,6 +13,7 @@
 
 #include "core/drive.hpp"
 #include "core/extent.hpp"
+#include "core/robust.hpp"
 #include "io/channel_faults.hpp"
 #include "io/motion_faults.hpp"
 #include "io/outliers.hpp"
@@ -128,9 +129,7 @@ std::optional<Gap> gap_in(const std::vector<double>& time) {
     if (n % stride == 0) steps.push_back(step);
     if (step > gap.length) gap = {time[n], step, 0.0};
   }
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::ranges::nth_element(steps, middle);
-  gap.usual = *middle;
+  gap.usual = median_of(std::move(steps));
   return gap.length > far_longer * gap.usual ? std::optional(gap) : std::nullopt;
 }
 

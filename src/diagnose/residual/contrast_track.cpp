@@ -6,6 +6,7 @@
 
 #include "core/drive.hpp"
 #include "core/extent.hpp"
+#include "core/robust.hpp"
 #include "io/velocity.hpp"
 
 namespace hysteron::contrast {
@@ -16,12 +17,6 @@ constexpr double quiet_speed = 0.02;    // of the largest: below it nothing move
 constexpr double shortest_hold = 0.2;   // s
 constexpr double jump_of_drive = 0.05;  // of its range, from one sample to the next but one
 constexpr double longest_step = 5.0;    // of the median time between samples; longer ones are gaps
-
-double median(Values values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
-}
 
 // Slope over time by central differences.
 Values slope_of(const Values& time, const Values& values) {
@@ -88,7 +83,7 @@ void find_reversals(Track& track) {
   for (std::size_t k = 2; k < reversals.size(); ++k) {
     times.push_back(track.time[reversals[k]] - track.time[reversals[k - 1]]);
   }
-  track.period = times.empty() ? 0.0 : 2.0 * median(times);
+  track.period = times.empty() ? 0.0 : 2.0 * median_of(times);
 }
 
 void find_holds(Track& track) {
@@ -149,7 +144,7 @@ std::optional<Track> track_of(const Recording& recording, const Residual& residu
   for (std::size_t n = 1; n < size; ++n) {
     steps.push_back(track.time[n] - track.time[n - 1]);
   }
-  const double longest = longest_step * median(steps);
+  const double longest = longest_step * median_of(steps);
   track.duration.assign(size, 0.0);
   for (std::size_t n = 1; n < size; ++n) {
     const double half = 0.5 * std::min(steps[n - 1], longest);

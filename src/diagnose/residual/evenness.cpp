@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "core/robust.hpp"
 #include "diagnose/residual/surrogate.hpp"
 #include "diagnose/signal/features.hpp"
 #include "diagnose/signal/noise.hpp"
@@ -45,9 +46,7 @@ void EvennessSum::add(const Recording& recording, const Residual& residual, doub
   };
   std::vector<double> r = tail(residual.force);
   const double centre = median_of(r);
-  std::vector<double> sizes(size);
-  std::ranges::transform(r, sizes.begin(), [&](double value) { return std::fabs(value - centre); });
-  const double limit = cut * 1.4826 * median_of(sizes);
+  const double limit = cut * robust_deviation(r, centre);
   std::vector<double> force(size);
   double mean = 0.0;
   for (std::size_t n = 0; n < size; ++n) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/robust.hpp"
 #include "fit/layout.hpp"
 
 namespace hysteron {

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/random.hpp"
+#include "core/robust.hpp"
 
 namespace hysteron {
 namespace {
@@ -179,9 +180,7 @@ class Chance {
     for (const std::vector<double>& row : within_[0]) {
       values.push_back(row[groups - 1]);
     }
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::ranges::nth_element(values, middle);
-    return *middle;
+    return median_of(std::move(values));
   }
 
  private:

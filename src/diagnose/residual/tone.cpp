@@ -1,10 +1,12 @@
+#include "diagnose/residual/tone.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <complex>
 #include <numbers>
 #include <unsupported/Eigen/FFT>
 
-#include "diagnose/residual/tone.hpp"
+#include "core/robust.hpp"
 
 namespace hysteron {
 namespace {
@@ -95,9 +97,7 @@ Spectrum spectrum_of(const Values& values, double duration) {
   const auto median_from = [&](std::size_t first) {
     const auto begin = result.power.begin() + static_cast<std::ptrdiff_t>(first);
     std::copy(begin, begin + static_cast<std::ptrdiff_t>(near.size()), near.begin());
-    const auto middle = near.begin() + static_cast<std::ptrdiff_t>(near.size() / 2);
-    std::ranges::nth_element(near, middle);
-    return *middle;
+    return median_of(near);
   };
   for (std::size_t k = to; k + to < count; ++k) {
     const double mean_near = std::max(median_from(k - to), median_from(k + from)) / std::numbers::ln2;

@@ -8,6 +8,7 @@
 
 #include "core/drive.hpp"
 #include "core/random.hpp"
+#include "core/robust.hpp"
 #include "core/squared.hpp"
 #include "fit/layout.hpp"
 #include "io/velocity.hpp"
@@ -75,13 +76,7 @@ class Interpolation {
   std::array<double, 4> weights_{};
 };
 
-// The robust standard deviation around zero, and that without outliers beyond it.
-double robust_deviation(const std::vector<double>& values) {
-  std::vector<double> sizes(values.size());
-  std::ranges::transform(values, sizes.begin(), [](double v) { return std::fabs(v); });
-  return 1.4826 * median_of(sizes);
-}
-
+// The standard deviation around zero without outliers.
 double clipped_deviation(const std::vector<double>& values, double freedoms = 0.0) {
   const double robust = robust_deviation(values);
   double sum = 0.0;
@@ -325,12 +320,6 @@ Differences differences_of(const Recording& recording, const Periodicity& cycle)
 }
 
 }  // namespace
-
-double median_of(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
-}
 
 std::string_view word_of(NoiseMethod method) {
   switch (method) {

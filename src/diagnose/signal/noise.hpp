@@ -9,9 +9,6 @@
 
 namespace hysteron {
 
-// The upper one of the two in the middle; at least one value.
-double median_of(std::vector<double> values);
-
 enum class NoiseMethod {
   unknown,    // too few samples
   cycles,     // what differs between successive periods of a motion that repeats; it holds coloured noise too
