@@ -79,7 +79,7 @@ std::vector<Named> named_of(std::vector<Named> names, bool behind_asked) {
   return names;
 }
 
-// What is reported is of every sample at the tolerance asked for, and of the judging recordings, which nothing before
+// What is reported is of every sample at the tolerance asked for, and of the held-out recordings, which nothing before
 // has looked at.
 void score_on_all(Search& found, const std::vector<Named>& names, const Workbench& bench) {
   found.base = bench.scored(found.base);

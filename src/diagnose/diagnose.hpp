@@ -36,7 +36,7 @@ struct Diagnosis {
   Evidence evidence;
   Verdict verdict;
   double noise_floor = 0.0;          // of the force, NRMSE over the fitted recordings
-  double noise_floor_heldout = 0.0;  // likewise over the judging ones
+  double noise_floor_heldout = 0.0;  // likewise over those held out
   NoiseMethod noise_floor_method = NoiseMethod::unknown;
   DriveKind drive = DriveKind::none;
   std::vector<Contrast> contrasts;       // of what the base model leaves of the fitted recordings, in their order

@@ -12,7 +12,7 @@ namespace hysteron {
 inline constexpr std::size_t fine_samples = 8000;
 
 // The split itself, few recordings and samples to compare hypotheses, more of them for what a search ends with. One
-// box; only `whole` and `every` see the judging recordings.
+// box; only `whole` and `every` see the held-out recordings.
 struct Workbenches {
   Workbench whole;
   Workbench quick;
