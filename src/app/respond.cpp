@@ -12,6 +12,7 @@
 #include "app/values.hpp"
 #include "core/drive.hpp"
 #include "core/error.hpp"
+#include "core/frequency.hpp"
 #include "respond/one_period.hpp"
 #include "task/guesses.hpp"
 #include "task/model_file.hpp"

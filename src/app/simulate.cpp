@@ -9,6 +9,7 @@
 #include "app/result.hpp"
 #include "app/values.hpp"
 #include "core/error.hpp"
+#include "core/frequency.hpp"
 #include "core/suggest.hpp"
 #include "fit/start.hpp"
 #include "io/output.hpp"

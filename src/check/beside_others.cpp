@@ -11,8 +11,8 @@
 #include <utility>
 
 #include "core/extent.hpp"
+#include "core/frequency.hpp"
 #include "core/robust.hpp"
-#include "fit/layout.hpp"
 
 namespace hysteron {
 namespace {

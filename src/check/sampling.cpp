@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "fit/layout.hpp"
+#include "core/frequency.hpp"
 
 namespace hysteron {
 namespace {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/frequency.hpp"
 #include "core/squared.hpp"
 #include "diagnose/residual/conditions.hpp"
 #include "diagnose/residual/misfit.hpp"

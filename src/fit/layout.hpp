@@ -37,10 +37,6 @@ struct DataScale {
 // InputError where recordings have other conditions than the first.
 DataScale scale_of(const std::vector<Recording>& recordings);
 
-// Frequency in Hz of the motion between its first and last turning points: of the half periods that are like their
-// median, so that a rest or a sweep does not count, on average, which no sampling rounds. 0 when it never turns.
-double dominant_frequency(const Recording& recording);
-
 struct LayoutOptions {
   LawOrders by_current;
   LawOrders by_frequency;

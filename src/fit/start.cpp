@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "fit/layout.hpp"
+#include "core/frequency.hpp"
 
 namespace hysteron {
 namespace {

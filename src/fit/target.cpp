@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "core/drive.hpp"
-#include "fit/layout.hpp"
+#include "core/frequency.hpp"
 #include "fit/mean.hpp"
 #include "fit/start.hpp"
 #include "simulate/lean_motion.hpp"

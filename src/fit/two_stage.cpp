@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "core/error.hpp"
+#include "core/frequency.hpp"
 
 namespace hysteron {
 namespace {

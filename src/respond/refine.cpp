@@ -9,6 +9,7 @@
 #include "core/drive.hpp"
 #include "core/error.hpp"
 #include "core/extent.hpp"
+#include "core/frequency.hpp"
 #include "fit/neighbours.hpp"
 #include "fit/parallel.hpp"
 #include "io/velocity.hpp"

@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/frequency.hpp"
 #include "fit/layout.hpp"
 
 namespace hysteron {

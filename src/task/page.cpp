@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/frequency.hpp"
 #include "fit/layout.hpp"
 
 namespace hysteron {

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "core/error.hpp"
+#include "core/frequency.hpp"
 #include "datasets/dataset.hpp"
 #include "synthetic.hpp"
 
@@ -631,18 +632,6 @@ TEST(Layout, AnOffsetForceMakesUpForAMotionOffItsZero) {
   EXPECT_LE(off.coordinates()[2].lower, -0.5 * stiffness.upper);
   EXPECT_NEAR(stiffness.upper, centred.coordinates()[1].upper, 1e-9 * stiffness.upper);
   EXPECT_NEAR(centred.coordinates()[2].upper, 1.5 * 900.0, 1e-9) << "the recordings' peak force times that of the card";
-}
-
-// Twenty-one samples a period, so that a half period is no whole number of them.
-TEST(Layout, TheFrequencyIsNotRoundedToSamples) {
-  for (const double hertz : {4.0, 22.5, 24.0}) {
-    Recording recording;
-    for (int n = 0; n <= 1500; ++n) {
-      recording.time.push_back(n / 500.0);
-      recording.displacement.push_back(2e-3 * std::sin(2.0 * std::numbers::pi * hertz * recording.time.back()));
-    }
-    EXPECT_NEAR(dominant_frequency(recording), hertz, 2e-3 * hertz);
-  }
 }
 
 TEST(Layout, TermNames) {

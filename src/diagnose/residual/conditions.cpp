@@ -6,8 +6,8 @@
 #include <numeric>
 
 #include "core/extent.hpp"
+#include "core/frequency.hpp"
 #include "core/random.hpp"
-#include "fit/layout.hpp"
 
 namespace hysteron {
 namespace {

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/frequency.hpp"
 #include "core/midranks.hpp"
 #include "diagnose/residual/independent.hpp"
-#include "fit/layout.hpp"
 
 namespace hysteron {
 namespace {

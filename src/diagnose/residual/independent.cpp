@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/frequency.hpp"
 #include "core/robust.hpp"
-#include "fit/layout.hpp"
 
 namespace hysteron {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "fit/layout.hpp"
+#include "core/frequency.hpp"
 
 namespace hysteron {
 namespace {

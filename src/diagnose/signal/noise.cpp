@@ -7,10 +7,10 @@
 #include <numeric>
 
 #include "core/drive.hpp"
+#include "core/frequency.hpp"
 #include "core/random.hpp"
 #include "core/robust.hpp"
 #include "core/squared.hpp"
-#include "fit/layout.hpp"
 #include "io/velocity.hpp"
 
 namespace hysteron {

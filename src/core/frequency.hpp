@@ -1,0 +1,12 @@
+// How often a recorded motion turns.
+#pragma once
+
+#include "core/recording.hpp"
+
+namespace hysteron {
+
+// Frequency in Hz of the motion between its first and last turning points: of the half periods that are like their
+// median, so that a rest or a sweep does not count, on average, which no sampling rounds. 0 when it never turns.
+double dominant_frequency(const Recording& recording);
+
+}  // namespace hysteron
