@@ -16,6 +16,8 @@ constexpr double unknown_contrast = 0.5;
 constexpr double of_noise = 1.0;
 // From so many on a contrast is no surer.
 constexpr double beyond_doubt = 4.0;
+// Recordings from which on they are left out as wholes (left_out.cpp); of fewer, parts of each are, which tells less.
+constexpr double enough_recordings = 4.0;
 // A prediction that is better by this block score is hardly better.
 constexpr double least_prediction = 1e-3;
 
@@ -100,7 +102,8 @@ NameFeatures features_of(const Candidate& candidate, const Evidence& evidence) {
           1.0 - static_cast<double>(candidate.on_bound) / std::max(candidate.parameters, 1),
           contrast_of(candidate),
           unit(candidate.gain_alone / gain),
-          unit(1.0 - candidate.gain_of_relative / (candidate.gain_of_relative + gain))};
+          unit(1.0 - candidate.gain_of_relative / (candidate.gain_of_relative + gain)),
+          unit((static_cast<double>(evidence.recordings) - 1.0) / (enough_recordings - 1.0))};
 }
 
 MissingFeatures features_of(const Evidence& evidence) {

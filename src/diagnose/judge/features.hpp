@@ -16,7 +16,7 @@ struct Feature {
 };
 
 // Of a name.
-inline constexpr std::array<Feature, 7> name_features = {{
+inline constexpr std::array<Feature, 8> name_features = {{
     {"prediction", "log10 of 1 + a thousand block scores: how much better recordings left out in turn are predicted"},
     {"no_other_law",
      "1 less the share of what all effects take off that another damper law, without it as a part of its own, takes "
@@ -31,6 +31,7 @@ inline constexpr std::array<Feature, 7> name_features = {{
     {"no_relative",
      "1 less the gain of a related effect of the model over that and its own: what a form misses looks like a "
      "relative"},
+    {"recordings", "fitted ones, from one (0) to four and more (1): what few show may be theirs alone"},
 }};
 using NameFeatures = std::array<double, name_features.size()>;
 NameFeatures features_of(const Candidate& candidate, const Evidence& evidence);
