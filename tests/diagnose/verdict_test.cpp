@@ -197,6 +197,23 @@ TEST(Features, ALawThatHasTheEffectAsAPartOfItsOwnIsNoDoubtOfIt) {
   EXPECT_EQ(features_of(evidence.candidates[0], evidence)[at], 1.0);
 }
 
+TEST(Features, FewRecordingsMakeANameLessSure) {
+  Evidence evidence = plain();
+  const auto at = [&](std::size_t recordings) {
+    evidence.recordings = recordings;
+    const auto row = std::ranges::find(name_features, "recordings", &Feature::name);
+    return features_of(evidence.candidates[0], evidence)[static_cast<std::size_t>(row - name_features.begin())];
+  };
+  EXPECT_EQ(at(1), 0.0);
+  EXPECT_DOUBLE_EQ(at(2), 1.0 / 3.0);
+  EXPECT_EQ(at(4), 1.0);
+  EXPECT_EQ(at(20), 1.0) << "more make no name surer";
+  evidence.recordings = 1;
+  const double of_one = name_table().probability(features_of(evidence.candidates[0], evidence));
+  evidence.recordings = 6;
+  EXPECT_LE(of_one, name_table().probability(features_of(evidence.candidates[0], evidence)));
+}
+
 TEST(Comparison, FewClustersAskForMoreThanTwoStandardErrors) {
   // Quantiles of Student's distribution where the normal one is at two: 2.649 with five degrees of freedom, 2.284 with
   // ten.
