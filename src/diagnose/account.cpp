@@ -149,11 +149,16 @@ std::string sentence_of(const Diagnosis& diagnosis, const Named& named,
           ". Its signature contrast vanishes with it and remains with {} of {} effects and laws tried in its place",
           others.leave_the_contrast, others.tried);
     }
-    text += fmt::format(
-        ". To explain it away, unmodelled physics would have to explain {} of what stays and share {} of its shape",
-        percent(named.robustness), percent(named.robustness));
+    text += ". " + sentence_of_robustness(named, "it");
   }
   return text + ".";
+}
+
+std::string sentence_of_robustness(const Named& named, std::string_view it) {
+  const std::string share = percent(named.robustness);
+  return fmt::format(
+      "To explain {} away, unmodelled physics would have to explain {} of what stays and share {} of its shape", it,
+      share, share);
 }
 
 std::string_view what_shapes_do(const Diagnosis& diagnosis) {
@@ -252,11 +257,11 @@ bool above_noise_floor(const Diagnosis& diagnosis) {
 void note_verdict(Diagnosis& diagnosis) {
   const Verdict& verdict = diagnosis.verdict;
   if (verdict.answer == Answer::complete && above_noise_floor(diagnosis)) {
-    diagnosis.notes.push_back(
-        fmt::format("the residual is {:.2f} times the noise floor, {:.2f} times on held-out recordings; too little of it "
-                    "follows the motion to tell it from slow noise, which the floor underestimates",
-                    diagnosis.search.augmented.cost / diagnosis.noise_floor,
-                    diagnosis.search.augmented.heldout / diagnosis.noise_floor_heldout));
+    diagnosis.notes.push_back(fmt::format(
+        "the residual is {:.2f} times the noise floor, {:.2f} times on held-out recordings; too little of it "
+        "follows the motion to tell it from slow noise, which the floor underestimates",
+        diagnosis.search.augmented.cost / diagnosis.noise_floor,
+        diagnosis.search.augmented.heldout / diagnosis.noise_floor_heldout));
   }
   const bool tone_is_reason =
       diagnosis.tone_doubts && verdict.answer == Answer::unattributed && diagnosis.evidence.doubt_of_data.empty();

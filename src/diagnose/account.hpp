@@ -31,6 +31,9 @@ std::string sentence_of(const Diagnosis& diagnosis, const Named& named,
 // shapes that are no causes do better.
 std::string_view what_shapes_do(const Diagnosis& diagnosis);
 
+// What it would take to explain a name away (robustness_value), without a full stop; `it` is what the name is called.
+std::string sentence_of_robustness(const Named& named, std::string_view it);
+
 // Effects that were tried and not named, with reasons.
 std::vector<Rejected> rejected_of(const Diagnosis& diagnosis);
 // A recording that would decide or confirm.

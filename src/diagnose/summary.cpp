@@ -200,13 +200,9 @@ std::vector<std::string> summary_of(const Diagnosis& diagnosis) {
   add(summary, sentence_of_place(diagnosis));
   if (!verdict.effects.empty()) {
     const Named& first = verdict.effects.front();
-    add(summary, fmt::format("To explain {} away, unmodelled physics would have to explain {} of what stays and share "
-                             "{} of its shape.",
-                             std::ranges::all_of(verdict.effects.begin() + 1, verdict.effects.end(),
-                                                 [](const Named& named) { return named.in_place_of.has_value(); })
-                                 ? "it"
-                                 : "the first",
-                             percent(first.robustness), percent(first.robustness)));
+    const bool alone = std::ranges::all_of(verdict.effects.begin() + 1, verdict.effects.end(),
+                                           [](const Named& named) { return named.in_place_of.has_value(); });
+    add(summary, sentence_of_robustness(first, alone ? "it" : "the first") + ".");
   }
   add(summary, "Next recording: " + diagnosis.next_experiment + ".");
   return summary;
