@@ -238,6 +238,16 @@ TEST(EquallyGood, WhatIsNotSurelyWorse) {
   EXPECT_TRUE(equally_good(candidate).empty());
 }
 
+TEST(EquallyGood, ARelatedEffectThatTakesOffNineTenths) {
+  Evidence evidence = plain();
+  Candidate& candidate = evidence.candidates[0];
+  candidate.contenders = {contender("sensor-delay", 0.95, 8.0, true), contender("linear-stiffness", 0.85, 8.0, true),
+                          contender("compliance", 0.95, 8.0)};
+  const std::vector<const Contender*> others = equally_good(candidate);
+  ASSERT_EQ(others.size(), 1U) << "the data tell the two others apart";
+  EXPECT_EQ(others[0]->id, "sensor-delay") << "what they tell may be the form of it alone";
+}
+
 TEST(EquallyGood, AlsoWhatLeavesTheContrastOfTheCandidate) {
   Evidence evidence = plain();
   Candidate& candidate = evidence.candidates[0];

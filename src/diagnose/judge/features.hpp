@@ -53,8 +53,13 @@ MissingFeatures features_of(const Evidence& evidence);
 double robustness_value(double f2);
 double robustness_of(const Candidate& candidate, const Evidence& evidence);
 
+// What takes off this part of what something else takes off does as well: another law beside effects, or an effect
+// beside a related one.
+inline constexpr double does_as_well = 0.9;
+
 // Related and unrelated effects that do as well in the candidate's place: the candidate predicts recordings left out no
-// better than two standard errors, or it ends as the other, or is the limit of it that the data do not tell apart.
+// better than two standard errors, or it ends as the other, or is the limit of it that the data do not tell apart, or
+// the other is related and takes off nine tenths of what it does, whatever the recordings prefer.
 std::vector<const Contender*> equally_good(const Candidate& candidate);
 
 // Whose base a candidate is weighed against: that of the law asked for, where it is a part of the law that took its

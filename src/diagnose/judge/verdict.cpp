@@ -13,8 +13,6 @@ namespace {
 // What stays beyond the noise shows structure where it is this part of the noise, an estimate of the noise being no
 // better.
 constexpr double structure_over_noise = 0.3;
-// Another law does as well when it takes off this part of what the effects take off.
-constexpr double law_share = 0.9;
 
 bool structure_remains(const Left& left) {
   return left.structure > structure_over_noise * std::max(left.squares - left.structure, 1e-300);
@@ -164,7 +162,7 @@ std::string better_law(const Evidence& evidence) {
   const double asked = evidence.candidates.empty() ? evidence.base_compared - evidence.base.floor : all;
   const OtherLaw* best = nullptr;
   for (const OtherLaw& law : evidence.other_laws) {
-    if (!law.has_what_was_found && evidence.base_compared - law.squares > law_share * asked &&
+    if (!law.has_what_was_found && evidence.base_compared - law.squares > does_as_well * asked &&
         (best == nullptr || law.squares < best->squares)) {
       best = &law;
     }
