@@ -246,6 +246,8 @@ TEST(EquallyGood, ARelatedEffectThatTakesOffNineTenths) {
   const std::vector<const Contender*> others = equally_good(candidate);
   ASSERT_EQ(others.size(), 1U) << "the data tell the two others apart";
   EXPECT_EQ(others[0]->id, "sensor-delay") << "what they tell may be the form of it alone";
+  candidate.contenders[0].holds_the_candidate = true;
+  EXPECT_TRUE(equally_good(candidate).empty()) << "a wider form takes off as much in any case";
 }
 
 TEST(EquallyGood, AlsoWhatLeavesTheContrastOfTheCandidate) {

@@ -51,8 +51,9 @@ std::vector<const Contender*> equally_good(const Candidate& candidate) {
     if (row.law) {
       continue;
     }
-    // Of related effects the catalogue holds one form each, and another form of the same would fit as well.
-    const bool form_alone = row.kin && row.share >= does_as_well;
+    // Of related effects the catalogue holds one form each, and another form of the same would fit as well. What holds
+    // the candidate as a limit takes off as much in any case.
+    const bool form_alone = row.kin && !row.holds_the_candidate && row.share >= does_as_well;
     const bool told = row.refitted && row.squares > 0.0 && row.behind.surely_better() && !form_alone;
     const bool limit = row.held_by_the_candidate && !row.apart;
     // What holds the candidate as a limit always explains as much: it counts only where it is surely not at the limit.
