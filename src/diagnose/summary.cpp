@@ -85,7 +85,7 @@ std::string sentence_of_shapes(const Diagnosis& diagnosis) {
                      std::string(what_shapes_do(diagnosis)) + (shapes.size() == 1 ? "s" : ""));
 }
 
-// "modified-bouc-wen (which includes a series dashpot)": what the cards say that it has and the law asked for lacks.
+// "modified-bouc-wen, which includes a series dashpot,": what the cards say that it has and the law asked for lacks.
 std::string law_with_parts(const std::string& law, const std::string& asked) {
   std::vector<std::string> parts;
   for (const std::string& effect : parts_of(law)) {
@@ -93,7 +93,7 @@ std::string law_with_parts(const std::string& law, const std::string& asked) {
       parts.push_back(title_of(effect));
     }
   }
-  return parts.empty() ? law : law + " (which includes " + joined(parts, " and ") + ")";
+  return parts.empty() ? law : law + ", which includes " + joined(parts, " and ") + ",";
 }
 
 std::string sentence_of_errors(const Diagnosis& diagnosis) {
