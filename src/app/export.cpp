@@ -93,8 +93,8 @@ void run(const Options& options) {
     say_beside(options.out, result.note + "\n" + about_steps(vector));
     return;
   }
-  // An FMU is an archive, and replaced as one.
-  if (!one_file || result.files.size() > 1) {
+  // An FMU is an archive, which does not say in words who wrote it, and replaced as one.
+  if (target.extension != ".fmu" && (!one_file || result.files.size() > 1)) {
     refuse_foreign(folder, result.files);
   }
   if (!folder.empty()) {

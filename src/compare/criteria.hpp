@@ -23,9 +23,9 @@ struct ResidualFacts {
   // Within which 95 % of the lags of white noise stay, each recording's noise of its own size:
   //   1.96 sqrt(sum_r (sum r^2)^2 / N_r) / sum_r sum r^2, which is 1.96 / sqrt(N) where all are of one size.
   double white_band = 0.0;
-  double outside = 0.0;  // share of these lags beyond it
-  std::vector<double> histogram;        // density of residual / its root mean square, histogram_bins of equal width
-  double beyond = 0.0;                  // share beyond histogram_reach
+  double outside = 0.0;           // share of these lags beyond it
+  std::vector<double> histogram;  // density of residual / its root mean square, histogram_bins of equal width
+  double beyond = 0.0;            // share beyond histogram_reach
 
   [[nodiscard]] double effective_samples() const;
 };

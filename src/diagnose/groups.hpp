@@ -34,8 +34,8 @@ struct Belonging {
   std::string explained_by;
 };
 
-// `bench` holds all recordings, those held out too. `base` is of the damper law alone on them, `augmented` the best model
-// that was found. Nothing where no groups stand out.
+// `bench` holds all recordings, those held out too. `base` is of the damper law alone on them, `augmented` the best
+// model that was found. Nothing where no groups stand out.
 std::optional<Belonging> belonging_of(const Workbench& bench, const ByRecording& base, const Fit& augmented);
 
 // Whether the device was not the same: groups that nothing known explains.

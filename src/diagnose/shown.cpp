@@ -48,8 +48,9 @@ std::string sentence_of_contrasts(const Evidence& evidence, const std::vector<Na
   const Evidence& asked = replaced ? evidence.behind_asked.front() : evidence;
   std::vector<std::string> phrases;
   for (const Signature* row : untold(asked.signatures, names)) {
-    phrases.push_back(
-        phrase_of(*row, replaced && no_longer_shows(*row, evidence.signatures) ? "; absent with " + evidence.model : std::string{}));
+    phrases.push_back(phrase_of(*row, replaced && no_longer_shows(*row, evidence.signatures)
+                                          ? "; absent with " + evidence.model
+                                          : std::string{}));
   }
   std::string text;
   if (!phrases.empty()) {

@@ -128,6 +128,15 @@ TEST_F(Results, NothingOfAnotherHandIsReplaced) {
   fs::remove(folder_ / "c/bouc_wen.c");
   EXPECT_EQ(run(exported).status, 0);
   EXPECT_EQ(run(exported).status, 0);
+  // A model that was fitted anew is exported to the same places.
+  EXPECT_EQ(
+      run({"fit", "data", "--model", "bouc-wen", "--fix", "n=2", "--budget", "300", "--quiet", "--out", "anew"}).status,
+      0);
+  for (const std::string to : {"c", "python", "modelica", "simulink", "fmu"}) {
+    EXPECT_EQ(run({"export", "fitted/model.json", "--to", to, "--out", "again_" + to}).status, 0) << to;
+    const Outcome outcome = run({"export", "anew/model.json", "--to", to, "--out", "again_" + to});
+    EXPECT_EQ(outcome.status, 0) << to << ": " << outcome.err;
+  }
   refused({"minimise", "--objective", "python3 mine.py", "--box", "x=0:1", "--budget", "10", "--out", "mine.py"},
           "mine.py", "--out mine.py: is read and would be replaced");
 }

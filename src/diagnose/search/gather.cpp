@@ -286,7 +286,7 @@ std::vector<Contender> contenders_of(const Found& found, const Search& search, c
 
 // The k-th effect that was found.
 Candidate candidate_found(std::size_t k, const Search& search, const Workbench& fine, const Circumstances& known,
-                       const Looked& looked, const std::vector<double>& noise) {
+                          const Looked& looked, const std::vector<double>& noise) {
   const Found& found = search.found[k];
   const LeftOut& augmented = *looked.find(search.augmented);
   // A law's own part is marched as the law is.

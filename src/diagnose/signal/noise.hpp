@@ -39,9 +39,10 @@ NoiseFloor noise_floor(const Recording& recording);
 Recording shaken(const Recording& recording);
 
 // The longest stretch of a recording that repeats itself from period to period: displacement of successive periods
-// equal within 3 % of its standard deviation there, and so the drive where it varies. The first half period of it is left out (the force still knows what
-// came before), after which at least two periods stay. Ramps, rests and other amplitudes bound it; what repeats with
-// another period than the one of most half cycles is not found. All zero where nothing repeats.
+// equal within 3 % of its standard deviation there, and so the drive where it varies. The first half period of it is
+// left out (the force still knows what came before), after which at least two periods stay. Ramps, rests and other
+// amplitudes bound it; what repeats with another period than the one of most half cycles is not found. All zero where
+// nothing repeats.
 struct Periodicity {
   double period = 0.0;  // s
   double begins = 0.0;  // s, of the recording's time
