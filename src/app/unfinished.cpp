@@ -12,6 +12,7 @@
 #include "io/sha256.hpp"
 #include "plugin/plugin.hpp"
 #include "report/terminal.hpp"
+#include "task/command_text.hpp"
 
 namespace hysteron::app {
 namespace {
@@ -113,7 +114,7 @@ void Unfinished::write(const std::filesystem::path& path, std::size_t pieces) co
                  {"note",
                   "not a result: the effects so far have not been set against their rivals, and the errors are of "
                   "the recordings on which hypotheses are compared; rerun the command to resume"},
-                 {"command", command_line() + " --out " + path.parent_path().string()}}));
+                 {"command", command_line() + " --out " + quoted_word(path.parent_path().string())}}));
 }
 
 }  // namespace hysteron::app

@@ -8,6 +8,7 @@
 #include "diagnose/search/law_part.hpp"
 #include "diagnose/search/left_out.hpp"
 #include "diagnose/search/of_fit.hpp"
+#include "io/channel_lag.hpp"
 
 namespace hysteron {
 namespace {

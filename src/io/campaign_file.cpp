@@ -99,10 +99,9 @@ class CampaignParser : private TomlReader {
     return *number;
   }
 
-  // A number without a unit is in SI where its name says what it is, and else of the unit of the others, if they have
-  // none.
+  // Numbers of one name have one unit in all recordings. A plain number is in SI where the name says of what.
   void refuse_other_unit(const ConditionNumber& number, const ConditionNumber& first, std::string_view name) const {
-    const bool in_si = !unit_of_plain(lower_case(name)).empty() || lower_case(name) == "current";
+    const bool in_si = !unit_of_plain(lower_case(name)).empty();
     if (number.unit == first.unit || (in_si && (number.unit.empty() || first.unit.empty()))) return;
     const auto text = [](const std::string& unit) { return unit.empty() ? "without a unit" : "in " + in_quotes(unit); };
     fail_at(number.line, in_quotes(name) + " is given " + text(number.unit) + " and in line " +

@@ -37,17 +37,6 @@ constexpr double held_else = 0.25;
 // more.
 constexpr double turns = 0.25;
 
-// Calls `visit(first, count)` for all stretches of one value.
-template <class Visit>
-void for_each_run(const std::vector<double>& values, Visit visit) {
-  for (std::size_t first = 0; first < values.size();) {
-    std::size_t last = first;
-    while (last + 1 < values.size() && values[last + 1] == values[first]) ++last;
-    visit(first, last + 1 - first);
-    first = last + 1;
-  }
-}
-
 // The smaller of how far the values rise and how far they fall, between any two of them in their order.
 double rises_and_falls(const std::vector<double>& values, std::size_t first, std::size_t count) {
   double low = values[first];

@@ -8,6 +8,17 @@
 
 namespace hysteron {
 
+// Calls `visit(first, count)` for all stretches of one value.
+template <class Visit>
+void for_each_run(const std::vector<double>& values, Visit visit) {
+  for (std::size_t first = 0; first < values.size();) {
+    std::size_t last = first;
+    while (last + 1 < values.size() && values[last + 1] == values[first]) ++last;
+    visit(first, last + 1 - first);
+    first = last + 1;
+  }
+}
+
 // The largest or smallest value of the channel, taken by several samples running, again and again, while next to none
 // come near it: the channel ends there. `share` is that of the samples at it.
 struct FlatEnd {

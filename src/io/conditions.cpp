@@ -75,6 +75,7 @@ void refuse_shared(const ConditionSource& source, const std::vector<ConditionSou
 std::string_view unit_of_plain(std::string_view name) {
   if (name == "pressure") return "Pa";
   if (name == quantity_name(Quantity::temperature)) return "degC";
+  if (name == quantity_name(Quantity::current)) return "A";
   if (name == quantity_name(Quantity::voltage)) return "V";
   return {};
 }

@@ -2,10 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <set>
 
 #include "core/extent.hpp"
-#include "io/velocity.hpp"
+#include "core/robust.hpp"
+#include "core/squared.hpp"
+#include "io/channel_faults.hpp"
+#include "io/channel_lag.hpp"
 
 namespace hysteron {
 namespace {
@@ -49,58 +53,46 @@ std::optional<Leap> leap_of(const std::vector<double>& time, const std::vector<d
 }
 
 std::optional<double> held_samples_of(const std::vector<double>& values) {
-  std::vector<std::size_t> lengths;
+  std::vector<double> lengths;
   std::set<double> sizes;
-  std::size_t first = 0;
-  for (std::size_t n = 1; n < values.size(); ++n) {
-    if (values[n] != values[n - 1]) {
-      // What began before the recording is not known.
-      if (first > 0) lengths.push_back(n - first);
-      if (sizes.size() < fewest_sizes) sizes.insert(std::fabs(values[n] - values[n - 1]));
-      first = n;
-    }
-  }
+  for_each_run(values, [&](std::size_t first, std::size_t count) {
+    // What began before the recording, or goes on behind it, is not known.
+    if (first == 0 || first + count == values.size()) return;
+    lengths.push_back(static_cast<double>(count));
+    if (sizes.size() < fewest_sizes) sizes.insert(std::fabs(values[first] - values[first - 1]));
+  });
   if (lengths.size() < fewest_holds || sizes.size() < fewest_sizes) return std::nullopt;
-  double sum = 0.0;
-  for (const std::size_t length : lengths) sum += static_cast<double>(length);
-  std::vector<std::size_t> sorted = lengths;
-  std::ranges::nth_element(sorted, sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2));
-  const std::size_t usual = sorted[sorted.size() / 2];
-  const auto count_of = [&](std::size_t length) { return static_cast<double>(std::ranges::count(lengths, length)); };
-  const double same = count_of(usual) + std::max(count_of(usual - 1), count_of(usual + 1));
+  const double usual = median_of(lengths);
+  const auto count_of = [&](double length) { return static_cast<double>(std::ranges::count(lengths, length)); };
+  const double same = count_of(usual) + std::max(count_of(usual - 1.0), count_of(usual + 1.0));
   const auto count = static_cast<double>(lengths.size());
-  if (same < alike * count || sum < least_hold * count) return std::nullopt;
-  return sum / count;
+  const double mean = std::accumulate(lengths.begin(), lengths.end(), 0.0) / count;
+  return same >= alike * count && mean >= least_hold ? std::optional(mean) : std::nullopt;
 }
 
 VelocityFault velocity_fault_of(const Recording& recording) {
   VelocityFault result;
-  const std::size_t size = recording.size();
-  if (!recording.velocity_measured || size < 16) return result;
+  const std::optional<ChannelLag> lag = velocity_channel_lag(std::span(&recording, 1));
+  if (!lag) return result;
   const std::vector<double>& time = recording.time;
   const std::vector<double>& v = recording.velocity;
-  const std::vector<double> slope = derive_velocity(time, recording.displacement);
-  const double speed = peak_of(slope);
-  if (!(speed > 0.0)) return result;
   double way = 0.0;
-  for (std::size_t n = 1; n < size; ++n) way += 0.5 * (v[n] + v[n - 1]) * (time[n] - time[n - 1]);
+  for (std::size_t n = 1; n < v.size(); ++n) way += 0.5 * (v[n] + v[n - 1]) * (time[n] - time[n - 1]);
   const double net = recording.displacement.back() - recording.displacement.front();
   result.offset = (way - net) / (time.back() - time.front());
-  result.offset_share = std::fabs(result.offset) / speed;
-  // v(t) = slope(t - lag): least squares of v - slope over -acceleration, of its slope to first order.
-  const std::vector<double> acceleration = derive_acceleration(time, recording.displacement, slope, false);
-  double cross = 0.0;
-  double squares = 0.0;
+  double largest = 0.0;
   double speeds = 0.0;
-  for (std::size_t n = 0; n < size; ++n) {
-    cross -= (v[n] - slope[n] - result.offset) * acceleration[n];
-    squares += acceleration[n] * acceleration[n];
-    speeds += slope[n] * slope[n];
+  double accelerations = 0.0;
+  for (std::size_t n = 0; n < v.size(); ++n) {
+    const double speed = v[n] - result.offset;
+    largest = std::max(largest, std::fabs(speed));
+    speeds += squared(speed);
+    accelerations += squared(recording.derived_acceleration[n]);
   }
-  if (squares > 0.0) {
-    result.lag = cross / squares;
-    result.lag_share = std::fabs(result.lag) * std::sqrt(squares / speeds);
-  }
+  if (!(largest > 0.0)) return result;
+  result.offset_share = std::fabs(result.offset) / largest;
+  result.lag = lag->lag;
+  result.phase = std::atan(std::fabs(lag->lag) * std::sqrt(accelerations / speeds));
   return result;
 }
 

@@ -25,11 +25,10 @@ std::optional<double> held_samples_of(const std::vector<double>& values);
 
 // A recorded velocity against the slope of the displacement.
 struct VelocityFault {
-  double offset = 0.0;  // m/s, that displacement and time do not bear out
-  double lag = 0.0;     // s, later than the slope; negative: earlier
-  // Of the largest speed, and of the root mean square of the speed that the lag makes of the acceleration.
-  double offset_share = 0.0;
-  double lag_share = 0.0;
+  double offset = 0.0;        // m/s, by which its mean misses the net displacement over the time
+  double offset_share = 0.0;  // of the largest speed without it
+  double lag = 0.0;           // s, behind the slope (io/channel_lag.hpp); negative: ahead
+  double phase = 0.0;         // rad, that the lag is at the frequency of the motion, as acceleration over speed tell it
 };
 VelocityFault velocity_fault_of(const Recording& recording);
 

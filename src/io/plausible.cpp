@@ -167,13 +167,10 @@ bool drives_its_rig(const Recording& r) {
   return both < 0.0 && v_left > rounding * vv && f_left > rounding * ff && both * both > share * v_left * f_left;
 }
 
-// Samples that are lost, channels slower than the log, and a velocity that is late or off.
+// Samples that are lost, channels slower than the log, and a velocity that is none.
 void tell_of_motion(const Recording& recording, const Sources& sources, Remarks& remarks) {
-  // From here on a lag or an offset of the velocity is seen in the parameters: six degrees, a tenth of the speed.
-  constexpr double least_lag_share = 0.1;
-  constexpr double least_offset_share = 0.1;
   const std::vector<double>& time = recording.time;
-  if (const auto leap = leap_of(recording.time, recording.displacement)) {
+  if (const auto leap = leap_of(time, recording.displacement)) {
     remarks.tell("leap", fmt::format("the displacement leaps by {:.3g} mm between {:.4g} and {:.4g} s, far beyond its "
                                      "steps before and after: lost samples or two records joined look so; cut there",
                                      1e3 * leap->size, time[leap->after], time[leap->after + 1]));
@@ -196,8 +193,14 @@ void tell_of_motion(const Recording& recording, const Sources& sources, Remarks&
     remarks.tell(
         "no velocity",
         "the velocity is 0 throughout while the displacement moves: it is taken from the displacement instead");
-    return;
   }
+}
+
+// Of one that has the sign and the gain of the slope.
+void tell_of_velocity(const Recording& recording, Remarks& remarks) {
+  // From here on a lag or an offset is seen in the parameters: six degrees, a tenth of the speed.
+  constexpr double least_phase = 0.1;  // rad
+  constexpr double least_offset_share = 0.1;
   const VelocityFault fault = velocity_fault_of(recording);
   if (fault.offset_share > least_offset_share) {
     remarks.tell(
@@ -206,14 +209,14 @@ void tell_of_motion(const Recording& recording, const Sources& sources, Remarks&
                     "largest: check the zero of the channel",
                     fault.offset, 100.0 * fault.offset_share));
   }
-  if (fault.lag_share > least_lag_share) {
+  if (fault.phase > least_phase) {
     remarks.tell(
         "velocity lag",
         fmt::format("the velocity is {} the slope of the displacement by {:.2g} ms: a phase of {:.2g} degrees, of "
                     "which the model makes a stiffness that is not there; correct it, or remove the column: the "
                     "slope is then taken",
                     fault.lag > 0.0 ? "behind" : "ahead of", 1e3 * std::fabs(fault.lag),
-                    fault.lag_share * 180.0 / std::numbers::pi));
+                    fault.phase * 180.0 / std::numbers::pi));
   }
 }
 
@@ -359,6 +362,8 @@ void remark_on_sizes(const Recording& recording, const Sources& sources, const s
           fmt::format("the velocity is {:.3g} times the slope of the displacement over time: check the units and "
                       "the calibration of the three",
                       std::sqrt(ratio.low * ratio.high)));
+    } else {
+      tell_of_velocity(recording, remarks);
     }
   }
 }

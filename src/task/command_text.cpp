@@ -6,6 +6,10 @@
 
 namespace hysteron {
 
+std::string quoted_word(const std::string& word) {
+  return word.find(' ') == std::string::npos ? word : "'" + word + "'";
+}
+
 std::string command_text(const std::vector<std::string>& words) {
   std::string text = "hysteron";
   for (std::size_t k = 0; k < words.size(); ++k) {
@@ -20,7 +24,7 @@ std::string command_text(const std::vector<std::string>& words) {
     if (word.starts_with("/")) {
       word = std::filesystem::path(word).filename().string();
     }
-    text += " " + (word.find(' ') == std::string::npos ? word : "'" + word + "'");
+    text += " " + quoted_word(word);
   }
   return text;
 }

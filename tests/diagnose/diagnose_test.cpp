@@ -15,6 +15,7 @@
 #include "diagnose/search/relatives.hpp"
 #include "diagnose/signal/thin.hpp"
 #include "fit/synthetic.hpp"
+#include "io/channel_lag.hpp"
 
 namespace hysteron {
 namespace {
@@ -159,7 +160,7 @@ TEST(Diagnosis, TellsTheLagOfTheVelocityChannelWithoutAModel) {
   for (std::size_t n = 3; n < velocity.size(); ++n) {
     recording.velocity[n] = velocity[n - 3];
   }
-  const auto lag = velocity_channel_lag({recording});
+  const auto lag = velocity_channel_lag(std::vector{recording});
   ASSERT_TRUE(lag);
   EXPECT_NEAR(lag->lag, 3e-3, 2e-4);
 }
@@ -175,7 +176,7 @@ TEST(Diagnosis, TellsALongLagOfTheVelocityChannelFromANoisySlope) {
     recording.velocity[n] = lagged;
     recording.displacement[n] += 2e-6 * noise.normal(n, 0);
   }
-  const auto lag = velocity_channel_lag({recording});
+  const auto lag = velocity_channel_lag(std::vector{recording});
   ASSERT_TRUE(lag);
   EXPECT_NEAR(lag->lag, 0.02, 1e-3);
 }

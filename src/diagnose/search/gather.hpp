@@ -11,6 +11,7 @@
 #include "diagnose/residual/contrast.hpp"
 #include "diagnose/search/observe.hpp"
 #include "diagnose/search/search.hpp"
+#include "io/channel_lag.hpp"
 
 namespace hysteron {
 

@@ -29,12 +29,4 @@ std::optional<std::string> excluded_by_inputs(const std::string& effect, const s
 std::vector<Unobservable> detection_limits(const Workbench& bench, const Fit& fit, const Misfit& misfit,
                                            const std::vector<std::string>& effects);
 
-// Lag in s of the recorded velocity behind the slope of the recorded displacement, with its standard error; empty when
-// no velocity was measured.
-struct ChannelLag {
-  double lag = 0.0;
-  double std_error = 0.0;
-};
-std::optional<ChannelLag> velocity_channel_lag(const std::vector<Recording>& recordings);
-
 }  // namespace hysteron
