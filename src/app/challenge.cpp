@@ -265,7 +265,7 @@ void add_challenge(CLI::App& program) {
   command
       ->add_option("--recordings", options->most_recordings,
                    "each campaign keeps one to so many of its recordings; default all")
-      ->check(CLI::Range(1, 100));
+      ->transform(whole_number(1, 100));
   command->add_option("--effect", options->effects, "only these effects; with --in several at once as A+B")
       ->delimiter(',');
   command->add_option("--forms", options->choice.only, "only these forms of the effects, as EFFECT/FORM")
