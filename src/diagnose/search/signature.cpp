@@ -11,7 +11,7 @@ namespace hysteron {
 namespace {
 
 constexpr double nudge = 1e-3;           // of the box, for a derivative
-constexpr double rank_tolerance = 1e-9;  // of derivatives by differences
+constexpr double rank_tolerance = 1e-9;  // of the largest direction, for derivatives by differences
 
 }  // namespace
 

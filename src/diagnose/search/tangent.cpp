@@ -6,7 +6,7 @@
 namespace hysteron {
 namespace {
 
-// Of exact derivatives.
+// Of the largest direction, for exact derivatives: below it there is none.
 constexpr double rank_tolerance = 1e-7;
 
 }  // namespace
