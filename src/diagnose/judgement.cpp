@@ -23,16 +23,18 @@ Judgement judge_search(Search found, const Searching& searching) {
   result.estimates.emplace(fine);
   result.search = std::move(found);
   // Of every sample: what relaxes after a stop, or lags, is over within what a thinned recording leaves out.
-  result.contrasts = contrasts(bench.split().fit, bench.plain_residuals(result.search.base));
+  result.contrasts = contrasts(bench.split().fit, bench.plain_residuals(result.search.base), bench.motions());
   for (Found& one : result.search.found) {
     one.contrasts = one.without.what == result.search.base.what
                         ? result.contrasts
-                        : contrasts(bench.split().fit, bench.plain_residuals(one.without));
+                        : contrasts(bench.split().fit, bench.plain_residuals(one.without), bench.motions());
   }
   const Circumstances known = {
       [&](const Fit& fit, const std::string& effect) { return result.estimates->intervals(fit, effect); },
       velocity_channel_lag(bench.split().fit), result.contrasts,
-      [&](const Fit& fit) { return contrasts(bench.split().fit, bench.plain_residuals(fit), Placebos::none); }};
+      [&](const Fit& fit) {
+        return contrasts(bench.split().fit, bench.plain_residuals(fit), bench.motions(), Placebos::none);
+      }};
   result.surprising = surprises(bench, result.search.augmented);
   result.tone = tone_left(result.search, bench);
   result.evidence = evidence_of(result.search, fine, known);
@@ -85,7 +87,8 @@ Judgement behind_asked_or_better(Searching searching, const std::string& asked, 
     return with_recording_checks(std::move(first), searching);
   }
   const std::vector<LeftOut> both = left_out(searching.fine, {&first.search.augmented, &other->augmented});
-  if (block_score(both[0].predicted, both[1].predicted, noise_of(searching.fine)).z() < replacement_errors) {
+  if (block_score(both[0].predicted, both[1].predicted, noise_of(searching.fine), searching.fine.motions()).z() <
+      replacement_errors) {
     return with_recording_checks(std::move(first), searching);
   }
   take_parts_of_law(

@@ -515,7 +515,7 @@ TEST(Contrast, IsTheSameEachTime) {
 TEST(Contrast, IsTheSameWithoutPlacebos) {
   const Scene scene = scene_of([](const Recording& r, const auto&, std::size_t n) { return 50.0 * r.velocity[n]; });
   const std::vector<Contrast> all = scene.found();
-  const std::vector<Contrast> none = contrasts(scene.recordings, scene.residuals, Placebos::none);
+  const std::vector<Contrast> none = contrasts(scene.recordings, scene.residuals, {}, Placebos::none);
   ASSERT_EQ(all.size(), none.size());
   for (std::size_t k = 0; k < all.size(); ++k) {
     EXPECT_EQ(all[k].kind, none[k].kind);

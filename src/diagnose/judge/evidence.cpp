@@ -16,9 +16,9 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Candidate, id, gain, score, gain_alone, gain_
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(OtherLaw, model, squares, has_what_was_found, has)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ContrastLeft, effect, signature, instead, law, z)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FirstLook, id, gain, refitted)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Evidence, model, asked_for, recordings, base, augmented, first_stage, candidates,
-                                   base_compared, augmented_compared, augmented_over_base, other_laws, signatures,
-                                   contrasts_left, behind_asked, doubt_of_completeness, doubt_of_data)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Evidence, model, asked_for, recordings, motions, base, augmented, first_stage,
+                                   candidates, base_compared, augmented_compared, augmented_over_base, other_laws,
+                                   signatures, contrasts_left, behind_asked, doubt_of_completeness, doubt_of_data)
 
 bool Comparison::surely_better() const {
   // Quantile of Student's distribution for that of the normal at two, in powers of one over the degrees of freedom
@@ -33,6 +33,7 @@ namespace {
 
 // Records of earlier programs hold none of these.
 void complete(nlohmann::json& evidence) {
+  evidence.emplace("motions", evidence.at("recordings"));
   evidence.emplace("contrasts_left", nlohmann::json::array());
   evidence.emplace("behind_asked", nlohmann::json::array());
   for (nlohmann::json& candidate : evidence.at("candidates")) {

@@ -123,6 +123,7 @@ struct Evidence {
   std::string model;
   std::string asked_for;  // the law whose place `model` took, empty where it took none
   std::size_t recordings = 0;
+  std::size_t motions = 0;  // different ones among the recordings
   Left base;
   Left augmented;
   std::vector<FirstLook> first_stage;  // best first

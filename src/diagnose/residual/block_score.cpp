@@ -2,13 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <numeric>
+#include <set>
 
 namespace hysteron {
 namespace {
 
-constexpr std::size_t fewest_recordings = 4;  // of fewer, the blocks are the clusters
-constexpr std::size_t fewest_blocks = 4;      // of a recording
-constexpr std::size_t most_blocks = 16;       // of a recording
+constexpr std::size_t fewest_blocks = 4;  // of a recording
+constexpr std::size_t most_blocks = 16;   // of a recording
 // No block counts for more than this, however far a prediction went astray there.
 constexpr double most_difference = 3.0;
 
@@ -21,7 +23,14 @@ double difference(double a, double b, double floor) {
 
 }  // namespace
 
-BlockScore block_score(const BlockSquares& a, const BlockSquares& b, const std::vector<double>& floor) {
+std::size_t count_of(const std::vector<std::size_t>& motions) {
+  return std::set<std::size_t>(motions.begin(), motions.end()).size();
+}
+
+BlockScore block_score(const BlockSquares& a, const BlockSquares& b, const std::vector<double>& floor,
+                       const std::vector<std::size_t>& motions) {
+  const bool by_motion = count_of(motions) >= fewest_clusters;
+  std::map<std::size_t, std::vector<double>> of_motions;
   std::vector<double> clusters;
   double before = 0.0;
   double after = 0.0;
@@ -32,13 +41,16 @@ BlockScore block_score(const BlockSquares& a, const BlockSquares& b, const std::
       sum += d;
       before += a[r][k] / static_cast<double>(a[r].size());
       after += b[r][k] / static_cast<double>(a[r].size());
-      if (a.size() < fewest_recordings) {
+      if (a.size() < fewest_clusters) {
         clusters.push_back(d);
       }
     }
-    if (a.size() >= fewest_recordings && !a[r].empty()) {
-      clusters.push_back(sum / static_cast<double>(a[r].size()));
+    if (a.size() >= fewest_clusters && !a[r].empty()) {
+      of_motions[by_motion ? motions[r] : r].push_back(sum / static_cast<double>(a[r].size()));
     }
+  }
+  for (const auto& [motion, scores] : of_motions) {
+    clusters.push_back(std::accumulate(scores.begin(), scores.end(), 0.0) / static_cast<double>(scores.size()));
   }
   BlockScore result;
   result.clusters = clusters.size();

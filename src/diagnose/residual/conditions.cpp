@@ -40,6 +40,9 @@ std::vector<double> scaled(const RecordedCondition& condition) {
 }
 
 bool varied(const RecordedCondition& condition) {
+  if (condition.value.size() < 2) {
+    return false;
+  }
   const std::vector<double> values = scaled(condition);
   const auto [low, high] = std::ranges::minmax(values);
   return high - low > 1.0;
@@ -58,27 +61,44 @@ Eigen::VectorXd column_of(const RecordedCondition& condition) {
 
 }  // namespace
 
-std::vector<RecordedCondition> conditions_of(const std::vector<Recording>& recordings) {
-  std::vector<RecordedCondition> all;
-  const auto add = [&](const char* name, auto value) {
-    RecordedCondition condition{name, {}, false, 0.0, false};
-    for (const Recording& recording : recordings) {
-      condition.value.push_back(value(recording));
-    }
-    condition.ratio = std::ranges::all_of(condition.value, [](double one) { return one > 0.0; });
-    if (varied(condition)) {
-      all.push_back(std::move(condition));
-    }
-  };
-  const auto half_stroke = [](const Recording& of) {
-    const auto [low, high] = std::ranges::minmax(of.displacement);
-    return 0.5 * (high - low);
-  };
-  add("stroke", half_stroke);
-  add("frequency", dominant_frequency);
-  add("peak speed", [](const Recording& of) { return peak_of(of.velocity); });
-  add("form of the motion",
-      [&](const Recording& of) { return spread_of(of.displacement) / std::max(half_stroke(of), 1e-300); });
+namespace {
+
+// Appends a condition that some of the recordings differ in.
+template <class Value>
+void add_condition(std::vector<RecordedCondition>& all, const char* name, const std::vector<Recording>& recordings,
+                   Value value) {
+  RecordedCondition condition{name, {}, false, 0.0, false};
+  for (const Recording& recording : recordings) {
+    condition.value.push_back(value(recording));
+  }
+  condition.ratio = std::ranges::all_of(condition.value, [](double one) { return one > 0.0; });
+  if (varied(condition)) {
+    all.push_back(std::move(condition));
+  }
+}
+
+// Ends of the stroke; zero of no samples.
+std::pair<double, double> ends_of(const Recording& of) {
+  if (of.displacement.empty()) {
+    return {0.0, 0.0};
+  }
+  const auto [low, high] = std::ranges::minmax(of.displacement);
+  return {low, high};
+}
+
+double half_stroke(const Recording& of) {
+  const auto [low, high] = ends_of(of);
+  return 0.5 * (high - low);
+}
+
+void add_stroke_and_frequency(std::vector<RecordedCondition>& all, const std::vector<Recording>& recordings) {
+  add_condition(all, "stroke", recordings, half_stroke);
+  add_condition(all, "frequency", recordings, dominant_frequency);
+}
+
+void add_form_and_middle(std::vector<RecordedCondition>& all, const std::vector<Recording>& recordings) {
+  add_condition(all, "form of the motion", recordings,
+                [](const Recording& of) { return spread_of(of.displacement) / std::max(half_stroke(of), 1e-300); });
   // Each recording sweeps its stroke: a shift of its middle by less than half of that shows nothing that the others do
   // not show.
   double largest = 0.0;
@@ -87,14 +107,23 @@ std::vector<RecordedCondition> conditions_of(const std::vector<Recording>& recor
   }
   RecordedCondition middle{"middle of the stroke", {}, false, 0.5, false};
   for (const Recording& recording : recordings) {
-    const auto [low, high] = std::ranges::minmax(recording.displacement);
+    const auto [low, high] = ends_of(recording);
     middle.value.push_back(0.5 * (low + high) / std::max(largest, 1e-300));
   }
   if (varied(middle)) {
     all.push_back(std::move(middle));
   }
-  add("drive", [](const Recording& of) { return mean_of(of.drive); });
-  add("spread of the drive", [](const Recording& of) { return spread_of(of.drive); });
+}
+
+}  // namespace
+
+std::vector<RecordedCondition> conditions_of(const std::vector<Recording>& recordings) {
+  std::vector<RecordedCondition> all;
+  add_stroke_and_frequency(all, recordings);
+  add_condition(all, "peak speed", recordings, [](const Recording& of) { return peak_of(of.velocity); });
+  add_form_and_middle(all, recordings);
+  add_condition(all, "drive", recordings, [](const Recording& of) { return mean_of(of.drive); });
+  add_condition(all, "spread of the drive", recordings, [](const Recording& of) { return spread_of(of.drive); });
   for (UnusedOfAll& column : unused_of_all(recordings)) {
     RecordedCondition condition{column.name, std::move(column.means), false, 0.0, true};
     condition.ratio = std::ranges::all_of(condition.value, [](double one) { return one > 0.0; });
@@ -103,6 +132,22 @@ std::vector<RecordedCondition> conditions_of(const std::vector<Recording>& recor
     }
   }
   return all;
+}
+
+std::vector<std::size_t> motions_of(const std::vector<Recording>& recordings) {
+  std::vector<RecordedCondition> all;
+  add_stroke_and_frequency(all, recordings);
+  // The peak of a noisy speed is not that of the motion.
+  add_condition(all, "speed", recordings, [](const Recording& of) { return spread_of(of.velocity); });
+  add_form_and_middle(all, recordings);
+  std::vector<std::size_t> result(recordings.size());
+  const std::vector<Group> cells = cells_of(all, recordings.size());
+  for (std::size_t motion = 0; motion < cells.size(); ++motion) {
+    for (const std::size_t r : cells[motion]) {
+      result[r] = motion;
+    }
+  }
+  return result;
 }
 
 const RecordedCondition* parted_by(const std::vector<RecordedCondition>& conditions, const Group& a, const Group& b) {

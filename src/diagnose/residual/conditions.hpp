@@ -23,6 +23,10 @@ struct RecordedCondition {
 // model uses; those left out that no two recordings differ in by more than a twentieth.
 std::vector<RecordedCondition> conditions_of(const std::vector<Recording>& recordings);
 
+// The motion of each recording, by its number: recordings have one where stroke, frequency, speed, form and middle
+// differ by no more than a twentieth. What a model misses of a motion it misses again in each of them.
+std::vector<std::size_t> motions_of(const std::vector<Recording>& recordings);
+
 // A condition that parts the recordings of two groups, the ones of the first all below or all above those of the
 // second; none: nullptr.
 const RecordedCondition* parted_by(const std::vector<RecordedCondition>& conditions, const Group& a, const Group& b);

@@ -15,11 +15,12 @@ constexpr std::array<ContrastCard, contrast_kinds> cards = {{
     {Kind::reversal_travel, "reversal-travel", "travel without force after a reversal", "m"},
     {Kind::force_travel, "force-travel", "travel per force that builds up after a reversal", "m/N"},
     {Kind::force_delay, "force-delay", "lag of the force in time", "s"},
-    {Kind::velocity_delay, "velocity-delay", "lag of the recorded velocity behind the slope of the displacement", "s"},
+    {Kind::velocity_delay, "velocity-delay", "lag of the recorded velocity behind the slope of the displacement", "s",
+     true},
     {Kind::acceleration, "acceleration", "force per acceleration", "kg"},
-    {Kind::drive_lag, "drive-lag", "lag of the force after a change of the drive", "s"},
-    {Kind::drive_memory, "drive-memory", "share of the drive that remains after it fell", "1"},
-    {Kind::drive_bend, "drive-bend", "curvature of the force over the drive", "N per drive squared"},
+    {Kind::drive_lag, "drive-lag", "lag of the force after a change of the drive", "s", true},
+    {Kind::drive_memory, "drive-memory", "share of the drive that remains after it fell", "1", true},
+    {Kind::drive_bend, "drive-bend", "curvature of the force over the drive", "N per drive squared", true},
     {Kind::mean_force, "mean-force", "constant force", "N"},
     {Kind::stiffness, "stiffness", "force per displacement", "N/m"},
     {Kind::stiffness_bend, "stiffness-bend", "force per squared displacement", "N/m^2"},
@@ -117,9 +118,9 @@ int sign_for(ContrastKind kind, std::string_view effect) {
 }
 
 std::vector<Contrast> contrasts(std::span<const Recording> recordings, std::span<const Residual> residuals,
-                                Placebos placebos) {
+                                std::span<const std::size_t> motions, Placebos placebos) {
   const std::size_t draws = placebos == Placebos::all ? contrast::all_placebos : 0;
-  const std::vector<contrast::Track> tracks = contrast::tracks_of(recordings, residuals);
+  const std::vector<contrast::Track> tracks = contrast::tracks_of(recordings, residuals, motions);
   std::vector<Contrast> result;
   if (tracks.empty()) {
     return result;

@@ -53,7 +53,8 @@ struct Contrast {
   ContrastKind kind{};
   std::string_view what;  // "travel without force after a reversal"
   double value = 0.0;
-  double std_error = 0.0;  // over half-cycles; over recordings where three or more hold the motion and it is larger
+  double std_error =
+      0.0;  // the largest of those over half-cycles, over recordings and over motions, of these three and more
   std::string_view unit;
   std::size_t recordings = 0;  // that hold the motion it needs
   double consistency = 0.0;    // share of these whose own value has the sign of `value`
@@ -71,6 +72,8 @@ struct ContrastCard {
   std::string_view id;
   std::string_view what;
   std::string_view unit;
+  // Recordings of one motion tell it each for itself: it is no misfit that a motion repeats.
+  bool by_recording = false;
 };
 const ContrastCard& card_of(ContrastKind kind);
 
@@ -84,8 +87,9 @@ enum class Placebos { none, all };
 // In the order of ContrastKind; kinds whose motion no recording holds are absent. `residuals` holds simulated -
 // measured force of the fitted base on each recording. Every number is finite. Deterministic. Placebos take nearly all
 // of the time: without them `placebo_quantile` is 0.
+// `motions` holds the number of each recording's motion (conditions.hpp); empty: each has one of its own.
 std::vector<Contrast> contrasts(std::span<const Recording> recordings, std::span<const Residual> residuals,
-                                Placebos placebos = Placebos::all);
+                                std::span<const std::size_t> motions = {}, Placebos placebos = Placebos::all);
 
 // Those of them that the channels of the recordings tell by themselves, whatever the model.
 std::vector<Contrast> channel_contrasts(std::span<const Recording> recordings);

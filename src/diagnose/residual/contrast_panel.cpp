@@ -213,7 +213,7 @@ std::optional<Contrast> Panel::partial(ContrastKind kind, std::span<const Column
   std::vector<Part> recordings;
   std::vector<Part> blocks;
   for (std::size_t k = 0; k < tracks_.size(); ++k) {
-    Part whole{tracks_[k].recording, 0.0, 0.0};
+    Part whole{tracks_[k].recording, 0.0, 0.0, tracks_[k].motion};
     Part block = whole;
     const auto close = [&] {
       if (block.weight > 0.0) {
@@ -222,7 +222,7 @@ std::optional<Contrast> Panel::partial(ContrastKind kind, std::span<const Column
         block.value /= block.weight;
         blocks.push_back(block);
       }
-      block = {tracks_[k].recording, 0.0, 0.0};
+      block = {tracks_[k].recording, 0.0, 0.0, tracks_[k].motion};
     };
     for (std::size_t n = rows_[k].first; n < rows_[k].end; ++n) {
       if (n > rows_[k].first && block_[n] != block_[n - 1]) {

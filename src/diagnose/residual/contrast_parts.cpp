@@ -11,8 +11,8 @@ namespace {
 
 // A recording holds the motion if its weight is this share of the mean one.
 constexpr double least_weight = 0.1;
-// From so many recordings on, the error over recordings counts.
-constexpr std::size_t fewest_recordings = 3;
+// From so many motions or recordings on, the error over them counts.
+constexpr std::size_t fewest_clusters = 3;
 // A part with more of the weight than this is nearly all there is.
 constexpr double most_weight = 0.9;
 // Of the value: standard errors below it are those of rounding.
@@ -39,6 +39,22 @@ double squared_error(std::span<const Part> parts, double value, double total) {
 double normal_of(double t, double degrees) {
   const double size = (8.0 * degrees + 1.0) / (8.0 * degrees + 3.0) * std::sqrt(degrees * std::log1p(t * t / degrees));
   return std::copysign(size, t);
+}
+
+// Recordings of one motion as one part.
+std::vector<Part> motions_of(std::span<const Part> recordings) {
+  std::map<std::size_t, Part> sums;
+  for (const Part& part : recordings) {
+    Part& sum = sums.emplace(part.motion, Part{part.recording, 0.0, 0.0, part.motion}).first->second;
+    sum.weight += part.weight;
+    sum.value += part.weight * part.value;
+  }
+  std::vector<Part> result;
+  for (auto& [motion, part] : sums) {
+    part.value /= part.weight;
+    result.push_back(part);
+  }
+  return result;
 }
 
 const Stream& stream() {
@@ -104,16 +120,19 @@ std::optional<Contrast> pooled(ContrastKind kind, std::span<const Part> recordin
   }
   result.recordings = holding.size();
   result.consistency = static_cast<double>(agreeing) / static_cast<double>(holding.size());
-  const bool by_recordings = holding.size() >= fewest_recordings;
   if (blocks.size() < 2) {
     return std::nullopt;
   }
   double square = squared_error(blocks, result.value, total);
-  // Of the larger of two errors, which is small by chance less often than either.
+  // The degrees are those of one of the errors; the largest is small by chance less often than any.
   double degrees = effective_number(blocks) - 1.0;
-  if (by_recordings) {
+  if (holding.size() >= fewest_clusters) {
     square = std::max(square, squared_error(holding, result.value, total));
     degrees = static_cast<double>(holding.size()) - 1.0;
+  }
+  const std::vector<Part> motions = motions_of(holding);
+  if (motions.size() >= fewest_clusters && !card_of(kind).by_recording) {
+    square = std::max(square, squared_error(motions, result.value, total));
   }
   result.std_error = std::max(std::sqrt(square), least_error * std::fabs(result.value));
   result.z =
@@ -127,19 +146,26 @@ std::optional<Contrast> pooled(ContrastKind kind, std::span<const Part> recordin
 namespace {
 
 std::vector<Part> recordings_of(std::span<const Event> events, std::vector<Part>* blocks) {
-  std::map<std::size_t, std::pair<double, double>> sums;
+  struct Sum {
+    double count = 0.0;
+    double value = 0.0;
+    std::size_t motion = 0;
+  };
+  std::map<std::size_t, Sum> sums;
   for (const Event& event : events) {
-    sums[event.recording].first += 1.0;
-    sums[event.recording].second += event.value;
+    Sum& sum = sums[event.recording];
+    sum.count += 1.0;
+    sum.value += event.value;
+    sum.motion = event.motion;
   }
   std::vector<Part> result;
   result.reserve(sums.size());
   for (const auto& [recording, sum] : sums) {
-    result.push_back({recording, 1.0, sum.second / sum.first});
+    result.push_back({recording, 1.0, sum.value / sum.count, sum.motion});
   }
   for (const Event& event : events) {
     if (blocks != nullptr) {
-      blocks->push_back({event.recording, 1.0 / sums[event.recording].first, event.value});
+      blocks->push_back({event.recording, 1.0 / sums[event.recording].count, event.value, event.motion});
     }
   }
   return result;

@@ -25,10 +25,12 @@ struct Part {
   std::size_t recording = 0;
   double weight = 0.0;
   double value = 0.0;
+  std::size_t motion = 0;
 };
 
 // The weighted mean of the recordings' values. Its standard error is that over `blocks`, parts of recordings, and where
-// three or more recordings hold the motion that over recordings if it is larger. Empty where there are not two blocks.
+// three or more recordings hold what it needs, or three or more motions, that over these if it is larger. Empty where
+// there are not two blocks.
 std::optional<Contrast> pooled(ContrastKind kind, std::span<const Part> recordings, std::span<const Part> blocks);
 // How many parts of equal weight would be worth as much: (sum w)^2 / sum w^2.
 double effective_number(std::span<const Part> parts);
@@ -37,6 +39,7 @@ double effective_number(std::span<const Part> parts);
 struct Event {
   std::size_t recording = 0;
   double value = 0.0;
+  std::size_t motion = 0;
 };
 std::optional<Contrast> pooled(ContrastKind kind, std::span<const Event> events);
 // The mean over recordings of the mean of their events; 0 for none.

@@ -66,7 +66,7 @@ std::vector<Event> relaxations(std::span<const Track> tracks, std::optional<std:
         sign = placebo_sign(*placebo, track.recording, k);
       }
       if (const std::optional<double> size = relaxation(track, hold, shift)) {
-        result.push_back({track.recording, sign * *size});
+        result.push_back({track.recording, sign * *size, track.motion});
       }
     }
   }
@@ -118,7 +118,7 @@ std::vector<Event> recoveries(std::span<const Track> tracks, std::optional<std::
       for (std::size_t k = 0; k < compared; ++k) {
         change += gains[(after + k + shift) % gains.size()] - gains[(before - 1 - k + shift) % gains.size()];
       }
-      result.push_back({track.recording, change / static_cast<double>(compared)});
+      result.push_back({track.recording, change / static_cast<double>(compared), track.motion});
     }
   }
   return result;

@@ -107,7 +107,7 @@ std::vector<Event> gaps(std::span<const Scene> scenes, std::optional<std::size_t
     for (std::size_t k = 0; k < scene.crossings.size(); ++k) {
       const std::optional<double> found = gap(track, scene.crossings[k], force, scene.band);
       if (found && scene.simulated[k]) {
-        result.push_back({track.recording, *found - *scene.simulated[k]});
+        result.push_back({track.recording, *found - *scene.simulated[k], track.motion});
       }
     }
   }

@@ -187,11 +187,13 @@ std::optional<Track> track_of(const Recording& recording, const Residual& residu
 
 }  // namespace
 
-std::vector<Track> tracks_of(std::span<const Recording> recordings, std::span<const Residual> residuals) {
+std::vector<Track> tracks_of(std::span<const Recording> recordings, std::span<const Residual> residuals,
+                             std::span<const std::size_t> motions) {
   std::vector<Track> result;
   for (std::size_t k = 0; k < std::min(recordings.size(), residuals.size()); ++k) {
     if (std::optional<Track> track = track_of(recordings[k], residuals[k])) {
       track->recording = k;
+      track->motion = motions.empty() ? k : motions[k];
       result.push_back(std::move(*track));
     }
   }

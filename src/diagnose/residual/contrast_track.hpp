@@ -27,6 +27,7 @@ struct Hold {
 // All samples of a recording, from its first on; those before `from` do not count.
 struct Track {
   std::size_t recording = 0;
+  std::size_t motion = 0;  // number of its motion (conditions.hpp)
   std::size_t from = 0;
   double weight = 0.0;  // 1 / (N^2 s): of a squared force times a duration, so that each recording weighs the same
   double peak = 0.0;    // largest simulated |force|, N
@@ -51,7 +52,9 @@ struct Track {
   std::vector<Hold> holds;              // within what counts
 };
 
-// Recordings of too few samples, or without motion or force, or whose residual is not finite, have none.
-std::vector<Track> tracks_of(std::span<const Recording> recordings, std::span<const Residual> residuals);
+// Recordings of too few samples, or without motion or force, or whose residual is not finite, have none. Where no
+// motions are given each recording has one of its own.
+std::vector<Track> tracks_of(std::span<const Recording> recordings, std::span<const Residual> residuals,
+                             std::span<const std::size_t> motions = {});
 
 }  // namespace hysteron::contrast

@@ -65,8 +65,14 @@ bool follows_drive(const Fit& base, const std::string& parameter) {
          });
 }
 
-Comparison comparison(const LeftOut& with, const LeftOut& without, const std::vector<double>& noise) {
-  const BlockScore score = block_score(without.predicted, with.predicted, noise);
+// What the fitted recordings tell of any fit.
+struct Fitted {
+  const std::vector<std::size_t>* motions;
+  std::vector<double> noise;
+};
+
+Comparison comparison(const LeftOut& with, const LeftOut& without, const Fitted& fitted) {
+  const BlockScore score = block_score(without.predicted, with.predicted, fitted.noise, *fitted.motions);
   return {score.mean, score.std_error, score.agreement, score.clusters};
 }
 
@@ -230,10 +236,11 @@ Looked looked_at(const Search& search, const Workbench& fine) {
 
 // Base and augmented model: what they leave, what was tried first, and the contrasts of what the base leaves.
 Evidence evidence_of_models(const Search& search, const Workbench& fine, const Circumstances& known,
-                            const Looked& looked, const std::vector<double>& noise) {
+                            const Looked& looked, const Fitted& fitted) {
   Evidence result;
   result.model = search.base.what.model;
   result.recordings = fine.split().fit.size();
+  result.motions = count_of(fine.motions());
   result.base = left_of(search.base_misfit, fine, search.base);
   const bool same = search.augmented.what == search.base.what;
   result.augmented = same ? result.base : left_of(search.misfit, fine, search.augmented);
@@ -247,7 +254,7 @@ Evidence evidence_of_models(const Search& search, const Workbench& fine, const C
   for (const Found& found : search.found) {
     before = found.of_law ? std::move(before) : left_out_beside(fine, search.base, found.part, std::move(before));
   }
-  result.augmented_over_base = comparison(*looked.find(search.augmented), before, noise);
+  result.augmented_over_base = comparison(*looked.find(search.augmented), before, fitted);
   return result;
 }
 
@@ -265,8 +272,7 @@ double gain_alone_of(const Found& found, const Search& search) {
 
 // What was set in the place of `found`, best first; `without` is left without it, and `gain` what it takes off that.
 std::vector<Contender> contenders_of(const Found& found, const Search& search, const Circumstances& known,
-                                     const Looked& looked, const LeftOut& without, double gain,
-                                     const std::vector<double>& noise) {
+                                     const Looked& looked, const LeftOut& without, double gain, const Fitted& fitted) {
   const LeftOut& augmented = *looked.find(search.augmented);
   const std::vector<const Rival*> close = close_rivals(found);
   std::vector<Contender> result;
@@ -276,7 +282,7 @@ std::vector<Contender> contenders_of(const Found& found, const Search& search, c
       const LeftOut& instead = *looked.find(*rival.fit);
       row.squares = instead.squares;
       row.share = (without.squares - instead.squares) / std::max(gain, 1e-300);
-      row.behind = comparison(augmented, instead, noise);
+      row.behind = comparison(augmented, instead, fitted);
     }
     result.push_back(std::move(row));
   }
@@ -286,7 +292,7 @@ std::vector<Contender> contenders_of(const Found& found, const Search& search, c
 
 // The k-th effect that was found.
 Candidate candidate_found(std::size_t k, const Search& search, const Workbench& fine, const Circumstances& known,
-                          const Looked& looked, const std::vector<double>& noise) {
+                          const Looked& looked, const Fitted& fitted) {
   const Found& found = search.found[k];
   const LeftOut& augmented = *looked.find(search.augmented);
   // A law's own part is marched as the law is.
@@ -295,9 +301,9 @@ Candidate candidate_found(std::size_t k, const Search& search, const Workbench& 
   Candidate one;
   one.id = found.part.effect;
   one.gain = without.squares - augmented.squares;
-  one.score = comparison(augmented, without, noise);
+  one.score = comparison(augmented, without, fitted);
   one.gain_alone = gain_alone_of(found, search);
-  one.contenders = contenders_of(found, search, known, looked, without, one.gain, noise);
+  one.contenders = contenders_of(found, search, known, looked, without, one.gain, fitted);
   for (const Swap& swap : search.swaps) {
     // A law that has the effect as a parameter of its own loses nothing without it, and one that runs away tells
     // nothing.
@@ -366,10 +372,10 @@ std::vector<OtherLaw> other_laws_of(const Search& search, const Evidence& eviden
 
 Evidence evidence_of(const Search& search, const Workbench& fine, const Circumstances& known) {
   const Looked looked = looked_at(search, fine);
-  const std::vector<double> noise = noise_of(fine);
-  Evidence result = evidence_of_models(search, fine, known, looked, noise);
+  const Fitted fitted{&fine.motions(), noise_of(fine)};
+  Evidence result = evidence_of_models(search, fine, known, looked, fitted);
   for (std::size_t k = 0; k < search.found.size(); ++k) {
-    result.candidates.push_back(candidate_found(k, search, fine, known, looked, noise));
+    result.candidates.push_back(candidate_found(k, search, fine, known, looked, fitted));
   }
   add_gains_of_relatives(result.candidates);
   result.contrasts_left = contrasts_left_of(search, known, result);

@@ -91,7 +91,8 @@ void grow(Course& course, const std::vector<Extension>& effects, int most_effect
         return true;
       }
       const LeftOut without = left_out_beside(course.bench, course.current, one.part, before);
-      return worth(one, course.current, count, block_score(without.predicted, after->predicted, course.noise),
+      return worth(one, course.current, count,
+                   block_score(without.predicted, after->predicted, course.noise, course.bench.motions()),
                    is_far(left));
     });
     if (chosen == tried.end()) {

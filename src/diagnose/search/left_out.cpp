@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "diagnose/residual/misfit.hpp"
 #include "diagnose/signal/noise.hpp"
@@ -13,27 +14,28 @@
 namespace hysteron {
 namespace {
 
-constexpr std::size_t fewest_recordings = 4;  // of fewer, parts of each are left out
-constexpr std::size_t parts_of_few = 4;       // of each of few recordings
+constexpr std::size_t parts_of_few = 4;  // of each of few recordings
 // Of the diagonal: what the other recordings do not tell stays where it is.
 constexpr double ridge = 1e-6;
 // The step is to first order: no coordinate goes further than this part of its box.
 constexpr double most_step = 0.2;
 
-// Samples [begin, end) of a recording that are left out together.
+// Samples [begin, end) of a recording; those of one group are left out together.
 struct Stretch {
   std::size_t recording;
   std::size_t begin;
   std::size_t end;
+  std::size_t group;
 };
 
-std::vector<Stretch> parts_of(const std::vector<Linearised>& all) {
+std::vector<Stretch> parts_of(const std::vector<Linearised>& all, const std::vector<std::size_t>& motions) {
   std::vector<Stretch> result;
+  const bool by_motion = count_of(motions) >= fewest_clusters;
+  const std::size_t count = all.size() < fewest_clusters ? parts_of_few : 1;
   for (std::size_t r = 0; r < all.size(); ++r) {
     const std::size_t size = all[r].residual.size();
-    const std::size_t count = all.size() < fewest_recordings ? parts_of_few : 1;
     for (std::size_t k = 0; k < count; ++k) {
-      result.push_back({r, k * size / count, (k + 1) * size / count});
+      result.push_back({r, k * size / count, (k + 1) * size / count, by_motion ? motions[r] : result.size()});
     }
   }
   return result;
@@ -44,6 +46,9 @@ std::string bytes_of(const LeftOut& result) {
   bytes.whole(result.predicted.size());
   for (const std::vector<double>& blocks : result.predicted) {
     bytes.numbers(blocks);
+  }
+  for (const std::vector<double>& residual : result.residuals) {
+    bytes.numbers(residual);
   }
   bytes.number(result.squares);
   return bytes.bytes();
@@ -56,18 +61,40 @@ LeftOut left_out_of(const std::string& bytes) {
   for (std::vector<double>& blocks : result.predicted) {
     blocks = read.numbers();
   }
+  result.residuals.resize(result.predicted.size());
+  for (std::vector<double>& residual : result.residuals) {
+    residual = read.numbers();
+  }
   result.squares = read.number();
   return result;
 }
 
 using Rows = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
 
+// Mean squares of the blocks of a recording, over its normaliser^2.
+std::vector<double> block_squares(const std::vector<double>& residual, std::size_t count) {
+  std::vector<double> result;
+  for (std::size_t b = 0; b < count; ++b) {
+    const std::size_t begin = b * residual.size() / count;
+    const std::size_t end = (b + 1) * residual.size() / count;
+    double sum = 0.0;
+    for (std::size_t n = begin; n < end; ++n) {
+      sum += squared(residual[n]);
+    }
+    if (end > begin) {
+      result.push_back(std::isfinite(sum) ? sum / static_cast<double>(end - begin)
+                                          : std::numeric_limits<double>::infinity());
+    }
+  }
+  return result;
+}
+
 LeftOut worked_out(const Workbench& bench, const Fit& fit) {
   const Objective objective(*fit.layout, bench.split().fit, bench.options());
   const std::vector<Linearised> all = objective.linearised(fit.point);
   const std::size_t d = fit.dimension();
   const std::vector<Eigen::Index> free = free_coordinates(fit.point);
-  const std::vector<Stretch> parts = parts_of(all);
+  const std::vector<Stretch> parts = parts_of(all, bench.motions());
   const auto m = static_cast<Eigen::Index>(free.size());
   Eigen::MatrixXd hessian = Eigen::MatrixXd::Zero(m, m);
   Eigen::VectorXd gradient = Eigen::VectorXd::Zero(m);
@@ -92,42 +119,37 @@ LeftOut worked_out(const Workbench& bench, const Fit& fit) {
     return step * std::min(1.0, most_step / std::max(longest, 1e-300));
   };
   LeftOut result;
-  result.predicted.resize(all.size());
   const Eigen::VectorXd refined = stepped(hessian, gradient);
   double before = 0.0;
+  // Of each group, what its own samples add to the normal equations.
+  std::map<std::size_t, std::pair<Eigen::MatrixXd, Eigen::VectorXd>> own;
   for (std::size_t k = 0; k < parts.size(); ++k) {
     before += residuals[k].squaredNorm();
     result.squares += (residuals[k] + jacobians[k] * refined).squaredNorm();
+    auto& [square, slope] =
+        own.try_emplace(parts[k].group, Eigen::MatrixXd::Zero(m, m), Eigen::VectorXd::Zero(m)).first->second;
+    square.selfadjointView<Eigen::Lower>().rankUpdate(jacobians[k].transpose());
+    slope += jacobians[k].transpose() * residuals[k];
   }
   result.squares = std::isfinite(result.squares) ? std::min(result.squares, before) : before;
+  std::map<std::size_t, Eigen::VectorXd> steps;
+  for (const auto& [group, normal] : own) {
+    steps[group] = m > 0 && own.size() > 1 ? stepped(hessian - normal.first, gradient - normal.second)
+                                           : Eigen::VectorXd::Zero(m).eval();
+  }
   std::vector<std::vector<double>> predicted(all.size());
   for (std::size_t k = 0; k < parts.size(); ++k) {
-    Eigen::VectorXd residual = residuals[k];
-    if (m > 0 && parts.size() > 1) {
-      Eigen::MatrixXd others = hessian;
-      others.selfadjointView<Eigen::Lower>().rankUpdate(jacobians[k].transpose(), -1.0);
-      residual += jacobians[k] * stepped(others, gradient - jacobians[k].transpose() * residual);
-    }
+    const Eigen::VectorXd residual = residuals[k] + jacobians[k] * steps[parts[k].group];
     predicted[parts[k].recording].insert(predicted[parts[k].recording].end(), residual.begin(), residual.end());
   }
   for (std::size_t r = 0; r < all.size(); ++r) {
     const Target& target = objective.targets()[r];
-    const std::size_t from = target.run_in;
-    const std::size_t size = predicted[r].size();
-    const double unit = 1.0 / (target.weight * target.normaliser * target.normaliser);
-    const std::size_t count = block_count(target.motion.time.back() - target.motion.time.front(), target.frequency);
-    for (std::size_t b = 0; b < count; ++b) {
-      const std::size_t begin = from + b * (size - from) / count;
-      const std::size_t end = from + (b + 1) * (size - from) / count;
-      double sum = 0.0;
-      for (std::size_t n = begin; n < end; ++n) {
-        sum += squared(predicted[r][n]);
-      }
-      if (end > begin) {
-        result.predicted[r].push_back(std::isfinite(sum) ? sum * unit / static_cast<double>(end - begin)
-                                                         : std::numeric_limits<double>::infinity());
-      }
-    }
+    const double unit = 1.0 / (std::sqrt(target.weight) * target.normaliser);
+    std::vector<double>& residual = result.residuals.emplace_back(
+        predicted[r].begin() + static_cast<std::ptrdiff_t>(target.run_in), predicted[r].end());
+    std::ranges::transform(residual, residual.begin(), [unit](double value) { return unit * value; });
+    result.predicted.push_back(
+        block_squares(residual, block_count(target.motion.time.back() - target.motion.time.front(), target.frequency)));
   }
   return result;
 }

@@ -1,8 +1,8 @@
-// What a fit would predict of recordings it had not seen: each is left out in turn and the parameters that the others
-// alone would have are found to first order, by one Gauss-Newton step from the fit.
+// What a fit would predict of recordings it had not seen: each motion with all its recordings is left out in turn, and
+// the parameters that the others alone would have are found to first order, by one Gauss-Newton step from the fit.
 //   delta_i = -(H - H_i)^-1 (g - g_i),   H = sum J_i^T J_i,   g = sum J_i^T r_i
 // Source: approximate cross-validation, e.g. Beirami, Razaviyayn, Shahrampour, Tarokh, NIPS 2017. Of fewer than four
-// recordings, quarters of each are left out.
+// motions single recordings are left out, and of fewer than four recordings quarters of each.
 #pragma once
 
 #include "diagnose/residual/block_score.hpp"
@@ -12,7 +12,9 @@ namespace hysteron {
 
 struct LeftOut {
   BlockSquares predicted;  // of each fitted recording, by parameters that were not fitted to it
-  double squares = 0.0;    // of NRMSE over all of them, by the parameters fitted to all, refined by one step
+  // Likewise the residuals themselves, over the normaliser, behind the run-in.
+  std::vector<std::vector<double>> residuals;
+  double squares = 0.0;  // of NRMSE over all of them, by the parameters fitted to all, refined by one step
 };
 LeftOut left_out(const Workbench& bench, const Fit& fit);
 std::vector<LeftOut> left_out(const Workbench& bench, const std::vector<const Fit*>& fits);

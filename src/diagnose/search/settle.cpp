@@ -153,7 +153,7 @@ std::vector<Found> worth_their_place(Course& course) {
       Found found = taken_out(course, part.is_law() ? law_extension({part.parameters.front()}) : part);
       const BlockScore score = block_score(
           left_out_beside(course.bench, found.without, part, left_out(course.bench, found.without)).predicted,
-          with.predicted, course.noise);
+          with.predicted, course.noise, course.bench.motions());
       if (!found.told && !worth_keeping(found.evidence, found.gain, squared(found.without.cost), score, far)) {
         course.current = found.without;
         course.stands(course.current);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/squared.hpp"
+#include "diagnose/residual/conditions.hpp"
 #include "diagnose/search/relatives.hpp"
 #include "fit/driver.hpp"
 #include "fit/identify.hpp"
@@ -76,13 +77,15 @@ Workbench::Workbench(const DataScale& scale, Split split, LayoutOptions layout, 
   for (const Recording& recording : split_.fit) {
     noise_.push_back(noise_floor(recording));
   }
+  motions_ = motions_of(split_.fit);
 }
 
-void Workbench::take_noise_of(const Workbench& whole) {
+void Workbench::take_noise_and_motions_of(const Workbench& whole) {
   for (std::size_t k = 0; k < split_.fit.size(); ++k) {
     const auto at = std::ranges::find(whole.split_.fit, split_.fit[k].file, &Recording::file);
     if (at != whole.split_.fit.end()) {
       noise_[k] = whole.noise_[static_cast<std::size_t>(at - whole.split_.fit.begin())];
+      motions_[k] = whole.motions_[static_cast<std::size_t>(at - whole.split_.fit.begin())];
     }
   }
 }

@@ -85,10 +85,12 @@ class Workbench {
   [[nodiscard]] std::vector<Residual> plain_residuals(const Fit& fit) const;
   // The same with all that is told of them: two simulations of each, in parallel.
   [[nodiscard]] Residuals residuals(const Fit& fit) const;
-  // Takes the noise of the same files from `whole`, whose recordings are not thinned and tell it better.
-  void take_noise_of(const Workbench& whole);
+  // Takes noise and motions of the same files from `whole`, whose recordings are not thinned and tell them better.
+  void take_noise_and_motions_of(const Workbench& whole);
   // Noise of the force of each fitted recording, in their order.
   [[nodiscard]] const std::vector<NoiseFloor>& noise() const { return noise_; }
+  // Number of the motion of each fitted recording (residual/conditions.hpp), in their order.
+  [[nodiscard]] const std::vector<std::size_t>& motions() const { return motions_; }
   // How the residuals of a fit, those given, change with each parameter of its damper law that cannot be zero.
   [[nodiscard]] std::vector<Sensitivity> sensitivities(const Fit& fit, const Residuals& residuals) const;
   [[nodiscard]] Layout layout(const Hypothesis& what) const;
@@ -125,6 +127,7 @@ class Workbench {
   DataScale scale_;
   Split split_;
   std::vector<NoiseFloor> noise_;
+  std::vector<std::size_t> motions_;
   LayoutOptions layout_;
   ObjectiveOptions options_;
   std::uint64_t seed_;
