@@ -28,7 +28,7 @@ const Allowed& allowed() {
       {"algorithms", {"algorithms/support", "core", "fit"}},
       {"src/diagnose/signal", {"core", "fit", "io", "simulate"}},
       {"src/diagnose/residual", {"core", "diagnose/signal", "fit", "io"}},
-      {"src/diagnose/judge", {}},
+      {"src/diagnose/judge", {"core"}},
       {"src/diagnose/search",
        {"core", "diagnose/judge", "diagnose/residual", "diagnose/signal", "fit", "io", "simulate"}},
       {"src/diagnose",

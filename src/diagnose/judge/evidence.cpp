@@ -6,13 +6,15 @@ namespace hysteron {
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Left, squares, floor, white, structure, predictable, unevenness,
                                    unevenness_by_chance, recurring, recurring_by_chance, recurring_at_most, independent)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Comparison, mean, std_error, agreement, clusters)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Contender, id, law, kin, share, refitted, squares, behind, holds_the_candidate,
-                                   held_by_the_candidate, apart, ended_as, follows_drive, as_channels)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SizeOfPart, recording, quarter, size, weight)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Contender, id, law, kin, share, refitted, squares, behind, evenness,
+                                   holds_the_candidate, held_by_the_candidate, apart, ended_as, follows_drive,
+                                   as_channels)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Signature, id, what, unit, value, std_error, z, consistency, placebo_quantile,
                                    recordings, speaks_for, sign)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(GainBehindLaw, law, share)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Candidate, id, gain, score, gain_alone, gain_of_relative, contenders, behind_laws,
-                                   parameters, on_bound, as_channels, of_law, signatures)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Candidate, id, gain, score, sizes, gain_alone, gain_of_relative, contenders,
+                                   behind_laws, parameters, on_bound, as_channels, of_law, signatures)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(OtherLaw, model, squares, has_what_was_found, has)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ContrastLeft, effect, signature, instead, law, z)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FirstLook, id, gain, refitted)
@@ -38,6 +40,10 @@ void complete(nlohmann::json& evidence) {
   evidence.emplace("behind_asked", nlohmann::json::array());
   for (nlohmann::json& candidate : evidence.at("candidates")) {
     candidate.emplace("signatures", evidence.at("signatures"));
+    for (nlohmann::json& contender : candidate.at("contenders")) {
+      contender.emplace("evenness", 0.0);
+    }
+    candidate.emplace("sizes", nlohmann::json::array());
     candidate.emplace("of_law", false);
     candidate.emplace("behind_laws", nlohmann::json::array());
   }

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "core/part_size.hpp"
+
 namespace hysteron {
 
 // What a fit leaves of the fitted recordings.
@@ -48,6 +50,7 @@ struct Contender {
   bool refitted = false;             // else the share is to first order
   double squares = 0.0;              // that it leaves; 0 where it was not refitted
   Comparison behind;                 // the candidate over it
+  double evenness = 0.0;             // of its sizes in the parts of recordings left out; 0 where it was not refitted
   bool holds_the_candidate = false;  // as a limit of its own
   bool held_by_the_candidate = false;
   bool apart = true;           // of these: the parameter that tells them apart is surely not at that limit
@@ -82,6 +85,7 @@ struct Candidate {
   std::string id;
   double gain = 0.0;                  // squares without less squares with, over the same samples
   Comparison score;                   // with it over without it
+  std::vector<SizeOfPart> sizes;      // of recordings left out
   double gain_alone = 0.0;            // alone behind the base
   double gain_of_relative = 0.0;      // the largest of the related effects that the augmented model has too
   std::vector<Contender> contenders;  // best first

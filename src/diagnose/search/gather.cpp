@@ -5,6 +5,7 @@
 #include <map>
 
 #include "diagnose/judge/speaking.hpp"
+#include "diagnose/residual/sizes.hpp"
 #include "diagnose/search/left_out.hpp"
 #include "diagnose/search/of_fit.hpp"
 #include "diagnose/search/relatives.hpp"
@@ -67,6 +68,7 @@ bool follows_drive(const Fit& base, const std::string& parameter) {
 
 // What the fitted recordings tell of any fit.
 struct Fitted {
+  const std::vector<Recording>* recordings;
   const std::vector<std::size_t>* motions;
   std::vector<double> noise;
 };
@@ -283,6 +285,7 @@ std::vector<Contender> contenders_of(const Found& found, const Search& search, c
       row.squares = instead.squares;
       row.share = (without.squares - instead.squares) / std::max(gain, 1e-300);
       row.behind = comparison(augmented, instead, fitted);
+      row.evenness = evenness_of(sizes_of_parts(*fitted.recordings, without.residuals, instead.residuals));
     }
     result.push_back(std::move(row));
   }
@@ -302,6 +305,7 @@ Candidate candidate_found(std::size_t k, const Search& search, const Workbench& 
   one.id = found.part.effect;
   one.gain = without.squares - augmented.squares;
   one.score = comparison(augmented, without, fitted);
+  one.sizes = sizes_of_parts(*fitted.recordings, without.residuals, augmented.residuals);
   one.gain_alone = gain_alone_of(found, search);
   one.contenders = contenders_of(found, search, known, looked, without, one.gain, fitted);
   for (const Swap& swap : search.swaps) {
@@ -372,7 +376,7 @@ std::vector<OtherLaw> other_laws_of(const Search& search, const Evidence& eviden
 
 Evidence evidence_of(const Search& search, const Workbench& fine, const Circumstances& known) {
   const Looked looked = looked_at(search, fine);
-  const Fitted fitted{&fine.motions(), noise_of(fine)};
+  const Fitted fitted{&fine.split().fit, &fine.motions(), noise_of(fine)};
   Evidence result = evidence_of_models(search, fine, known, looked, fitted);
   for (std::size_t k = 0; k < search.found.size(); ++k) {
     result.candidates.push_back(candidate_found(k, search, fine, known, looked, fitted));
