@@ -121,6 +121,7 @@ void add_catalogue(CLI::App& program) {
       ->check(one_of({"models", "solvers", "effects", "datasets", "tables"}));
   list->add_flag("--json", list_options->json, "JSON on standard output");
   list->footer("Example:\n  hysteron list models");
+  take_common_options(*list);
   list->callback([list_options] {
     if (list_options->word.empty()) {
       throw InputError("list: of what, expected models, solvers, effects, datasets or tables");
@@ -150,6 +151,7 @@ void add_catalogue(CLI::App& program) {
   describe->add_option("--figure", describe_options->figure,
                        "instead, an SVG file: loops of a model, or convergence of a solver on the simulated damper");
   describe->footer("Example:\n  hysteron describe bouc-wen\n  hysteron describe bouc-wen --figure bouc-wen.svg");
+  take_common_options(*describe);
   describe->callback([describe_options] {
     const std::string& id = describe_options->word;
     if (!describe_options->figure.empty()) {

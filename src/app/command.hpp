@@ -57,6 +57,9 @@ struct CommonOptions {
   double tolerance = 1e-4;
 };
 void add_common_options(CLI::App& command, CommonOptions& options);
+// For commands that draw nothing, share no work and measure no error: the options that scripts give to every command are
+// taken, their values checked, and change nothing.
+void take_common_options(CLI::App& command);
 ObjectiveOptions objective_options(const CommonOptions& options);
 
 // "alpha:1,c0:2" -> orders; InputError naming the option and the word that is wrong.

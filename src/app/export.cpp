@@ -144,6 +144,7 @@ void add_export(CLI::App& program) {
       "Examples:\n"
       "  hysteron export out/model.json --to c --out damper/ --motion recordings/r1.csv\n"
       "  hysteron export out/model.json --to fmu --out damper.fmu");
+  take_common_options(*command);
   command->callback([options] { run(*options); });
 }
 

@@ -111,6 +111,7 @@ void add_generate(CLI::App& program) {
   command->footer(
       "Examples:\n  hysteron generate rd8040-twin --out twin --only 2.0Hz\n  hysteron generate utfsm-mr-damper --out "
       "press");
+  take_common_options(*command);
   command->callback([options] {
     const DatasetEntry* entry = find_dataset(options->id);
     if (entry == nullptr) {

@@ -60,6 +60,7 @@ void add_report(CLI::App& program) {
   command->add_flag("--mat", options->mat, "also write runs, traces and parameters as tables.mat, for MATLAB");
   command->add_flag("--json", options->json, "the analysis, or the diagnosis, as JSON on standard output");
   command->footer("Example:\n  hysteron report out --times --ioh");
+  take_common_options(*command);
   command->callback([options] {
     refuse_standard_output(options->out, "tables and a page");
     const std::filesystem::path folder = options->folder;

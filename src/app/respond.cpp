@@ -208,6 +208,7 @@ void add_respond(CLI::App& program) {
       "  hysteron respond out/model.json load.csv --mass 250 --stiffness 2e4 --out motion.csv\n"
       "  hysteron respond out/model.json quake.csv --mass 250 --excitation base --interpolation band-limited --out "
       "motion.csv");
+  take_common_options(*command);
   command->callback([options] { run(*options); });
 }
 

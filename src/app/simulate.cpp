@@ -161,6 +161,7 @@ void add_simulate(CLI::App& program) {
       "Examples:\n"
       "  hysteron simulate out/model.json recordings/r1.csv --out prediction.csv\n"
       "  hysteron simulate --preset spencer-1997 --drive 1.5 recordings/r1.csv --out prediction.csv");
+  take_common_options(*command);
   command->callback([options] {
     const bool preset = !options->preset.empty();
     if (options->words.size() != (preset ? 1U : 2U)) {

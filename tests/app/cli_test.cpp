@@ -684,6 +684,28 @@ TEST_F(Program, WhatIsOutsideTheBoxButPossibleIsTaken) {
   EXPECT_EQ(refused.err, "error: --fix n: -1 is no n (sharpness of the knee), expected more than 0\n");
 }
 
+TEST_F(Program, EveryCommandTakesTheCommonOptions) {
+  const std::vector<std::string> common = {"--seed", "7", "--threads", "1", "--quiet", "--normalisation", "std"};
+  const auto with_common = [&](std::vector<std::string> words) {
+    words.insert(words.end(), common.begin(), common.end());
+    return run(words);
+  };
+  ASSERT_EQ(with_common({"fit", "data", "--model", "viscous", "--budget", "50", "--out", "out"}).status, 0);
+  for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
+           {"simulate", "out/model.json", "data/r1.csv", "--out", "force.csv"},
+           {"score", "out/model.json", "data"},
+           {"compare", "out/model.json", "data", "--out", "compared"},
+           {"export", "out/model.json", "--to", "c", "--out", "c"},
+           {"list", "models"},
+           {"describe", "bouc-wen"},
+           {"generate", "rd8040-twin", "--only", "0.5Hz_0.5A", "--out", "twin"}}) {
+    const Outcome outcome = with_common(words);
+    EXPECT_EQ(outcome.status, 0) << words[0] << ": " << outcome.err;
+  }
+  EXPECT_EQ(run({"list", "models", "--normalisation", "peak"}).status, 2);
+  EXPECT_EQ(run({"simulate", "out/model.json", "data/r1.csv", "--threads", "many", "--out", "f.csv"}).status, 2);
+}
+
 // A march within one evaluation may take longer than anyone waits.
 TEST_F(Program, ASecondInterruptEndsAtOnce) {
   write(folder_ / "long/r1.csv", testing::csv(0.001, 0.2, 4000));
