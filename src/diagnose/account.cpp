@@ -7,6 +7,7 @@
 #include <set>
 
 #include "core/interval_text.hpp"
+#include "core/probability_text.hpp"
 #include "diagnose/doubts.hpp"
 #include "diagnose/judge/speaking.hpp"
 #include "diagnose/search/relatives.hpp"
@@ -179,7 +180,7 @@ std::vector<Rejected> rejected_of(const Diagnosis& diagnosis) {
         {row.id,
          fmt::format("in the augmented model as a shape that {}s better; {}", what_shapes_do(diagnosis),
                      diagnosis.evidence.doubt_of_data.empty()
-                         ? fmt::format("as a cause it is less likely than not ({:.0f} %)", 100.0 * row.confidence)
+                         ? fmt::format("as a cause it is less likely than not ({})", probability_text(row.confidence))
                          : std::string("on these recordings no cause can be named"))});
   }
   const double base = squared(diagnosis.search.quick_base.cost);

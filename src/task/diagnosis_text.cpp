@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "core/printable.hpp"
+#include "core/probability_text.hpp"
 #include "diagnose/search/alias.hpp"
 #include "io/file.hpp"
 #include "io/json_reader.hpp"
@@ -74,10 +75,9 @@ std::string names_text(const json& record) {
   for (const char* list : {"effects", "suggestions"}) {
     for (const json& effect : list_of(record, list)) {
       const bool of_set = !list_of(effect, "indistinguishable_from").empty();
-      text +=
-          "\n" + item(fmt::format("{} ({:.0f} %{}): {}", effect.contains("grade") ? text_of(effect, "grade") : "named",
-                                  100.0 * effect.value("confidence", 0.0), of_set ? " that it is one of these" : "",
-                                  text_of(effect, "sentence")));
+      text += "\n" + item(fmt::format("{} ({}{}): {}", effect.contains("grade") ? text_of(effect, "grade") : "named",
+                                      probability_text(effect.value("confidence", 0.0)),
+                                      of_set ? " that it is one of these" : "", text_of(effect, "sentence")));
       if (!text_of(effect, "experiment").empty()) {
         text += "  " + wrapped("decided by: " + text_of(effect, "experiment"), 2);
       }
