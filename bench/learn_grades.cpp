@@ -4,7 +4,8 @@
 //
 // FOLDER is an --out of `hysteron challenge`, diagnosed. Three logistic functions with weights that are never negative
 // are fitted: that a name of the augmented model is in the truth, that it or one that does as well in its place is,
-// that physics is missing at all. What calibrates them are the scores of campaigns that a function had not seen: forms
+// that physics is missing at all. Names have an offset of their effect besides, which says how often that is found
+// where it is not. What calibrates them are the scores of campaigns that a function had not seen: forms
 // of effects and foreign causes are dealt to ten parts, and a campaign is scored by the function that was learned from
 // the campaigns that hold none of the forms and causes of its part. Monotone steps of these (pool adjacent violators)
 // are the probabilities. --judge prints what the tables of the program say of other folders.
@@ -59,14 +60,12 @@ struct Row {
 };
 
 struct Rows {
+  std::vector<Row> alone;
   std::vector<Row> names;
   std::vector<Row> missing;
   // Campaigns in which a contrast that needs no model speaks, and of these with the effect it speaks for.
   std::size_t told = 0;
   std::size_t told_rightly = 0;
-  // Candidates of which others do as well, with a cause among them; of these the cause itself.
-  std::size_t sets = 0;
-  std::size_t found = 0;
 };
 
 int part_of(const std::string& form) {
@@ -123,15 +122,12 @@ void read(const std::filesystem::path& folder, Rows& rows) {
     }
     const auto add = [&](const hysteron::Candidate& candidate, const hysteron::Evidence& of) {
       row.id = candidate.id;
-      row.features = listed(hysteron::features_of(candidate, of));
+      row.features = listed(hysteron::alone_features_of(candidate, of));
       row.right = truth.contains(candidate.id);
-      const std::vector<const hysteron::Contender*> others = hysteron::equally_good(candidate);
-      for (const hysteron::Contender* other : others) {
+      rows.alone.push_back(row);
+      row.features = listed(hysteron::features_of(candidate, of));
+      for (const hysteron::Contender* other : hysteron::equally_good(candidate)) {
         row.right = row.right || truth.contains(other->id);
-      }
-      if (!others.empty() && row.right) {
-        ++rows.sets;
-        rows.found += truth.contains(candidate.id) ? 1 : 0;
       }
       rows.names.push_back(row);
     };
@@ -153,22 +149,30 @@ void read(const std::filesystem::path& folder, Rows& rows) {
 struct Logistic {
   double intercept = 0.0;
   Vector weights;
+  std::map<std::string, double> offsets;  // of effects
 
-  [[nodiscard]] double score(const std::vector<double>& features) const {
-    return intercept + weights.dot(Eigen::Map<const Vector>(features.data(), weights.size()));
+  [[nodiscard]] double score(const Row& row) const {
+    const auto offset = offsets.find(row.id);
+    return intercept + (offset == offsets.end() ? 0.0 : offset->second) +
+           weights.dot(Eigen::Map<const Vector>(row.features.data(), weights.size()));
   }
 };
 
-// Penalised maximum likelihood with weights >= 0, by projected gradient descent on standardised features.
+// Penalised maximum likelihood with weights >= 0, by projected gradient descent on standardised features. Offsets of
+// effects are normal about zero beforehand, with unit variance.
 Logistic learned(const std::vector<const Row*>& rows) {
   const auto n = static_cast<Eigen::Index>(rows.size());
   const auto d = static_cast<Eigen::Index>(rows.front()->features.size());
   Matrix x(n, d);
   Vector y(n);
+  std::map<std::string, Eigen::Index> effects;
+  std::vector<Eigen::Index> effect(rows.size());
   for (Eigen::Index i = 0; i < n; ++i) {
     const Row& row = *rows[static_cast<std::size_t>(i)];
     x.row(i) = Eigen::Map<const Eigen::RowVectorXd>(row.features.data(), d);
     y[i] = row.right ? 1.0 : 0.0;
+    effect[static_cast<std::size_t>(i)] =
+        effects.try_emplace(row.id, static_cast<Eigen::Index>(effects.size())).first->second;
   }
   const Eigen::RowVectorXd mean = x.colwise().mean();
   x.rowwise() -= mean;
@@ -176,15 +180,30 @@ Logistic learned(const std::vector<const Row*>& rows) {
   x.array().rowwise() /= spread.array();
   double intercept = 0.0;
   Vector w = Vector::Zero(d);
-  const double step = 4.0 / (static_cast<double>(n) * static_cast<double>(d + 1) + ridge);
+  Vector offsets = Vector::Zero(static_cast<Eigen::Index>(effects.size()));
+  // Curvature of the likelihood at most: that of all features, of the intercept and of one effect in each row.
+  const double step = 4.0 / (static_cast<double>(n) * static_cast<double>(d + 2) + ridge);
+  const bool with_offsets = effects.size() > 1;
   for (int k = 0; k < iterations; ++k) {
-    const Vector p = ((-(x * w).array() - intercept).exp() + 1.0).inverse();
+    Vector s = x * w;
+    for (Eigen::Index i = 0; i < n; ++i) {
+      s[i] += offsets[effect[static_cast<std::size_t>(i)]];
+    }
+    const Vector p = ((-s.array() - intercept).exp() + 1.0).inverse();
     const Vector error = p - y;
     intercept -= step * error.sum();
     w -= step * (x.transpose() * error + ridge * w);
     w = w.cwiseMax(0.0);
+    Vector slope = offsets;
+    for (Eigen::Index i = 0; i < n; ++i) {
+      slope[effect[static_cast<std::size_t>(i)]] += error[i];
+    }
+    offsets -= (with_offsets ? step : 0.0) * slope;
   }
   Logistic result;
+  for (const auto& [id, at] : effects) {
+    result.offsets[id] = offsets[at];
+  }
   result.weights = w.array() / spread.transpose().array();
   result.intercept = intercept - result.weights.dot(mean.transpose());
   return result;
@@ -209,7 +228,7 @@ std::vector<double> unseen_scores(const std::vector<Row>& rows) {
     for (std::size_t k = 0; k < rows.size(); ++k) {
       const bool held = rows[k].parts.empty() ? part_of(rows[k].campaign) == part : meets(rows[k].parts, part);
       if (held) {
-        sum[k] += logistic.score(rows[k].features);
+        sum[k] += logistic.score(rows[k]);
         ++count[k];
       }
     }
@@ -306,6 +325,12 @@ std::string source_of(const Learned& table) {
   for (Eigen::Index k = 0; k < table.logistic.weights.size(); ++k) {
     text += fmt::format("{}{:.4g}", k == 0 ? "" : ", ", table.logistic.weights[k]);
   }
+  if (table.logistic.offsets.size() > 1) {
+    text += fmt::format("}};\nconstexpr Offset {}_offsets[] = {{", table.name);
+    for (const auto& [effect, offset] : table.logistic.offsets) {
+      text += fmt::format("{{\"{}\", {:.3g}}}, ", effect, offset);
+    }
+  }
   text += fmt::format("}};\nconstexpr Knot {}_knots[] = {{", table.name);
   for (std::size_t k = 0; k < table.steps.size(); ++k) {
     text += fmt::format("{}{{{:.4g}, {:.4g}}}", k == 0 ? "" : ", ", table.steps[k].score, table.steps[k].probability());
@@ -313,14 +338,25 @@ std::string source_of(const Learned& table) {
   return text + fmt::format("}};\nconstexpr double {}_intercept = {:.5g};\n", table.name, table.logistic.intercept);
 }
 
-template <class Features>
-std::string page_of(const Learned& table, const Features& features) {
+std::string page_of(const Learned& table, std::span<const hysteron::Feature> features) {
   std::string text = fmt::format("\n## {}\n\n{} rows, {} of them right. Intercept {:.3f}.\n\n", table.of, table.rows,
                                  table.right, table.logistic.intercept);
   text += "| feature | weight | meaning |\n|---|--:|---|\n";
   for (std::size_t k = 0; k < features.size(); ++k) {
     text += fmt::format("| {} | {:.3f} | {} |\n", features[k].name,
                         table.logistic.weights[static_cast<Eigen::Index>(k)], features[k].meaning);
+  }
+  if (table.logistic.offsets.size() > 1) {
+    std::vector<std::pair<double, std::string>> offsets;
+    for (const auto& [effect, offset] : table.logistic.offsets) {
+      offsets.emplace_back(offset, effect);
+    }
+    std::ranges::sort(offsets);
+    text += "\nOffsets of effects, those first that are found most often where they are not:";
+    for (const auto& [offset, effect] : offsets) {
+      text += fmt::format("{} {} {:.2f}", &offset == &offsets.front().first ? "" : ",", effect, offset);
+    }
+    text += ".\n";
   }
   text += "\nSteps of the probability, on forms and foreign causes left out:\n\n";
   text += "| mean score | right | of | probability |\n|--:|--:|--:|--:|\n";
@@ -369,7 +405,7 @@ struct Judged {
   }
 };
 
-std::string page_of_others(const std::vector<Row>& rows) {
+std::string page_of_others(const std::string& title, const std::vector<Row>& rows) {
   std::set<std::string> folders;
   for (const Row& row : rows) {
     folders.insert(folder_of(row));
@@ -378,11 +414,10 @@ std::string page_of_others(const std::vector<Row>& rows) {
     return {};
   }
   std::string text = fmt::format(
-      "\n## Each folder judged by a table learned from the others\n\nLogarithmic loss of a name, probabilities between "
-      "1 "
-      "and 99 %; names that are right of those stated, and how many were promised.\n\n"
+      "\n## {}: each folder judged by a table learned from the others\n\nLogarithmic loss of a name, probabilities "
+      "between 1 and 99 %; names that are right of those stated, and how many were promised.\n\n"
       "| folder | names | loss | {:.2f} and more | {:.2f} and more |\n|---|--:|--:|--:|--:|\n",
-      hysteron::supported_from, hysteron::established_from);
+      title, hysteron::supported_from, hysteron::established_from);
   Judged all;
   for (const std::string& folder : folders) {
     std::vector<Row> others;
@@ -394,11 +429,15 @@ std::string page_of_others(const std::vector<Row>& rows) {
     }
     const std::span<const double> weights(learned.logistic.weights.data(),
                                           static_cast<std::size_t>(learned.logistic.weights.size()));
-    const hysteron::Table table{learned.logistic.intercept, weights, knots};
+    std::vector<hysteron::Offset> offsets;
+    for (const auto& [effect, offset] : learned.logistic.offsets) {
+      offsets.push_back({effect, offset});
+    }
+    const hysteron::Table table{learned.logistic.intercept, weights, knots, offsets};
     Judged judged;
     for (const Row& row : rows) {
       if (folder_of(row) == folder) {
-        const double probability = table.probability(row.features);
+        const double probability = table.probability(row.features, row.id);
         judged.add(probability, row.right);
         all.add(probability, row.right);
       }
@@ -435,7 +474,8 @@ int run(int argc, char** argv) {
       fmt::print("\n");
     }
   }
-  const std::array<Learned, 2> tables = {
+  const std::array<Learned, 3> tables = {
+      learned_table("alone", "An effect of the augmented model is in the truth", rows.alone),
       learned_table("name", "An effect of the augmented model, or one that does as well in its place, is in the truth",
                     rows.names),
       learned_table("missing", "Physics is missing at all", rows.missing)};
@@ -453,28 +493,25 @@ int run(int argc, char** argv) {
   for (const Learned& table : tables) {
     source += "\n" + source_of(table);
   }
-  page += page_of(tables[0], hysteron::name_features) + page_of_others(rows.names) +
-          page_of(tables[1], hysteron::missing_features);
+  std::vector<hysteron::Feature> alone_features(hysteron::name_features.begin(), hysteron::name_features.end());
+  alone_features.push_back(hysteron::of_set);
+  page += page_of(tables[0], alone_features) + page_of_others("One name", rows.alone) +
+          page_of(tables[1], hysteron::name_features) + page_of_others("A name or its set", rows.names) +
+          page_of(tables[2], hysteron::missing_features);
   const double told = (static_cast<double>(rows.told_rightly) + 0.5) / (static_cast<double>(rows.told) + 1.0);
   page += fmt::format(
       "\n## The channels tell it without a model\n\nThe contrast of a lag between velocity and displacement speaks in "
       "{} "
       "campaigns, in {} of them rightly: probability {:.3f}.\n",
       rows.told, rows.told_rightly, told);
-  const double found = (static_cast<double>(rows.found) + 0.5) / (static_cast<double>(rows.sets) + 1.0);
-  page += fmt::format("\n## Which of a set\n\nOf {} sets with a cause, the one found is a cause in {}: share {:.3f}.\n",
-                      rows.sets, rows.found, found);
-  source += fmt::format(
-      "\nconstexpr double of_channels = {:.4g};\nconstexpr double of_set = {:.4g};\n\n}}  // namespace\n", told, found);
+  source += fmt::format("\nconstexpr double of_channels = {:.4g};\n\n}}  // namespace\n", told);
   for (const Learned& table : tables) {
     source += fmt::format(
-        "\nconst Table& {0}_table() {{\n  static constexpr Table table{{{0}_intercept, {0}_weights, {0}_knots}};\n"
+        "\nconst Table& {0}_table() {{\n  static constexpr Table table{{{0}_intercept, {0}_weights, {0}_knots{1}}};\n"
         "  return table;\n}}\n",
-        table.name);
+        table.name, table.logistic.offsets.size() > 1 ? ", " + table.name + "_offsets" : "");
   }
-  source +=
-      "\ndouble channel_probability() { return of_channels; }\n\ndouble found_of_set() { return of_set; }\n\n}  // "
-      "namespace hysteron\n";
+  source += "\ndouble channel_probability() { return of_channels; }\n\n}  // namespace hysteron\n";
   if (!out.empty()) {
     hysteron::write_file_atomically(out, source);
   }

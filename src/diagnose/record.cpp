@@ -117,6 +117,7 @@ json named_json(const Diagnosis& diagnosis, const Named& named, std::size_t inde
           {"confidence", named.confidence},
           {"confidence_alone", named.alone},
           {"indistinguishable_from", named.indistinguishable_from},
+          {"less_likely", named.less_likely},
           {"in_place_of", named.in_place_of ? json(*named.in_place_of) : json(nullptr)},
           {"of_law", named.of_law ? json(*named.of_law) : json(nullptr)},
           {"sentence", diagnosis.sentences[index]},

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/probability_text.hpp"
 #include "diagnose/account.hpp"
 #include "diagnose/judge/speaking.hpp"
 #include "diagnose/search/relatives.hpp"
@@ -51,6 +52,13 @@ std::string phrase_of(const Diagnosis& diagnosis, const Named& named, std::size_
     }
     text += "; " + joined(others, " or ") + " would do as well";
   }
+  if (!named.less_likely.empty()) {
+    std::vector<std::string> others;
+    for (const std::string& id : named.less_likely) {
+      others.push_back(title_of(id));
+    }
+    text += "; " + joined(others, " or ") + " would do as well, and is less likely";
+  }
   return text;
 }
 
@@ -74,8 +82,8 @@ std::string sentence_of_shapes(const Diagnosis& diagnosis) {
   const std::vector<Named>& doubtful = diagnosis.verdict.doubtful;
   std::vector<std::string> shapes;
   for (std::size_t k = 0; k < doubtful.size(); ++k) {
-    shapes.push_back(
-        fmt::format("{} ({})", with_sizes(doubtful[k].id, diagnosis.shapes[k]), percent(doubtful[k].confidence)));
+    shapes.push_back(fmt::format("{} ({})", with_sizes(doubtful[k].id, diagnosis.shapes[k]),
+                                 probability_text(doubtful[k].confidence)));
   }
   if (shapes.empty()) {
     return {};

@@ -44,6 +44,7 @@ Evidence plain() {
   Evidence evidence;
   evidence.model = "bouc-wen";
   evidence.recordings = 6;
+  evidence.motions = 6;
   evidence.base = left_of(20.0 * floor_squares, true);
   evidence.augmented = left_of(1.0 * floor_squares, false);
   evidence.base_compared = evidence.base.squares;
@@ -54,6 +55,11 @@ Evidence plain() {
   one.gain = 19.0 * floor_squares;
   one.score = {1.5, 0.1, 1.0, 6};
   one.gain_alone = one.gain;
+  for (std::size_t r = 0; r < 6; ++r) {
+    for (int quarter = 0; quarter < 4; ++quarter) {
+      one.sizes.push_back({r, quarter, 1.0, 1e-4});
+    }
+  }
   one.contenders = {contender("sensor-delay", 0.3, 10.0, true), contender("quadratic-damping", 0.1, 12.0)};
   one.behind_laws = {{"lugre", 1.0}, {"bingham", 0.9}};
   one.signatures = {{"acceleration", "force with acceleration", "kg", 8.0, 0.1, 12.0, 1.0, 1.0, 6, {"inertia"}, {0}}};
@@ -61,6 +67,13 @@ Evidence plain() {
   evidence.other_laws = {{"lugre", 19.0 * floor_squares, false, {}}};
   evidence.signatures = one.signatures;
   return evidence;
+}
+
+// Of one sign below the middle of the stroke and of the other above.
+void make_uneven(Candidate& candidate) {
+  for (SizeOfPart& part : candidate.sizes) {
+    part.size = part.quarter % 2 == 0 ? 3.0 : -1.0;
+  }
 }
 
 // No cause: what the base leaves is noise and nothing was found.
@@ -95,7 +108,7 @@ TEST(Grade, FollowsTheProbability) {
 }
 
 TEST(Table, IsMonotoneInEveryFeature) {
-  for (const Table* table : {&name_table(), &missing_table()}) {
+  for (const Table* table : {&alone_table(), &name_table(), &missing_table()}) {
     for (const double weight : table->weights) {
       EXPECT_GE(weight, 0.0);
     }
@@ -104,6 +117,7 @@ TEST(Table, IsMonotoneInEveryFeature) {
       EXPECT_GE(table->knots[k].probability, table->knots[k - 1].probability);
     }
   }
+  EXPECT_EQ(alone_table().weights.size(), name_features.size() + 1);
   EXPECT_EQ(name_table().weights.size(), name_features.size());
   EXPECT_EQ(missing_table().weights.size(), missing_features.size());
 }
@@ -137,7 +151,6 @@ TEST(Features, AreFiniteAndSpeakForTheNameTheLargerTheyAre) {
   candidate.contenders[1].share = 0.8;
   candidate.behind_laws = {{"lugre", 0.1}};
   candidate.on_bound = 1;
-  candidate.gain_of_relative = candidate.gain;
   worse.other_laws[0].squares = 2.0 * floor_squares;
   candidate.signatures[0].z = 0.5;
   worse.candidates.push_back(candidate);
@@ -197,21 +210,47 @@ TEST(Features, ALawThatHasTheEffectAsAPartOfItsOwnIsNoDoubtOfIt) {
   EXPECT_EQ(features_of(evidence.candidates[0], evidence)[at], 1.0);
 }
 
-TEST(Features, FewRecordingsMakeANameLessSure) {
+TEST(Table, AddsTheOffsetOfTheEffect) {
+  static constexpr double weights[] = {2.0};
+  static constexpr Offset offsets[] = {{"pinching", -1.5}, {"coil-lag", 1.0}};
+  const Table table{1.0, weights, {}, offsets};
+  const std::array<double, 1> features = {0.25};
+  EXPECT_DOUBLE_EQ(table.score(features, "pinching"), 0.0);
+  EXPECT_DOUBLE_EQ(table.score(features, "coil-lag"), 2.5);
+  EXPECT_DOUBLE_EQ(table.score(features, "of-a-plugin"), 1.5);
+  EXPECT_DOUBLE_EQ(table.probability(features, "pinching"), 0.5);
+}
+
+TEST(Features, FewMotionsMakeANameLessSure) {
   Evidence evidence = plain();
-  const auto at = [&](std::size_t recordings) {
-    evidence.recordings = recordings;
-    const auto row = std::ranges::find(name_features, "recordings", &Feature::name);
-    return features_of(evidence.candidates[0], evidence)[static_cast<std::size_t>(row - name_features.begin())];
+  const auto at = [&](std::size_t motions) {
+    evidence.motions = motions;
+    return feature(evidence, "motions");
   };
   EXPECT_EQ(at(1), 0.0);
   EXPECT_DOUBLE_EQ(at(2), 1.0 / 3.0);
   EXPECT_EQ(at(4), 1.0);
   EXPECT_EQ(at(20), 1.0) << "more make no name surer";
-  evidence.recordings = 1;
-  const double of_one = name_table().probability(features_of(evidence.candidates[0], evidence));
-  evidence.recordings = 6;
-  EXPECT_LE(of_one, name_table().probability(features_of(evidence.candidates[0], evidence)));
+  evidence.motions = 1;
+  const double of_one = name_table().probability(features_of(evidence.candidates[0], evidence), "inertia");
+  evidence.motions = 6;
+  EXPECT_LE(of_one, name_table().probability(features_of(evidence.candidates[0], evidence), "inertia"));
+}
+
+TEST(Features, AnEffectOfUnevenSizeIsLessSure) {
+  Evidence evidence = plain();
+  EXPECT_DOUBLE_EQ(feature(evidence, "evenness"), 3.0);
+  for (SizeOfPart& part : evidence.candidates[0].sizes) {
+    part.size = part.quarter < 2 ? 2.0 : 0.0;
+  }
+  EXPECT_DOUBLE_EQ(feature(evidence, "evenness"), std::log10(2.0));
+}
+
+TEST(Features, OfANameAloneCountWhatDoesAsWell) {
+  Evidence evidence = plain();
+  EXPECT_EQ(alone_features_of(evidence.candidates[0], evidence).back(), 1.0);
+  evidence.candidates[0].contenders = {contender("sensor-delay", 0.95, 1.9, true)};
+  EXPECT_EQ(alone_features_of(evidence.candidates[0], evidence).back(), 0.5);
 }
 
 TEST(Comparison, FewClustersAskForMoreThanTwoStandardErrors) {
@@ -344,6 +383,8 @@ TEST(Verdict, WhatTheChannelsTellNeedsNoModel) {
   candidate.score = {0.0, 0.2, 0.5, 6};
   candidate.signatures[0].id = "velocity-delay";
   candidate.signatures[0].speaks_for = {candidate.id};
+  candidate.gain_alone = 0.0;
+  make_uneven(candidate);
   EXPECT_TRUE(verdict_of(evidence).effects.empty());
   candidate.as_channels = true;
   const Verdict told = verdict_of(evidence);
@@ -352,6 +393,40 @@ TEST(Verdict, WhatTheChannelsTellNeedsNoModel) {
   EXPECT_TRUE(told.effects[0].indistinguishable_from.empty());
   candidate.signatures[0].placebo_quantile = 0.9;
   EXPECT_TRUE(verdict_of(evidence).effects.empty()) << "one of ten placebos is as large";
+}
+
+TEST(Verdict, ASetIsToldWhereItIsSurerByMoreThanATenth) {
+  Evidence evidence = plain();
+  Candidate& candidate = evidence.candidates[0];
+  std::size_t alone = 0;
+  std::size_t sets = 0;
+  for (const int others : {1, 2, 4}) {
+    candidate.contenders.clear();
+    for (int k = 0; k < others; ++k) {
+      candidate.contenders.push_back(
+          contender(k == 0 ? "sensor-delay" : "rival-" + std::to_string(k), 0.95, 0.5, true));
+    }
+    for (const double weaker : {1.0, 0.8, 0.6, 0.4, 0.3}) {
+      candidate.signatures[0].z = 12.0 * (weaker - 0.25);
+      candidate.gain_alone = weaker * candidate.gain;
+      const double of_one = alone_table().probability(alone_features_of(candidate, evidence), candidate.id);
+      const double of_all = std::max(of_one, name_table().probability(features_of(candidate, evidence), candidate.id));
+      const Verdict verdict = verdict_of(evidence);
+      std::vector<Named> names = verdict.effects.empty() ? verdict.suggestions : verdict.effects;
+      if (names.empty()) {
+        EXPECT_LT(of_all, suggested_from);
+        continue;
+      }
+      const bool told_alone = names.size() == 1;
+      (told_alone ? alone : sets) += 1;
+      EXPECT_EQ(names[0].confidence, told_alone ? of_one : of_all);
+      EXPECT_EQ(names[0].less_likely.size(), told_alone ? static_cast<std::size_t>(others) : 0U);
+      EXPECT_EQ(names[0].alone, of_one);
+      const bool listed_alike = of_one >= suggested_from && (of_one >= supported_from) == (of_all >= supported_from);
+      EXPECT_EQ(told_alone, listed_alike && of_all - of_one <= 0.1) << of_one << " " << of_all;
+    }
+  }
+  EXPECT_GT(alone + sets, 0U);
 }
 
 TEST(Verdict, AShapeThatEverythingSpeaksAgainstIsNoName) {
@@ -365,6 +440,7 @@ TEST(Verdict, AShapeThatEverythingSpeaksAgainstIsNoName) {
   candidate.behind_laws = {{"lugre", 0.05}, {"bingham", 0.1}};
   evidence.other_laws[0].squares = 14.0 * floor_squares;
   candidate.signatures[0].z = 0.3;
+  make_uneven(candidate);
   const Verdict verdict = verdict_of(evidence);
   EXPECT_TRUE(verdict.effects.empty());
   EXPECT_EQ(verdict.answer, Answer::unattributed);
@@ -400,6 +476,7 @@ TEST(Verdict, WhatIsDoubtedHasItsPartOfWhatHasNoName) {
   doubted.gain_alone = 0.0;
   doubted.signatures[0].speaks_for = {"cavitation"};
   doubted.signatures[0].z = 0.2;
+  make_uneven(doubted);
   evidence.candidates.push_back(doubted);
   verdict = verdict_of(evidence);
   ASSERT_EQ(verdict.effects.size() + verdict.suggestions.size(), 1U);

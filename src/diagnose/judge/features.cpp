@@ -16,10 +16,10 @@ constexpr double unknown_contrast = 0.5;
 constexpr double of_noise = 1.0;
 // From so many on a contrast is no surer.
 constexpr double beyond_doubt = 4.0;
-// Recordings from which on they are left out as wholes (left_out.cpp); of fewer, parts of each are, which tells less.
-constexpr double enough_recordings = 4.0;
-// A prediction that is better by this block score is hardly better.
-constexpr double least_prediction = 1e-3;
+// Motions from which on they are left out as wholes (left_out.cpp), which tells most.
+constexpr double enough_motions = 4.0;
+// Where one size leaves less than this share, the sizes are even.
+constexpr double least_unevenness = 1e-3;
 
 double unit(double value) { return std::isfinite(value) ? std::clamp(value, 0.0, 1.0) : 0.0; }
 
@@ -98,15 +98,22 @@ NameFeatures features_of(const Candidate& candidate, const Evidence& evidence) {
       law = std::max(law, (base - other.squares) / all);
     }
   }
-  return {std::log10(1.0 + std::clamp(candidate.score.mean, 0.0, 1.0) / least_prediction),
+  return {unit(candidate.score.agreement),
           unit(1.0 - law),
           unit(gain / (gain + above_chance(evidence.augmented.recurring, evidence.augmented.recurring_by_chance) *
                                   evidence.augmented.squares)),
           1.0 - static_cast<double>(candidate.on_bound) / std::max(candidate.parameters, 1),
           contrast_of(candidate),
           unit(candidate.gain_alone / gain),
-          unit(1.0 - candidate.gain_of_relative / (candidate.gain_of_relative + gain)),
-          unit((static_cast<double>(evidence.recordings) - 1.0) / (enough_recordings - 1.0))};
+          unit((static_cast<double>(evidence.motions) - 1.0) / (enough_motions - 1.0)),
+          -std::log10(std::max(1.0 - evenness_of(candidate.sizes), least_unevenness))};
+}
+
+AloneFeatures alone_features_of(const Candidate& candidate, const Evidence& evidence) {
+  AloneFeatures result{};
+  std::ranges::copy(features_of(candidate, evidence), result.begin());
+  result.back() = 1.0 / (1.0 + static_cast<double>(equally_good(candidate).size()));
+  return result;
 }
 
 MissingFeatures features_of(const Evidence& evidence) {

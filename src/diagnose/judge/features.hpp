@@ -17,7 +17,7 @@ struct Feature {
 
 // Of a name.
 inline constexpr std::array<Feature, 8> name_features = {{
-    {"prediction", "log10 of 1 + a thousand block scores: how much better recordings left out in turn are predicted"},
+    {"agreement", "share of the motions left out in turn that are predicted better with it than without it"},
     {"no_other_law",
      "1 less the share of what all effects take off that another damper law, without it as a part of its own, takes "
      "off without any and explains its contrast too"},
@@ -28,13 +28,20 @@ inline constexpr std::array<Feature, 8> name_features = {{
      "(0) to four (1); 0 where 5 % of its placebos say as much, a half where none can be taken"},
     {"alone",
      "gain alone behind the base model over that in the augmented one: what only makes up for others has none"},
-    {"no_relative",
-     "1 less the gain of a related effect of the model over that and its own: what a form misses looks like a "
-     "relative"},
-    {"recordings", "fitted ones, from one (0) to four and more (1): what few show may be theirs alone"},
+    {"motions",
+     "different ones that were fitted, from one (0) to four and more (1): what few show may be theirs alone"},
+    {"evenness",
+     "log10 of one over the share that one size leaves, to 3, of what sizes of its own in each quarter of the cycle of "
+     "each recording left out would take off: what covers for something else is too large here and too small there"},
 }};
 using NameFeatures = std::array<double, name_features.size()>;
 NameFeatures features_of(const Candidate& candidate, const Evidence& evidence);
+
+// Of a name that stands for itself alone: these, and how many others do as well.
+inline constexpr Feature of_set = {"of_set",
+                                   "1 over the number of effects that do as well in its place, it among them"};
+using AloneFeatures = std::array<double, name_features.size() + 1>;
+AloneFeatures alone_features_of(const Candidate& candidate, const Evidence& evidence);
 
 // Of something missing at all.
 inline constexpr std::array<Feature, 6> missing_features = {{

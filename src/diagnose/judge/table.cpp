@@ -5,16 +5,17 @@
 
 namespace hysteron {
 
-double Table::score(std::span<const double> features) const {
-  double sum = intercept;
+double Table::score(std::span<const double> features, std::string_view effect) const {
+  const auto offset = std::ranges::find(offsets, effect, &Offset::effect);
+  double sum = intercept + (offset == offsets.end() ? 0.0 : offset->value);
   for (std::size_t k = 0; k < weights.size(); ++k) {
     sum += weights[k] * features[k];
   }
   return sum;
 }
 
-double Table::probability(std::span<const double> features) const {
-  const double at = score(features);
+double Table::probability(std::span<const double> features, std::string_view effect) const {
+  const double at = score(features, effect);
   if (knots.empty()) {
     return 1.0 / (1.0 + std::exp(-at));
   }

@@ -1,10 +1,12 @@
 // A probability from features: a logistic function with weights that are never negative, then a monotone table that was
 // calibrated on campaigns of its own.
-//   s = intercept + sum weight_k feature_k,   P = piecewise linear in s through the knots
+//   s = intercept + offset(effect) + sum weight_k feature_k,   P = piecewise linear in s through the knots
+// The offset of an effect says how often it is found where it is not: some shapes cover for many others.
 // Learned by bench/learn_grades.cpp, which writes table_data.cpp.
 #pragma once
 
 #include <span>
+#include <string_view>
 
 namespace hysteron {
 
@@ -13,22 +15,28 @@ struct Knot {
   double probability;
 };
 
+struct Offset {
+  std::string_view effect;
+  double value;
+};
+
 struct Table {
   double intercept;
   std::span<const double> weights;
   std::span<const Knot> knots;
+  std::span<const Offset> offsets = {};
 
-  [[nodiscard]] double score(std::span<const double> features) const;
-  [[nodiscard]] double probability(std::span<const double> features) const;
+  // Of an effect without an offset, as one of a plugin is, the offset is zero.
+  [[nodiscard]] double score(std::span<const double> features, std::string_view effect = {}) const;
+  [[nodiscard]] double probability(std::span<const double> features, std::string_view effect = {}) const;
 };
 
 // That an effect is in the truth for which a contrast speaks that needs no model.
 double channel_probability();
 
-// Where an effect or one that does as well in its place is in the truth: that it is the one that was found.
-double found_of_set();
-
-// That the effect, or one that does as well in its place, is in the truth; that physics is missing.
+// That the effect is in the truth (alone_features); that it or one that does as well in its place is (name_features);
+// that physics is missing (missing_features).
+const Table& alone_table();
 const Table& name_table();
 const Table& missing_table();
 

@@ -14,6 +14,10 @@ namespace {
 // better.
 constexpr double structure_over_noise = 0.3;
 
+// By this much probability a set must be surer than the one effect that was found, to be told in its place: a wrong
+// name is as bad as ten sets in the place of names.
+constexpr double worth_of_a_set = 0.1;
+
 bool structure_remains(const Left& left) {
   return left.structure > structure_over_noise * std::max(left.squares - left.structure, 1e-300);
 }
@@ -24,23 +28,32 @@ bool is_told_by_channels(const Candidate& candidate) {
   return candidate.as_channels && speaking && speaks(*speaking);
 }
 
-// The candidate with its probabilities, and the others of its set in order of their share.
+// The candidate with its probabilities, and the others of its set in order of their share; alone where it is listed
+// alike by itself and hardly less sure.
 std::vector<Named> named(std::size_t index, const Evidence& evidence) {
   const Candidate& candidate = evidence.candidates[index];
-  const NameFeatures features = features_of(candidate, evidence);
   std::vector<const Contender*> others = equally_good(candidate);
+  Named first;
+  first.id = candidate.id;
+  first.candidate = index;
+  first.alone = alone_table().probability(alone_features_of(candidate, evidence), candidate.id);
+  if (is_told_by_channels(candidate)) {
+    first.alone = std::max(first.alone, channel_probability());
+  }
+  const double of_all = std::max(first.alone, name_table().probability(features_of(candidate, evidence), candidate.id));
   // The channels tell a lag of one of them from a delay of the force.
   if (candidate.as_channels) {
     others.clear();
   }
-  Named first;
-  first.id = candidate.id;
-  first.candidate = index;
-  first.confidence = name_table().probability(features);
-  if (is_told_by_channels(candidate)) {
-    first.confidence = std::max(first.confidence, channel_probability());
+  const bool listed_alike =
+      (first.alone >= supported_from) == (of_all >= supported_from) && first.alone >= suggested_from;
+  if (listed_alike && of_all - first.alone <= worth_of_a_set) {
+    for (const Contender* other : others) {
+      first.less_likely.push_back(other->id);
+    }
+    others.clear();
   }
-  first.alone = others.empty() ? first.confidence : first.confidence * found_of_set();
+  first.confidence = others.empty() ? first.alone : of_all;
   first.grade = grade_of(first.confidence);
   first.robustness = robustness_of(candidate, evidence);
   first.share_of_misfit =

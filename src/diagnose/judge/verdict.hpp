@@ -30,6 +30,7 @@ struct Named {
   double confidence = 0.0;    // probability that the id or one of indistinguishable_from is in the truth
   double alone = 0.0;         // that the id itself is
   std::vector<std::string> indistinguishable_from;
+  std::vector<std::string> less_likely;    // that do as well in its place, where it is named alone all the same
   double robustness = 0.0;                 // robustness value
   double share_of_misfit = 0.0;            // gain over what the base model leaves beyond the noise
   std::size_t candidate = 0;               // of the evidence, or of what was found behind the law asked for
