@@ -38,6 +38,7 @@ struct Options {
   std::vector<double> sizes = {0.3, 1.0, 3.0};
   int placebos = -1;  // 60, or none where effects are named
   int campaigns = 300;
+  bool stops = false;
   int most_recordings = 0;  // 0: all
   std::vector<std::string> levels;
   std::vector<std::string> effects;
@@ -58,7 +59,10 @@ std::vector<challenge::Task> tasks_of(const Options& options) {
   for (const std::string& id : options.effects) static_cast<void>(challenge::hidden_effect(id));
   std::vector<challenge::Task> tasks =
       challenge::plan(options.campaigns, levels, options.effects, options.seed, options.choice);
-  for (challenge::Task& task : tasks) task.most_recordings = options.most_recordings;
+  for (challenge::Task& task : tasks) {
+    task.most_recordings = options.most_recordings;
+    task.stops = options.stops;
+  }
   return tasks;
 }
 
@@ -266,6 +270,8 @@ void add_challenge(CLI::App& program) {
       ->add_option("--recordings", options->most_recordings,
                    "each campaign keeps one to so many of its recordings; default all")
       ->transform(whole_number(1, 100));
+  command->add_flag("--stops", options->stops, "each recording ends at rest; not in the levels absorbed and unexcited")
+      ->excludes(data);
   command->add_option("--effect", options->effects, "only these effects; with --in several at once as A+B")
       ->delimiter(',');
   command->add_option("--forms", options->choice.only, "only these forms of the effects, as EFFECT/FORM")

@@ -389,6 +389,7 @@ std::optional<Concealed> attempt(const Task& asked, const Stream& stream, bool s
   device.amplitude = draws.log_uniform(8e-3, 4e-2);
   device.level =
       c.drive_is_voltage ? std::round(draws.uniform(2.0, 5.0)) : std::round(10.0 * draws.uniform(0.8, 3.0)) / 10.0;
+  needs.stops = task.stops;
   c.excitation = draw_excitation(stream, c.design, needs, device.amplitude, device.level);
   device.amplitude = c.excitation.amplitude;
   device.smallest_amplitude = c.excitation.smallest_amplitude;

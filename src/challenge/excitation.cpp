@@ -181,7 +181,25 @@ void add_broadband(Draws& draws, const Needs& needs, double amplitude, const std
 
 }  // namespace
 
-Kinematics Motion::at(double t) const {
+namespace {
+
+// The time of the motion at time t, with its derivatives: t itself until the motion slows down.
+//   T(t) = stop + d (s - s^4 (5/2 - 3 s + s^2)),   s = (t - stop) / d, d = `stopping`;   T'(t) = 1 - rise(s)
+Kinematics time_of_motion(const Motion& motion, double t) {
+  if (t <= motion.stop) {
+    return {t, 1.0, 0.0};
+  }
+  const double s = std::min((t - motion.stop) / motion.stopping, 1.0);
+  const Kinematics r = rise(s);
+  return {motion.stop + motion.stopping * (s - s * s * s * s * (2.5 + s * (-3.0 + s))), 1.0 - r.x,
+          -r.v / motion.stopping};
+}
+
+}  // namespace
+
+Kinematics Motion::at(double time) const {
+  const Kinematics clock = time_of_motion(*this, time);
+  const double t = clock.x;
   Kinematics sum;
   for (const Sine& sine : sines) {
     const double angle = sine.omega * t + sine.phase;
@@ -206,8 +224,7 @@ Kinematics Motion::at(double t) const {
     const double ra = r.a / (ramp * ramp);
     sum = {r.x * sum.x, r.x * sum.v + rv * sum.x, r.x * sum.a + 2.0 * rv * sum.v + ra * sum.x};
   }
-  sum.x += offset;
-  return sum;
+  return {offset + sum.x, clock.v * sum.v, clock.v * clock.v * sum.a + clock.a * sum.v};
 }
 
 double Drive::at(double t) const {
@@ -222,6 +239,7 @@ double Drive::at(double t) const {
 Excitation draw_excitation(const Stream& stream, Design design, const Needs& needs, double amplitude,
                            double highest_level) {
   Draws draws(stream, "excitation");
+  Draws stops(stream, "stops");
   Excitation result;
   result.highest_level = highest_level;
   const std::vector<double> levels = draw_levels(draws, needs, highest_level);
@@ -249,6 +267,11 @@ Excitation draw_excitation(const Stream& stream, Design design, const Needs& nee
     if (from_rest) {
       test.motion.ramp = draws.uniform(0.1, 0.4);
       test.lead = 0.05;
+    }
+    if (needs.stops && !needs.steady) {
+      test.motion.stop = test.duration;
+      test.motion.stopping = stops.uniform(0.02, 0.1);
+      test.duration += stops.uniform(0.4, 0.9);
     }
     test.duration = std::round(100.0 * test.duration) / 100.0;
     measure(test);

@@ -1,6 +1,7 @@
 // What a test rig does to the damper: motion and drive command of each recording as functions of time.
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,7 @@ struct Kinematics {
 // Sum of sines and of one rounded triangle, in closed form with both derivatives:
 //   x = offset + r(t) (sum A sin(w t + p) + B asin(k sin(w_t t)) / asin(k))
 // r rises from 0 to 1 over `ramp` seconds with two continuous derivatives; without a ramp the motion has always been.
+// From `stop` on it slows down within `stopping` seconds, as if its time went slower, and stays where it is.
 struct Motion {
   struct Sine {
     double amplitude;  // m
@@ -27,8 +29,10 @@ struct Motion {
   double triangle_amplitude = 0.0;  // m
   double triangle_omega = 0.0;      // rad/s
   double triangle_sharpness = 0.95;
-  double offset = 0.0;  // m
-  double ramp = 0.0;    // s; 0: no ramp
+  double offset = 0.0;                                    // m
+  double ramp = 0.0;                                      // s; 0: no ramp
+  double stop = std::numeric_limits<double>::infinity();  // s
+  double stopping = 0.0;                                  // s
 
   [[nodiscard]] Kinematics at(double t) const;
 };
@@ -70,6 +74,7 @@ struct Needs {
   bool slow = false;           // for a law with a sharp step at rest: reversals over many samples
   bool small_amplitudes = false;
   bool speed_decade = false;
+  bool stops = false;  // each test ends at rest
 };
 
 struct Excitation {

@@ -33,6 +33,7 @@ struct Task {
   Level level = Level::plain;
   std::vector<std::string> effects;     // ids, foreign causes last; empty: nothing is missing
   std::vector<std::string> forms = {};  // of the effects, one each; empty: drawn when the campaign is made
+  bool stops = false;                   // each test ends at rest
   int most_recordings = 0;              // that the campaign keeps, one to so many; 0: all
 };
 

@@ -57,6 +57,7 @@ json settings_of(const std::vector<Task>& tasks, std::uint64_t seed) {
   for (const Task& task : tasks) {
     list.push_back(
         {{"number", task.number}, {"level", name_of(task.level)}, {"effects", task.effects}, {"forms", task.forms}});
+    if (task.stops) list.back()["stops"] = true;
     if (task.most_recordings > 0) list.back()["most_recordings"] = task.most_recordings;
   }
   // The tasks themselves would tell the answers; their hash tells whether they are the same.

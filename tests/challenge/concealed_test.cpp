@@ -56,6 +56,21 @@ TEST(Concealed, ChangesTheForceByTheDrawnShare) {
   }
 }
 
+TEST(Concealed, RecordingsEndAtRestWhereTheyAreToStop) {
+  Task task{1, Level::plain, {"series-dashpot"}};
+  const Concealed going = make_concealed(task, 5);
+  task.stops = true;
+  const Concealed stopped = make_concealed(task, 5);
+  ASSERT_EQ(stopped.recordings.size(), going.recordings.size());
+  for (const challenge::Run& test : stopped.excitation.tests) {
+    EXPECT_EQ(test.motion.at(test.duration).v, 0.0);
+    EXPECT_GE(test.duration - test.motion.stop - test.motion.stopping, 0.29);
+  }
+  for (std::size_t k = 0; k < going.excitation.tests.size(); ++k) {
+    EXPECT_EQ(stopped.excitation.tests[k].motion.at(0.5).x, going.excitation.tests[k].motion.at(0.5).x);
+  }
+}
+
 TEST(Concealed, FewRecordingsAreSomeOfTheSameCampaign) {
   std::set<std::size_t> counts;
   for (int number = 1; number <= 8; ++number) {

@@ -94,6 +94,26 @@ TEST(Motion, DerivativesAreThoseOfTheDisplacement) {
   EXPECT_EQ(motion.at(-1.0).x, 1e-3);
 }
 
+TEST(Motion, StopsWhereItIsAndStays) {
+  Motion motion;
+  motion.sines = {{1e-2, 9.0, 0.3}, {2e-3, 31.0, 1.0}};
+  const Motion on = motion;
+  motion.stop = 1.0;
+  motion.stopping = 0.08;
+  constexpr double h = 1e-5;
+  for (const double t : {0.5, 0.99, 1.01, 1.04, 1.07, 1.2}) {
+    const Kinematics m = motion.at(t);
+    EXPECT_NEAR(m.v, (motion.at(t + h).x - motion.at(t - h).x) / (2.0 * h), 1e-6) << t;
+    EXPECT_NEAR(m.a, (motion.at(t + h).v - motion.at(t - h).v) / (2.0 * h), 1e-2) << t;
+  }
+  EXPECT_EQ(motion.at(1.0).x, on.at(1.0).x);
+  // Half of the way that was to go in that time.
+  EXPECT_NEAR(motion.at(1.08).x, on.at(1.04).x, 1e-12);
+  EXPECT_EQ(motion.at(5.0).x, motion.at(1.08).x);
+  EXPECT_EQ(motion.at(5.0).v, 0.0);
+  EXPECT_EQ(motion.at(5.0).a, 0.0);
+}
+
 TEST(Truth, BoucWenSaturatesAtTheYieldForce) {
   const Motioned test = sine(1e-2, 1.0, 2.0);
   const Track track = simulate(bouc_wen(), test, rate);
