@@ -151,6 +151,7 @@ TEST(Features, AreFiniteAndSpeakForTheNameTheLargerTheyAre) {
   candidate.contenders[1].share = 0.8;
   candidate.behind_laws = {{"lugre", 0.1}};
   candidate.on_bound = 1;
+  candidate.gain_of_relative = candidate.gain;
   worse.other_laws[0].squares = 2.0 * floor_squares;
   candidate.signatures[0].z = 0.5;
   worse.candidates.push_back(candidate);

@@ -13,8 +13,8 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Contender, id, law, kin, share, refitted, squ
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Signature, id, what, unit, value, std_error, z, consistency, placebo_quantile,
                                    recordings, speaks_for, sign)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(GainBehindLaw, law, share)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Candidate, id, gain, score, sizes, gain_alone, contenders, behind_laws, parameters,
-                                   on_bound, as_channels, of_law, signatures)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Candidate, id, gain, score, sizes, gain_alone, gain_of_relative, contenders,
+                                   behind_laws, parameters, on_bound, as_channels, of_law, signatures)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(OtherLaw, model, squares, has_what_was_found, has)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ContrastLeft, effect, signature, instead, law, z)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FirstLook, id, gain, refitted)

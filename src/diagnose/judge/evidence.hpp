@@ -87,6 +87,7 @@ struct Candidate {
   Comparison score;                   // with it over without it
   std::vector<SizeOfPart> sizes;      // of recordings left out
   double gain_alone = 0.0;            // alone behind the base
+  double gain_of_relative = 0.0;      // the largest of the related effects that the augmented model has too
   std::vector<Contender> contenders;  // best first
   std::vector<GainBehindLaw> behind_laws;
   int parameters = 1;

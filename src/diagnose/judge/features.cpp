@@ -105,6 +105,7 @@ NameFeatures features_of(const Candidate& candidate, const Evidence& evidence) {
           1.0 - static_cast<double>(candidate.on_bound) / std::max(candidate.parameters, 1),
           contrast_of(candidate),
           unit(candidate.gain_alone / gain),
+          unit(1.0 - candidate.gain_of_relative / (candidate.gain_of_relative + gain)),
           unit((static_cast<double>(evidence.motions) - 1.0) / (enough_motions - 1.0)),
           -std::log10(std::max(1.0 - evenness_of(candidate.sizes), least_unevenness))};
 }

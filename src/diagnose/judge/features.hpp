@@ -16,7 +16,7 @@ struct Feature {
 };
 
 // Of a name.
-inline constexpr std::array<Feature, 8> name_features = {{
+inline constexpr std::array<Feature, 9> name_features = {{
     {"agreement", "share of the motions left out in turn that are predicted better with it than without it"},
     {"no_other_law",
      "1 less the share of what all effects take off that another damper law, without it as a part of its own, takes "
@@ -28,6 +28,9 @@ inline constexpr std::array<Feature, 8> name_features = {{
      "(0) to four (1); 0 where 5 % of its placebos say as much, a half where none can be taken"},
     {"alone",
      "gain alone behind the base model over that in the augmented one: what only makes up for others has none"},
+    {"no_relative",
+     "1 less the gain of a related effect of the model over that and its own: what a form misses looks like a "
+     "relative"},
     {"motions",
      "different ones that were fitted, from one (0) to four and more (1): what few show may be theirs alone"},
     {"evenness",

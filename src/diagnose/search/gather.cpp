@@ -326,6 +326,16 @@ Candidate candidate_found(std::size_t k, const Search& search, const Workbench& 
   return one;
 }
 
+void add_gains_of_relatives(std::vector<Candidate>& candidates) {
+  for (Candidate& one : candidates) {
+    for (const Candidate& other : candidates) {
+      if (is_kin(one.id, other.id)) {
+        one.gain_of_relative = std::max(one.gain_of_relative, other.gain);
+      }
+    }
+  }
+}
+
 // Of candidates in the order of `search.found`.
 std::vector<ContrastLeft> contrasts_left_of(const Search& search, const Circumstances& known,
                                             const Evidence& evidence) {
@@ -371,6 +381,7 @@ Evidence evidence_of(const Search& search, const Workbench& fine, const Circumst
   for (std::size_t k = 0; k < search.found.size(); ++k) {
     result.candidates.push_back(candidate_found(k, search, fine, known, looked, fitted));
   }
+  add_gains_of_relatives(result.candidates);
   result.contrasts_left = contrasts_left_of(search, known, result);
   std::ranges::stable_sort(result.candidates, [](const Candidate& a, const Candidate& b) { return a.gain > b.gain; });
   result.other_laws = other_laws_of(search, result);
