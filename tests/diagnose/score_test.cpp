@@ -7,6 +7,7 @@
 #include "core/squared.hpp"
 #include "diagnose/search/left_out.hpp"
 #include "diagnose/search/stage.hpp"
+#include "fit/score.hpp"
 #include "fit/synthetic.hpp"
 
 namespace hysteron {
@@ -60,6 +61,36 @@ TEST(LeftOut, IsTheRefitWithoutTheRecordingWhereTheLawIsLinear) {
     worst = std::max(worst, expected / squared(only.scored(fit).cost));
   }
   EXPECT_GT(worst, 1.05) << "what is not fitted is predicted worse";
+}
+
+TEST(LeftOut, RecordingsOfOneMotionAreLeftOutTogether) {
+  std::vector<Recording> all = recordings_with({"quadratic-damping"}, {{"quadratic-damping.d2", 4e3}}, 0.02);
+  // The first motion once more, with noise of its own.
+  Recording again = all.front();
+  again.file = "again.csv";
+  for (std::size_t n = 0; n < again.size(); ++n) {
+    again.force[n] += 0.5 * (all[1].force[n] - all[1].force[(n + 1) % again.size()]);
+  }
+  all.push_back(again);
+  const Workbench bench = bench_of(all, all);
+  EXPECT_EQ(bench.motions(), (std::vector<std::size_t>{0, 1, 2, 3, 4, 0}));
+  const Fit fit = bench.from_anywhere({"viscous", {}, {}}, 2000);
+  const LeftOut out = left_out(bench, fit);
+  const Workbench without = bench_of(all, {all[1], all[2], all[3], all[4]});
+  const Fit refitted = without.polished(fit, 20);
+  for (const std::size_t r : {std::size_t{0}, all.size() - 1}) {
+    const Residual expected = bench.residual(refitted, all[r]);
+    ASSERT_EQ(out.residuals[r].size(), all[r].size() - expected.from);
+    double difference = 0.0;
+    double size = 0.0;
+    const double unit = normaliser(all[r], Normalisation::max_abs);
+    for (std::size_t n = 0; n < out.residuals[r].size(); ++n) {
+      const double value = expected.force[expected.from + n] / unit;
+      difference += squared(out.residuals[r][n] - value);
+      size += squared(value);
+    }
+    EXPECT_LT(difference, 1e-4 * size) << r;
+  }
 }
 
 TEST(Workbench, AFarTooLargeSizeIsHalvedBeforeADescent) {

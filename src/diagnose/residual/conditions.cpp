@@ -173,6 +173,7 @@ const RecordedCondition* parted_by(const std::vector<RecordedCondition>& conditi
 
 std::vector<Group> cells_of(const std::vector<RecordedCondition>& conditions, std::size_t recordings) {
   std::vector<std::vector<double>> values;
+  values.reserve(conditions.size());
   for (const RecordedCondition& condition : conditions) {
     values.push_back(scaled(condition));
   }

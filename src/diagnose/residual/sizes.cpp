@@ -21,7 +21,7 @@ std::vector<SizeOfPart> sizes_of_parts(std::span<const Recording> recordings,
     std::array<double, 4> squares{};
     std::array<double, 4> products{};
     for (std::size_t n = 0; n < without[r].size(); ++n) {
-      const auto quarter = static_cast<std::size_t>((x[from + n] > middle ? 1 : 0) + (v[from + n] > 0.0 ? 2 : 0));
+      const std::size_t quarter = (x[from + n] > middle ? 1U : 0U) + (v[from + n] > 0.0 ? 2U : 0U);
       const double does = without[r][n] - with[r][n];
       squares[quarter] += squared(does);
       products[quarter] += does * without[r][n];

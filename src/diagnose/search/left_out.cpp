@@ -89,60 +89,91 @@ std::vector<double> block_squares(const std::vector<double>& residual, std::size
   return result;
 }
 
-LeftOut worked_out(const Workbench& bench, const Fit& fit) {
-  const Objective objective(*fit.layout, bench.split().fit, bench.options());
-  const std::vector<Linearised> all = objective.linearised(fit.point);
+// Residuals of the parts that are left out, over the root of their weight, and their slopes in the free coordinates.
+struct Tangents {
+  std::vector<Stretch> parts;
+  std::vector<Eigen::MatrixXd> slopes;  // of each part
+  std::vector<Eigen::VectorXd> residuals;
+
+  [[nodiscard]] Eigen::Index free() const { return slopes.empty() ? 0 : slopes.front().cols(); }
+};
+
+Tangents tangents_of(const std::vector<Linearised>& all, const Fit& fit, const std::vector<std::size_t>& motions) {
   const std::size_t d = fit.dimension();
   const std::vector<Eigen::Index> free = free_coordinates(fit.point);
-  const std::vector<Stretch> parts = parts_of(all, bench.motions());
-  const auto m = static_cast<Eigen::Index>(free.size());
-  Eigen::MatrixXd hessian = Eigen::MatrixXd::Zero(m, m);
-  Eigen::VectorXd gradient = Eigen::VectorXd::Zero(m);
-  std::vector<Eigen::MatrixXd> jacobians;
-  std::vector<Eigen::VectorXd> residuals;
-  for (const Stretch& part : parts) {
+  Tangents result{parts_of(all, motions), {}, {}};
+  for (const Stretch& part : result.parts) {
     const auto rows = static_cast<Eigen::Index>(part.end - part.begin);
     const Rows whole(all[part.recording].jacobian.data() + part.begin * d, rows, static_cast<Eigen::Index>(d));
-    jacobians.emplace_back(whole(Eigen::all, free));
-    residuals.emplace_back(Eigen::Map<const Eigen::VectorXd>(all[part.recording].residual.data() + part.begin, rows));
-    hessian.selfadjointView<Eigen::Lower>().rankUpdate(jacobians.back().transpose());
-    gradient += jacobians.back().transpose() * residuals.back();
+    result.slopes.emplace_back(whole(Eigen::all, free));
+    result.residuals.emplace_back(
+        Eigen::Map<const Eigen::VectorXd>(all[part.recording].residual.data() + part.begin, rows));
   }
-  const auto stepped = [&](const Eigen::MatrixXd& matrix, const Eigen::VectorXd& slope) -> Eigen::VectorXd {
-    Eigen::MatrixXd damped = matrix;
-    damped.diagonal() += (ridge * hessian.diagonal()).cwiseMax(1e-300);
-    Eigen::VectorXd step = -damped.selfadjointView<Eigen::Lower>().ldlt().solve(slope);
-    const double longest = step.size() > 0 ? step.cwiseAbs().maxCoeff() : 0.0;
-    if (!std::isfinite(longest)) {
-      return Eigen::VectorXd::Zero(m);
-    }
-    return step * std::min(1.0, most_step / std::max(longest, 1e-300));
-  };
+  return result;
+}
+
+// H and g of the equations above.
+struct Normal {
+  Eigen::MatrixXd hessian;  // lower triangle
+  Eigen::VectorXd gradient;
+
+  explicit Normal(Eigen::Index size)
+      : hessian(Eigen::MatrixXd::Zero(size, size)), gradient(Eigen::VectorXd::Zero(size)) {}
+  void add(const Eigen::MatrixXd& slopes, const Eigen::VectorXd& residuals) {
+    hessian.selfadjointView<Eigen::Lower>().rankUpdate(slopes.transpose());
+    gradient += slopes.transpose() * residuals;
+  }
+};
+
+// The step to the minimum; `whole` are the equations of all recordings.
+Eigen::VectorXd step_of(const Eigen::MatrixXd& hessian, const Eigen::VectorXd& gradient, const Normal& whole) {
+  Eigen::MatrixXd damped = hessian;
+  damped.diagonal() += (ridge * whole.hessian.diagonal()).cwiseMax(1e-300);
+  Eigen::VectorXd step = -damped.selfadjointView<Eigen::Lower>().ldlt().solve(gradient);
+  const double longest = step.size() > 0 ? step.cwiseAbs().maxCoeff() : 0.0;
+  if (!std::isfinite(longest)) {
+    return Eigen::VectorXd::Zero(gradient.size());
+  }
+  return step * std::min(1.0, most_step / std::max(longest, 1e-300));
+}
+
+// Of each group of parts, the step of the parameters that the other groups alone would take.
+std::map<std::size_t, Eigen::VectorXd> steps_without(const Tangents& tangents, const Normal& whole) {
+  std::map<std::size_t, Normal> own;
+  for (std::size_t k = 0; k < tangents.parts.size(); ++k) {
+    own.try_emplace(tangents.parts[k].group, tangents.free())
+        .first->second.add(tangents.slopes[k], tangents.residuals[k]);
+  }
+  std::map<std::size_t, Eigen::VectorXd> result;
+  for (const auto& [group, normal] : own) {
+    result[group] = tangents.free() > 0 && own.size() > 1
+                        ? step_of(whole.hessian - normal.hessian, whole.gradient - normal.gradient, whole)
+                        : Eigen::VectorXd::Zero(tangents.free()).eval();
+  }
+  return result;
+}
+
+LeftOut worked_out(const Workbench& bench, const Fit& fit) {
+  const Objective objective(*fit.layout, bench.split().fit, bench.options());
+  const Tangents tangents = tangents_of(objective.linearised(fit.point), fit, bench.motions());
+  Normal whole(tangents.free());
+  for (std::size_t k = 0; k < tangents.parts.size(); ++k) {
+    whole.add(tangents.slopes[k], tangents.residuals[k]);
+  }
   LeftOut result;
-  const Eigen::VectorXd refined = stepped(hessian, gradient);
+  const Eigen::VectorXd refined = step_of(whole.hessian, whole.gradient, whole);
+  std::map<std::size_t, Eigen::VectorXd> steps = steps_without(tangents, whole);
   double before = 0.0;
-  // Of each group, what its own samples add to the normal equations.
-  std::map<std::size_t, std::pair<Eigen::MatrixXd, Eigen::VectorXd>> own;
-  for (std::size_t k = 0; k < parts.size(); ++k) {
-    before += residuals[k].squaredNorm();
-    result.squares += (residuals[k] + jacobians[k] * refined).squaredNorm();
-    auto& [square, slope] =
-        own.try_emplace(parts[k].group, Eigen::MatrixXd::Zero(m, m), Eigen::VectorXd::Zero(m)).first->second;
-    square.selfadjointView<Eigen::Lower>().rankUpdate(jacobians[k].transpose());
-    slope += jacobians[k].transpose() * residuals[k];
+  std::vector<std::vector<double>> predicted(objective.targets().size());
+  for (std::size_t k = 0; k < tangents.parts.size(); ++k) {
+    const Stretch& part = tangents.parts[k];
+    before += tangents.residuals[k].squaredNorm();
+    result.squares += (tangents.residuals[k] + tangents.slopes[k] * refined).squaredNorm();
+    const Eigen::VectorXd residual = tangents.residuals[k] + tangents.slopes[k] * steps[part.group];
+    predicted[part.recording].insert(predicted[part.recording].end(), residual.begin(), residual.end());
   }
   result.squares = std::isfinite(result.squares) ? std::min(result.squares, before) : before;
-  std::map<std::size_t, Eigen::VectorXd> steps;
-  for (const auto& [group, normal] : own) {
-    steps[group] = m > 0 && own.size() > 1 ? stepped(hessian - normal.first, gradient - normal.second)
-                                           : Eigen::VectorXd::Zero(m).eval();
-  }
-  std::vector<std::vector<double>> predicted(all.size());
-  for (std::size_t k = 0; k < parts.size(); ++k) {
-    const Eigen::VectorXd residual = residuals[k] + jacobians[k] * steps[parts[k].group];
-    predicted[parts[k].recording].insert(predicted[parts[k].recording].end(), residual.begin(), residual.end());
-  }
-  for (std::size_t r = 0; r < all.size(); ++r) {
+  for (std::size_t r = 0; r < predicted.size(); ++r) {
     const Target& target = objective.targets()[r];
     const double unit = 1.0 / (std::sqrt(target.weight) * target.normaliser);
     std::vector<double>& residual = result.residuals.emplace_back(
