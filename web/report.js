@@ -749,6 +749,8 @@ const grades = [["named", "Named", ""], ["established", "Established", "confiden
 const share = (v) => Math.max(0, Math.min(1, v));
 const percent = (v) => (isNumber(v) ? `${fmt(100 * v, 3)} %` : "–");
 const rounded = (v) => (isNumber(v) ? `${(100 * v).toFixed(0)} %` : "–");
+// Rounded down, as src/core/probability_text.cpp does: none reads as of a higher grade than it has.
+const probability = (v) => (!isNumber(v) ? "–" : 100 * v > 99 + 1e-9 && v < 1 ? "over 99 %" : `${Math.floor(100 * v + 1e-9)} %`);
 const significant = (v, digits) => fmt(Number(v.toPrecision(digits)), digits);
 const unitText = (unit) => printedUnit(unit).replace(/\^(-?\d+)/g, (_, power) => superscript(power));
 const axisUnit = (unit) => (unit === "1" ? "" : unitText(unit));
@@ -830,11 +832,13 @@ function effectBlock(e, d) {
     }
   }
   const alike = list(e.indistinguishable_from);
-  if (alike.length) add("Not distinguishable from", alike.map((id, i) => [i ? ", " : "", el("code", {}, id)]), isNumber(e.confidence_alone) ? `; the confidence that it is this one is ${rounded(e.confidence_alone)}.` : ".");
+  if (alike.length) add("Not distinguishable from", alike.map((id, i) => [i ? ", " : "", el("code", {}, id)]), isNumber(e.confidence_alone) ? `; the confidence that it is this one is ${probability(e.confidence_alone)}.` : ".");
+  const lesser = list(e.less_likely);
+  if (lesser.length) add("Less likely", lesser.map((id, i) => [i ? ", " : "", el("code", {}, id)]), " would do as well.");
   if (isNumber(e.share_of_misfit)) add("Share of the misfit", `${rounded(e.share_of_misfit)}; held-out NRMSE ${fmt(e.nrmse_heldout_before, 3)} without it, ${fmt(e.nrmse_heldout_after, 3)} with it.`);
   if (e.experiment) add("Recording that would decide", `${capital(e.experiment)}.`);
   return el("div", { class: `effect ${e.grade || ""}` },
-    el("h4", {}, e.in_place_of ? "or " : "", el("code", {}, e.id), isNumber(e.confidence) ? `, confidence ${rounded(e.confidence)}${list(e.indistinguishable_from).length ? ` that it is this or ${e.indistinguishable_from.join(" or ")}` : ""}` : "", e.family ? el("span", { class: "muted" }, `, family ${e.family}`) : ""),
+    el("h4", {}, e.in_place_of ? "or " : "", el("code", {}, e.id), isNumber(e.confidence) ? `, confidence ${probability(e.confidence)}${list(e.indistinguishable_from).length ? ` that it is this or ${e.indistinguishable_from.join(" or ")}` : ""}` : "", e.family ? el("span", { class: "muted" }, `, family ${e.family}`) : ""),
     e.sentence ? el("p", {}, prose(e.sentence)) : null,
     list(e.parameters).length ? plainTable(`Parameters of ${e.id}`, [{ title: "Parameter", head: true }, { title: "Value", num: true }, { title: "95 % interval", num: true }, { title: "Unit" }],
       e.parameters.map((p) => [p.name, fmt(p.value, 4), Array.isArray(p.ci95) ? fmtEnds(p.ci95[0], p.ci95[1], 3).join(" … ") : "–", unitText(p.unit)])) : null,
@@ -867,7 +871,7 @@ function shapesTable(augmented, named) {
   const sizes = (rows) => list(rows).map((p) => `${p.name} = ${significant(p.value, 2)}${p.unit === "1" ? "" : `\u00a0${unitText(p.unit)}`}`).join(", ");
   return [el("h3", {}, "Not sure enough to name"), plainTable("Shapes with which the augmented model predicts better; none is offered as a cause",
     [{ title: "Shape", head: true }, { title: "Probability that it is the cause", num: true }, { title: "Sizes", text: true, wide: true }],
-    shapes.map((s) => [s.title ? `${capital(s.title)} (${s.id})` : s.id, rounded(s.confidence), sizes(s.parameters) || "–"]))];
+    shapes.map((s) => [s.title ? `${capital(s.title)} (${s.id})` : s.id, probability(s.confidence), sizes(s.parameters) || "–"]))];
 }
 
 // The contrast of each recording as a dot, all together as the band of two standard errors.

@@ -179,10 +179,6 @@ void add_broadband(Draws& draws, const Needs& needs, double amplitude, const std
   }
 }
 
-}  // namespace
-
-namespace {
-
 // The time of the motion at time t, with its derivatives: t itself until the motion slows down.
 //   T(t) = stop + d (s - s^4 (5/2 - 3 s + s^2)),   s = (t - stop) / d, d = `stopping`;   T'(t) = 1 - rise(s)
 Kinematics time_of_motion(const Motion& motion, double t) {

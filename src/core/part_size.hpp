@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <span>
-#include <vector>
 
 namespace hysteron {
 
@@ -18,8 +17,5 @@ struct SizeOfPart {
 // How even: (sum w b)^2 / (sum w sum w b^2), the share of what sizes of its own in each part would take off that one
 // size takes off; 0 where the sum is negative, and for no parts.
 double evenness_of(std::span<const SizeOfPart> parts);
-
-// The same of whole recordings.
-std::vector<SizeOfPart> by_recording(std::span<const SizeOfPart> parts);
 
 }  // namespace hysteron

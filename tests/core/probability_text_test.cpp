@@ -13,7 +13,7 @@ TEST(ProbabilityText, ReadsAsOfNoHigherGrade) {
   EXPECT_EQ(probability_text(0.0), "0 %");
   EXPECT_EQ(probability_text(0.9951), "over 99 %");
   EXPECT_EQ(probability_text(1.0), "100 %");
-  for (int percent = 0; percent < 99; ++percent) {
+  for (int percent = 0; percent <= 100; ++percent) {
     EXPECT_EQ(probability_text(percent / 100.0), std::to_string(percent) + " %");
   }
 }

@@ -26,9 +26,23 @@ Recording sine(double amplitude, double frequency, double drive = 0.0) {
   return result;
 }
 
+// Parts that are whole recordings.
+std::vector<SizeOfPart> by_recording(std::span<const SizeOfPart> parts) {
+  std::vector<SizeOfPart> result;
+  for (const SizeOfPart& part : parts) {
+    if (result.empty() || result.back().recording != part.recording) {
+      result.push_back({part.recording, 0, 0.0, 0.0});
+    }
+    SizeOfPart& whole = result.back();
+    whole.size = (whole.size * whole.weight + part.size * part.weight) / (whole.weight + part.weight);
+    whole.weight += part.weight;
+  }
+  return result;
+}
+
 using Forces = std::vector<std::vector<double>>;
 
-// What an effect of size `size(recording)` with the shape `shape` leaves without it, and with `fitted` of it.
+// A force of each sample of each recording.
 template <class Shape>
 Forces left(const std::vector<Recording>& recordings, Shape shape) {
   Forces result;
