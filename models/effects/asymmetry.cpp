@@ -1,8 +1,10 @@
-// The force differs between the two directions of motion.
-//   F <- F (1 + e tanh(v / v_s)),   v_s = 1 mm/s
-// It acts on all of the force below, so e is not linear together with the forces of the law.
+// The force differs between the two directions.
+//   F <- F + (e + e_v |v| / (|v| + v_c)) |F|
+// The direction is that of the force and not of the motion: friction keeps it for a while after a reversal, and so does
+// what it differs by. Friction and damping need not differ alike: of a force f_y + c |v| of which f_y differs by e and
+// c by e + e_v, the whole differs by e + e_v |v| / (|v| + f_y / c). It acts on all of the force below, so that e and
+// e_v are not linear together with the forces of the law.
 // Source: standard; the passive damper literature writes separate coefficients for compression and rebound.
-#include "models/cards.hpp"
 #include "simulate/compile.hpp"
 
 namespace hysteron {
@@ -12,25 +14,28 @@ struct Asymmetry {
   static constexpr std::string_view id = "asymmetry";
   static constexpr std::string_view title = "Compression-rebound asymmetry";
   static constexpr std::string_view reference = "standard; separate coefficients for compression and rebound";
-  static constexpr std::string_view equations[] = {"F <- F (1 + e tanh(v / v_s))"};
+  static constexpr std::string_view equations[] = {"F <- F + (e + e_v |v| / (|v| + v_c)) |F|"};
   static constexpr int states = 0;
+  static constexpr bool bends = true;
   static constexpr Parameter parameters[] = {
-      {.name = "e", .unit = "1", .meaning = "relative difference of either direction from the mean", .box = {-0.8, 0.8}, .initial = 0, .limits = {.lower = -1, .upper = 1}},
-      cards::v_s,
+      {.name = "e", .unit = "1", .meaning = "relative difference of either direction from the mean at low speed", .box = {-0.8, 0.8}, .initial = 0, .limits = {.lower = -1, .upper = 1}},
+      {.name = "e_v", .unit = "1", .meaning = "what that gains with the speed", .box = {-0.8, 0.8}, .initial = 0},
+      {.name = "v_c", .unit = "m/s", .meaning = "speed at which half of that is gained: yield force over damping", .box = {5e-3, 1}, .initial = 0.05, .scale = Scale::logarithmic},
   };
   static constexpr std::string_view kin[] = {"cavitation"};
   static constexpr Knowledge knowledge = {
       .family = families::direction,
       .in_words = "an asymmetry of compression and rebound",
-      .shows = "the force of one direction of motion is that of the other times a factor, at any place and speed",
-      .experiment = "the same sine around two mid-positions: asymmetry follows the velocity, a gas spring the position",
+      .shows = "the force of one direction is that of the other times a factor, at any place",
+      .experiment = "the same sine around two mid-positions: an asymmetry is the same at both, a gas spring is not",
       .kin = kin,
   };
 
   template <class T>
-  static T force(const std::array<T, 2>& p, const std::array<T, 0>& /*s*/, const Input<T>& in, const T& below) {
-    const auto& [e, v_s] = p;
-    return below * (T(1.0) + e * tanh(in.v / v_s));
+  static T force(const std::array<T, 3>& p, const std::array<T, 0>& /*s*/, const Input<T>& in, const T& below) {
+    const auto& [e, e_v, v_c] = p;
+    const T speed = abs(in.v);
+    return below + (e + e_v * speed / (speed + v_c)) * abs(below);
   }
 };
 

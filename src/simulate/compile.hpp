@@ -321,7 +321,7 @@ constexpr Part compile() {
     part.on_lanes = series_operations<M, Lanes>();
     part.on_dual = series_operations<M, LaneDual>();
   } else {
-    part.bends = HasLoadedRate<M>;
+    part.bends = HasLoadedRate<M> || requires { M::bends; };
     part.on_double = operations<M, double>();
     part.on_lanes = operations<M, Lanes>();
     part.on_dual = operations<M, LaneDual>();

@@ -30,6 +30,8 @@
 //   yield(p, q) -> Yield<T>
 // An effect may have besides
 //   starts                             eight values (Part::starts)
+//   bends = true                       where its force is not affine in the force below (Part::bends); so are those of
+//                                      series elements and of parts with loaded_rate, which need not say so
 //   knowledge                          what is known of it beside its equations (simulate/knowledge.hpp)
 #pragma once
 
@@ -130,6 +132,8 @@ struct Part {
 
   // Shares its force with what is below and takes part of the motion.
   [[nodiscard]] bool in_series() const { return on_double.yield != nullptr; }
+  // Moves as the force says: a march solves for the balance of both.
+  [[nodiscard]] bool balances() const { return in_series() || on_double.loaded_rate != nullptr; }
 
   template <class T>
   [[nodiscard]] const PartOperations<T>& on() const {
