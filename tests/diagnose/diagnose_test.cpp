@@ -209,7 +209,9 @@ TEST(Diagnosis, DoesNotCallAForceCompleteThatASupplyScales) {
 // Two sines at each of five currents from 0 to 1 A of a Bouc-Wen damper whose yield force and damping follow curves of
 // the current.
 std::unique_ptr<Diagnosis> diagnosis_of_curves(const std::function<double(double)>& yield_force,
-                                               const std::function<double(double)>& damping) {
+                                               const std::function<double(double)>& damping,
+                                               const std::vector<std::string>& candidates = {"inertia",
+                                                                                             "force-drift"}) {
   Campaign campaign;
   for (int level = 0; level < 5; ++level) {
     const double current = 0.25 * level;
@@ -236,7 +238,7 @@ std::unique_ptr<Diagnosis> diagnosis_of_curves(const std::function<double(double
   DiagnoseOptions options;
   options.model = "bouc-wen";
   options.seed = seed;
-  options.candidates = {"inertia", "force-drift"};
+  options.candidates = candidates;
   options.layout.by_current = {{"alpha", 1}, {"c0", 1}};
   return diagnose(campaign, options, [](double, const std::string&) {});
 }
@@ -268,6 +270,22 @@ TEST(Diagnosis, ALawThatNeedsTwoMoreOrdersIsOneFinding) {
   EXPECT_NEAR(search.found[0].gain, squared(search.quick_base.cost) - squared(search.quick_augmented.cost),
               1e-3 * search.found[0].gain);
   EXPECT_EQ(diagnosis->verdict.answer, Answer::missing_physics);
+}
+
+TEST(Diagnosis, APolynomialThatFollowsAKneeOfTheDriveIsSaturation) {
+  // Straight up to 0.5 A and a tenth as steep above, in yield force and damping alike.
+  const auto knee = [](double current) { return std::min(current, 0.5) + 0.1 * std::max(current - 0.5, 0.0); };
+  const std::vector<std::string> candidates = {"inertia", "force-drift", "magnetic-saturation"};
+  const auto of_knee = diagnosis_of_curves([&](double current) { return 100.0 + 1200.0 * knee(current); },
+                                           [&](double current) { return 500.0 + 2500.0 * knee(current); }, candidates);
+  ASSERT_EQ(of_knee->verdict.effects.size(), 1U);
+  EXPECT_EQ(of_knee->verdict.effects[0].id, saturation);
+  // Not so a curve that is as flat at its start as at its end.
+  const auto step = [](double current) { return current * current * (3.0 - 2.0 * current); };
+  const auto of_step = diagnosis_of_curves([&](double current) { return 100.0 + 600.0 * step(current); },
+                                           [&](double current) { return 500.0 + 1500.0 * step(current); }, candidates);
+  EXPECT_TRUE(of_step->verdict.effects.empty());
+  EXPECT_TRUE(of_step->verdict.suggestions.empty());
 }
 
 TEST(Diagnosis, TooFewSamplesSayNothing) {

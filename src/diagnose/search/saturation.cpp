@@ -12,9 +12,26 @@ const ParameterLaw* law_of(const Layout& layout, const std::string& parameter) {
   return at == layout.laws().end() ? nullptr : &*at;
 }
 
+// Part of what richer laws take off behind the base model that the effect takes off in their place.
+constexpr double most_of_the_laws = 0.5;
+
+bool does_most_of_the_laws(const std::vector<Tried>& first_stage) {
+  double by_effect = 0.0;
+  double by_laws = 0.0;
+  for (const Tried& tried : first_stage) {
+    if (tried.part == effect_extension(saturation)) {
+      by_effect = tried.gain;
+    } else if (tried.part.is_law()) {
+      by_laws = std::max(by_laws, tried.gain);
+    }
+  }
+  return by_effect > most_of_the_laws * by_laws;
+}
+
 }  // namespace
 
-bool saturates(const Fit& base, const Fit& augmented, const std::string& parameter) {
+bool saturates(const Fit& base, const Fit& augmented, const std::string& parameter,
+               const std::vector<Tried>& first_stage) {
   if (contains(augmented.what, effect_extension(saturation))) {
     return false;
   }
@@ -25,6 +42,9 @@ bool saturates(const Fit& base, const Fit& augmented, const std::string& paramet
   }
   if (augmented.layout->cards()[law->parameter].role != PhysicalRole::yield_force) {
     return false;
+  }
+  if (does_most_of_the_laws(first_stage)) {
+    return true;
   }
   const double low = law->drive_nodes.front();
   const double high = law->drive_nodes.back();

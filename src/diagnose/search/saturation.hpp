@@ -2,7 +2,9 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
+#include "diagnose/search/stage.hpp"
 #include "diagnose/search/workbench.hpp"
 
 namespace hysteron {
@@ -10,8 +12,10 @@ namespace hysteron {
 // The effect that a yield force is which rises ever less with the drive, whichever parameter law shows it.
 constexpr const char* saturation = "magnetic-saturation";
 
-// Whether `parameter` is a yield force that follows the drive in the base model, and in the augmented one rises ever
-// less with it: that is what magnetic saturation is, where the damping does not saturate with it.
-bool saturates(const Fit& base, const Fit& augmented, const std::string& parameter);
+// Whether `parameter` is a yield force that follows the drive in the base model and that saturates in the augmented
+// one, which has no such effect: either it rises ever less with the drive, or behind the base model the effect takes
+// off most of what richer laws do. A polynomial that follows a knee is not concave everywhere.
+bool saturates(const Fit& base, const Fit& augmented, const std::string& parameter,
+               const std::vector<Tried>& first_stage);
 
 }  // namespace hysteron

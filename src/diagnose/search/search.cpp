@@ -24,7 +24,7 @@ void name_laws(Search& result) {
       return false;
     }
     result.richer.push_back(found.part.parameters.front());
-    if (!saturates(result.base, result.augmented, result.richer.back())) {
+    if (!saturates(result.base, result.augmented, result.richer.back(), result.first_stage)) {
       return true;
     }
     found.by_law = result.richer.back();
