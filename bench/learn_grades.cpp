@@ -7,8 +7,9 @@
 // that physics is missing at all. Names have an offset of their effect besides, which says how often that is found
 // where it is not. What calibrates them are the scores of campaigns that a function had not seen: forms
 // of effects and foreign causes are dealt to ten parts, and a campaign is scored by the function that was learned from
-// the campaigns that hold none of the forms and causes of its part. Monotone steps of these (pool adjacent violators)
-// are the probabilities. --judge prints what the tables of the program say of other folders.
+// the campaigns that hold none of the forms and causes of its part. The log odds of being right rise with these scores
+// along three straight pieces, each over a third of them: the lowest third is flatter, as what is unknown looks like
+// anything.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -44,8 +45,7 @@ using Matrix = Eigen::MatrixXd;
 constexpr int parts = 10;
 constexpr double ridge = 3.0;  // of standardised weights
 constexpr int iterations = 4000;
-// Names that a step of the probability rests on, at least.
-constexpr std::size_t least_of_a_step = 20;
+constexpr std::size_t pieces = 3;  // of the log odds over the score
 // What the channels of a recording show without a model.
 const std::string channel_effect = "velocity-lag";
 
@@ -239,83 +239,88 @@ std::vector<double> unseen_scores(const std::vector<Row>& rows) {
   return sum;
 }
 
-struct Step {
-  double score = 0.0;  // mean
-  double right = 0.0;
-  double count = 0.0;
-
-  [[nodiscard]] double probability() const { return (right + 0.5) / (count + 1.0); }
-};
-
-// Pool adjacent violators.
-std::vector<Step> steps_of(const std::vector<Row>& rows, const std::vector<double>& scores) {
-  std::vector<std::size_t> order(rows.size());
-  for (std::size_t k = 0; k < order.size(); ++k) {
-    order[k] = k;
+// How far a score has come on each piece of its range, which `ends` part.
+std::vector<double> come_on(const std::vector<double>& ends, double score) {
+  std::vector<double> result;
+  for (std::size_t k = 1; k < ends.size(); ++k) {
+    result.push_back(std::clamp(score, ends[k - 1], ends[k]) - ends[k - 1]);
   }
-  std::ranges::stable_sort(order, {}, [&](std::size_t k) { return scores[k]; });
-  std::vector<Step> steps;
-  Step open;
-  const auto merge = [](Step a, const Step& b) {
-    const double count = a.count + b.count;
-    return Step{(a.score * a.count + b.score * b.count) / count, a.right + b.right, count};
-  };
-  for (const std::size_t k : order) {
-    const Step one{scores[k], rows[k].right ? 1.0 : 0.0, 1.0};
-    open = open.count > 0.0 ? merge(open, one) : one;
-    if (open.count >= static_cast<double>(least_of_a_step)) {
-      steps.push_back(open);
-      open = {};
-      while (steps.size() > 1 && steps[steps.size() - 2].probability() >= steps.back().probability()) {
-        const Step last = steps.back();
-        steps.pop_back();
-        steps.back() = merge(steps.back(), last);
-      }
-    }
-  }
-  if (open.count > 0.0 && !steps.empty()) {
-    steps.back() = merge(steps.back(), open);
-  }
-  return steps;
+  return result;
 }
+
+// The log odds of being right over the scores of campaigns not seen.
+std::vector<hysteron::Knot> knots_of(const std::vector<Row>& rows, const std::vector<double>& scores) {
+  std::vector<double> sorted = scores;
+  std::ranges::sort(sorted);
+  std::vector<double> ends;
+  for (std::size_t k = 0; k <= pieces; ++k) {
+    ends.push_back(sorted[k * (sorted.size() - 1) / pieces]);
+  }
+  std::vector<Row> on_pieces(rows.size());
+  std::vector<const Row*> all;
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    on_pieces[k].features = come_on(ends, scores[k]);
+    on_pieces[k].right = rows[k].right;
+    all.push_back(&on_pieces[k]);
+  }
+  const Logistic logistic = learned(all);
+  std::vector<hysteron::Knot> knots;
+  Row at;
+  for (const double end : ends) {
+    at.features = come_on(ends, end);
+    knots.push_back({end, logistic.score(at)});
+  }
+  return knots;
+}
+
+// Names of like probability.
+struct Bin {
+  double from = 0.0;
+  std::size_t rows = 0;
+  std::size_t right = 0;
+  double stated = 0.0;  // sum
+};
 
 // A table with what it was learned from.
 struct Learned {
   std::string name;
   std::string of;  // in words
   Logistic logistic;
-  std::vector<Step> steps;
+  std::vector<hysteron::Knot> knots;
   std::size_t rows = 0;
   std::size_t right = 0;
   std::map<std::string, std::array<std::size_t, 3>> levels;  // right ones, let through and right, let through and wrong
-};
+  std::vector<Bin> bins;
 
-// The probability of the step a score falls in.
-double stepped(const std::vector<Step>& steps, double score) {
-  double result = steps.front().probability();
-  for (const Step& step : steps) {
-    if (score >= step.score) {
-      result = step.probability();
-    }
+  [[nodiscard]] double probability(double score) const {
+    static constexpr double one[] = {1.0};
+    return hysteron::Table{0.0, one, knots}.probability(std::span(&score, 1));
   }
-  return result;
-}
+};
 
 Learned learned_table(const std::string& name, const std::string& of, const std::vector<Row>& rows) {
   std::vector<const Row*> all;
   for (const Row& row : rows) {
     all.push_back(&row);
   }
-  Learned result{name, of, learned(all), {}, rows.size(), 0, {}};
+  Learned result{name, of, learned(all), {}, rows.size(), 0, {}, {}};
   const std::vector<double> scores = unseen_scores(rows);
-  result.steps = steps_of(rows, scores);
+  result.knots = knots_of(rows, scores);
+  for (const double from : {0.0, 0.2, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95, 0.98}) {
+    result.bins.push_back({from});
+  }
   for (std::size_t k = 0; k < rows.size(); ++k) {
     std::array<std::size_t, 3>& level = result.levels[rows[k].level];
     result.right += rows[k].right ? 1 : 0;
     level[0] += rows[k].right ? 1 : 0;
-    if (stepped(result.steps, scores[k]) >= hysteron::supported_from) {
+    const double probability = result.probability(scores[k]);
+    if (probability >= hysteron::supported_from) {
       ++level[rows[k].right ? 1 : 2];
     }
+    Bin& bin = *std::prev(std::ranges::upper_bound(result.bins, probability, {}, &Bin::from));
+    ++bin.rows;
+    bin.right += rows[k].right ? 1 : 0;
+    bin.stated += probability;
   }
   return result;
 }
@@ -332,8 +337,8 @@ std::string source_of(const Learned& table) {
     }
   }
   text += fmt::format("}};\nconstexpr Knot {}_knots[] = {{", table.name);
-  for (std::size_t k = 0; k < table.steps.size(); ++k) {
-    text += fmt::format("{}{{{:.4g}, {:.4g}}}", k == 0 ? "" : ", ", table.steps[k].score, table.steps[k].probability());
+  for (std::size_t k = 0; k < table.knots.size(); ++k) {
+    text += fmt::format("{}{{{:.4g}, {:.4g}}}", k == 0 ? "" : ", ", table.knots[k].score, table.knots[k].log_odds);
   }
   return text + fmt::format("}};\nconstexpr double {}_intercept = {:.5g};\n", table.name, table.logistic.intercept);
 }
@@ -358,11 +363,19 @@ std::string page_of(const Learned& table, std::span<const hysteron::Feature> fea
     }
     text += ".\n";
   }
-  text += "\nSteps of the probability, on forms and foreign causes left out:\n\n";
-  text += "| mean score | right | of | probability |\n|--:|--:|--:|--:|\n";
-  for (const Step& step : table.steps) {
-    text +=
-        fmt::format("| {:.2f} | {:.0f} | {:.0f} | {:.2f} |\n", step.score, step.right, step.count, step.probability());
+  text += "\nLog odds over the score, straight between:";
+  for (const hysteron::Knot& knot : table.knots) {
+    text += fmt::format("{} {:.2f} at {:.2f}", &knot == &table.knots.front() ? "" : ",", knot.log_odds, knot.score);
+  }
+  text +=
+      ".\n\nWhat they say of forms and foreign causes left out:\n\n| from | stated | right | of | share "
+      "|\n|--:|--:|--:|--:|--:|\n";
+  for (const Bin& bin : table.bins) {
+    if (bin.rows > 0) {
+      const auto count = static_cast<double>(bin.rows);
+      text += fmt::format("| {:.2f} | {:.3f} | {} | {} | {:.3f} |\n", bin.from, bin.stated / count, bin.right, bin.rows,
+                          static_cast<double>(bin.right) / count);
+    }
   }
   text += fmt::format(
       "\nAt {:.2f} and more, likewise:\n\n| level | right ones | let through | and wrong |\n|---|--:|--:|--:|\n",
@@ -423,17 +436,13 @@ std::string page_of_others(const std::string& title, const std::vector<Row>& row
     std::vector<Row> others;
     std::ranges::copy_if(rows, std::back_inserter(others), [&](const Row& row) { return folder_of(row) != folder; });
     const Learned learned = learned_table("name", "", others);
-    std::vector<hysteron::Knot> knots;
-    for (const Step& step : learned.steps) {
-      knots.push_back({step.score, step.probability()});
-    }
     const std::span<const double> weights(learned.logistic.weights.data(),
                                           static_cast<std::size_t>(learned.logistic.weights.size()));
     std::vector<hysteron::Offset> offsets;
     for (const auto& [effect, offset] : learned.logistic.offsets) {
       offsets.push_back({effect, offset});
     }
-    const hysteron::Table table{learned.logistic.intercept, weights, knots, offsets};
+    const hysteron::Table table{learned.logistic.intercept, weights, learned.knots, offsets};
     Judged judged;
     for (const Row& row : rows) {
       if (folder_of(row) == folder) {

@@ -114,7 +114,7 @@ TEST(Table, IsMonotoneInEveryFeature) {
     }
     for (std::size_t k = 1; k < table->knots.size(); ++k) {
       EXPECT_GT(table->knots[k].score, table->knots[k - 1].score);
-      EXPECT_GE(table->knots[k].probability, table->knots[k - 1].probability);
+      EXPECT_GE(table->knots[k].log_odds, table->knots[k - 1].log_odds);
     }
   }
   EXPECT_EQ(alone_table().weights.size(), name_features.size() + 1);
@@ -122,17 +122,20 @@ TEST(Table, IsMonotoneInEveryFeature) {
   EXPECT_EQ(missing_table().weights.size(), missing_features.size());
 }
 
-TEST(Table, IsLinearBetweenKnotsAndConstantBeyond) {
+TEST(Table, LogOddsAreLinearBetweenKnotsAndConstantBeyond) {
   static constexpr double weights[] = {2.0};
-  static constexpr Knot knots[] = {{0.0, 0.1}, {4.0, 0.9}};
+  static constexpr Knot knots[] = {{0.0, -2.0}, {4.0, 2.0}, {6.0, 3.0}};
   const Table table{1.0, weights, knots};
-  const auto at = [&](double feature) {
+  const auto log_odds = [&](double feature) {
     const std::array<double, 1> features = {feature};
-    return table.probability(features);
+    const double p = table.probability(features);
+    return std::log(p / (1.0 - p));
   };
-  EXPECT_DOUBLE_EQ(at(-5.0), 0.1);
-  EXPECT_DOUBLE_EQ(at(0.5), 0.5);  // score 2
-  EXPECT_DOUBLE_EQ(at(9.0), 0.9);
+  EXPECT_NEAR(log_odds(-5.0), -2.0, 1e-12);
+  EXPECT_NEAR(log_odds(0.5), 0.0, 1e-12);  // score 2
+  EXPECT_NEAR(log_odds(1.5), 2.0, 1e-12);
+  EXPECT_NEAR(log_odds(2.0), 2.5, 1e-12);
+  EXPECT_NEAR(log_odds(9.0), 3.0, 1e-12);
 }
 
 TEST(Features, AreFiniteAndSpeakForTheNameTheLargerTheyAre) {

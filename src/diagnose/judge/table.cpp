@@ -15,21 +15,15 @@ double Table::score(std::span<const double> features, std::string_view effect) c
 }
 
 double Table::probability(std::span<const double> features, std::string_view effect) const {
-  const double at = score(features, effect);
-  if (knots.empty()) {
-    return 1.0 / (1.0 + std::exp(-at));
+  const double at = std::clamp(score(features, effect), knots.front().score, knots.back().score);
+  std::size_t k = 1;
+  while (k + 1 < knots.size() && at > knots[k].score) {
+    ++k;
   }
-  if (at <= knots.front().score) {
-    return knots.front().probability;
-  }
-  for (std::size_t k = 1; k < knots.size(); ++k) {
-    if (at <= knots[k].score) {
-      const double width = knots[k].score - knots[k - 1].score;
-      const double part = width > 0.0 ? (at - knots[k - 1].score) / width : 1.0;
-      return knots[k - 1].probability + part * (knots[k].probability - knots[k - 1].probability);
-    }
-  }
-  return knots.back().probability;
+  const Knot& below = knots[k - 1];
+  const Knot& above = knots[k];
+  const double log_odds = std::lerp(below.log_odds, above.log_odds, (at - below.score) / (above.score - below.score));
+  return 1.0 / (1.0 + std::exp(-log_odds));
 }
 
 }  // namespace hysteron
