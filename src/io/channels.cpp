@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "core/extent.hpp"
+#include "io/stillness.hpp"
 #include "io/text.hpp"
 #include "io/velocity.hpp"
 
@@ -358,6 +359,7 @@ Recording make_recording(Channels&& channels) {
   if (!recording.velocity_measured) recording.velocity = derive_velocity(recording.time, recording.displacement);
   recording.derived_acceleration =
       derive_acceleration(recording.time, recording.displacement, recording.velocity, recording.velocity_measured);
+  hold_still(recording);
   return recording;
 }
 

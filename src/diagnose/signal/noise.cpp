@@ -421,6 +421,15 @@ Recording shaken(const Recording& recording) {
     result.derived_acceleration =
         derive_acceleration(recording.time, result.displacement, result.velocity, recording.velocity_measured);
   }
+  // A rod that is held (io/stillness.hpp) has no velocity, whatever the noise.
+  for (std::size_t n = 0; n < result.size(); ++n) {
+    if (recording.velocity[n] == 0.0) {
+      result.velocity[n] = 0.0;
+      if (!result.derived_acceleration.empty()) {
+        result.derived_acceleration[n] = recording.derived_acceleration[n];
+      }
+    }
+  }
   return result;
 }
 
