@@ -10,6 +10,7 @@
 #include "core/squared.hpp"
 #include "io/channel_faults.hpp"
 #include "io/channel_lag.hpp"
+#include "io/velocity.hpp"
 
 namespace hysteron {
 namespace {
@@ -94,6 +95,19 @@ VelocityFault velocity_fault_of(const Recording& recording) {
   result.lag = lag->lag;
   result.phase = std::atan(std::fabs(lag->lag) * std::sqrt(accelerations / speeds));
   return result;
+}
+
+double noise_share_of_velocity(const Recording& recording) {
+  double squares = 0.0;
+  std::size_t moving = 0;
+  for (const double v : recording.velocity) {
+    squares += squared(v);
+    moving += v != 0.0 ? 1 : 0;
+  }
+  if (!(squares > 0.0)) return 0.0;
+  const double noise = recording.velocity_measured ? channel_noise(recording.time, recording.velocity)
+                                                   : derived_velocity_noise(recording.time, recording.displacement);
+  return std::min(squared(noise) * static_cast<double>(moving) / squares, 1.0);
 }
 
 }  // namespace hysteron

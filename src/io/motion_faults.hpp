@@ -32,4 +32,8 @@ struct VelocityFault {
 };
 VelocityFault velocity_fault_of(const Recording& recording);
 
+// Share of the velocity's mean square that is noise, over the samples that move. By so much a damping comes out too
+// small: a regression on v + e attenuates by 1 - <e^2> / <(v + e)^2>.
+double noise_share_of_velocity(const Recording& recording);
+
 }  // namespace hysteron

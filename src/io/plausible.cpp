@@ -220,6 +220,22 @@ void tell_of_velocity(const Recording& recording, Remarks& remarks) {
   }
 }
 
+// Noise that attenuates what is proportional to the velocity.
+void tell_of_noise(const Recording& recording, Remarks& remarks) {
+  constexpr double least_share = 0.01;
+  const double share = noise_share_of_velocity(recording);
+  if (share < least_share) return;
+  remarks.tell(
+      "velocity noise",
+      fmt::format("{:.0f} % of the {} is noise (RMS): a damping comes out about {:.2g} % too small, and what "
+                  "follows a reversal is blurred; {}",
+                  100.0 * std::sqrt(share),
+                  recording.velocity_measured ? "velocity" : "velocity, derived from the displacement,", 100.0 * share,
+                  recording.velocity_measured ? "remove the column where the displacement has less: its slope "
+                                                "is then taken"
+                                              : "a larger stroke, or a sensor with less noise, mends it"));
+}
+
 // A channel that stays while the other one goes on.
 void tell_of_motion_and_force(const Recording& recording, Remarks& remarks) {
   const auto tell_frozen = [&](const std::string& name, double value, const std::string& unit, const Stretch& stretch,
@@ -364,7 +380,10 @@ void remark_on_sizes(const Recording& recording, const Sources& sources, const s
                       std::sqrt(ratio.low * ratio.high)));
     } else {
       tell_of_velocity(recording, remarks);
+      tell_of_noise(recording, remarks);
     }
+  } else if (!recording.velocity.empty()) {
+    tell_of_noise(recording, remarks);
   }
 }
 

@@ -448,6 +448,15 @@ std::vector<double> derive_velocity(std::span<const double> time, std::span<cons
   return velocity;
 }
 
+double derived_velocity_noise(std::span<const double> time, std::span<const double> displacement) {
+  if (time.size() < 8) return 0.0;
+  const double step = median_step_of(time);
+  const std::vector<double> weights =
+      uniform_weights(static_cast<std::size_t>(samples_on_a_side(time, displacement, step)));
+  const double squares = std::inner_product(weights.begin(), weights.end(), weights.begin(), 0.0);
+  return channel_noise(time, displacement) * std::sqrt(squares) / step;
+}
+
 std::vector<double> derive_acceleration(std::span<const double> time, std::span<const double> displacement,
                                         std::span<const double> velocity, bool measured) {
   assert(time.size() == velocity.size() && time.size() == displacement.size());

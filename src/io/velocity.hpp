@@ -22,6 +22,9 @@ namespace hysteron {
 // m/s from s and m; time strictly increasing, any spacing. O(N w) with w the samples of a window, at most 1001.
 [[nodiscard]] std::vector<double> derive_velocity(std::span<const double> time, std::span<const double> displacement);
 
+// Standard deviation of the noise of derive_velocity, m/s, away from ends and corners; 0 for fewer than 8 samples.
+[[nodiscard]] double derived_velocity_noise(std::span<const double> time, std::span<const double> displacement);
+
 // m/s^2: slopes of local cubics through the velocity. Of a measured velocity the window is the one whose expected error
 // is least (Mallows 1973): the noise that passes, and what the slopes differ from those of the shortest window beyond
 // what noise explains. A derived velocity keeps the window it was derived with. No phase error; no window reaches

@@ -10,6 +10,7 @@
 
 #include "core/random.hpp"
 #include "io/csv.hpp"
+#include "io/velocity.hpp"
 
 namespace hysteron {
 namespace {
@@ -101,6 +102,38 @@ TEST(MotionFaults, AChannelSlowerThanTheLog) {
     line.push_back(0.1 * std::floor(n / 7.0));
   }
   EXPECT_FALSE(held_samples_of(line).has_value());
+}
+
+// What is said of the damping is what a regression on the noisy velocity loses.
+TEST(MotionFaults, NoiseThatMakesADampingSmall) {
+  for (const bool recorded : {true, false}) {
+    for (const double size : {0.02, 0.1, 0.2, 0.4}) {
+      const Stream noise(11);
+      Recording recording;
+      recording.velocity_measured = recorded;
+      for (int n = 0; n <= 6000; ++n) {
+        const auto k = static_cast<std::uint64_t>(n);
+        const double t = 0.002 * n;
+        recording.time.push_back(t);
+        recording.displacement.push_back(at(t) + (recorded ? 0.0 : 0.02 * size * noise.normal(k)));
+        recording.velocity.push_back(speed(t) + 0.01 * omega * size * noise.normal(k));
+      }
+      if (!recorded) recording.velocity = derive_velocity(recording.time, recording.displacement);
+      double with_force = 0.0;
+      double squares = 0.0;
+      for (std::size_t n = 0; n < recording.size(); ++n) {
+        with_force += recording.velocity[n] * speed(recording.time[n]);
+        squares += recording.velocity[n] * recording.velocity[n];
+      }
+      const double lost = 1.0 - with_force / squares;
+      EXPECT_NEAR(noise_share_of_velocity(recording), lost, 0.1 * lost + 3e-3) << recorded << " " << size;
+    }
+  }
+  const Stream noise(3);
+  expect_one(remarks(
+                 true_x, [&](double t, int n) { return speed(t) + 0.02 * noise.normal(static_cast<std::uint64_t>(n)); },
+                 true_f),
+             "23 % of the velocity is noise (RMS): a damping comes out about 5.4 % too small");
 }
 
 TEST(MotionFaults, LostSamples) {
