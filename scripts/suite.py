@@ -103,8 +103,8 @@ def against_random(analysis):
 
 
 def to_target(analysis, wanted):
-    """solver -> (share of the runs that reached the target, problems with a success, median ratio of its expected
-    evaluations to the lowest of the problem, over those)."""
+    """solver -> (share of the runs that reached the target, problems with a success, median over all problems of the
+    ratio of its expected evaluations to the lowest of the problem, infinite where it has no success)."""
     rows = [row for row in analysis["fixed_target"] if row["target"] == wanted]
     least = {}
     for row in rows:
@@ -113,10 +113,38 @@ def to_target(analysis, wanted):
     table = {}
     for name in {label(analysis, row["solver"]) for row in rows}:
         own = [row for row in rows if label(analysis, row["solver"]) == name]
-        ratios = sorted(row["ert"] / least[row["problem"]] for row in own if row["ert"] is not None)
-        table[name] = (sum(row["successes"] for row in own) / sum(row["runs"] for row in own), len(ratios), len(own),
+        ratios = sorted(math.inf if row["ert"] is None else row["ert"] / least[row["problem"]]
+                        for row in own if row["problem"] in least)
+        solved = sum(math.isfinite(ratio) for ratio in ratios)
+        table[name] = (sum(row["successes"] for row in own) / sum(row["runs"] for row in own), solved, len(own),
                        ratios[len(ratios) // 2] if ratios else math.inf)
     return table
+
+
+def over_the_first(analysis):
+    """solver -> (mean cost ratio to the solver of the lowest mean rank, its 95 % interval, in practice)."""
+    first = analysis["ranking"]["rows"][0]["solver"]
+    table = {}
+    for row in analysis["pairs"]:
+        if first not in (row["a"], row["b"]):
+            continue
+        turned = row["a"] == first
+        ratio, low, high = row["mean_ratio"], row["ratio_low"], row["ratio_high"]
+        if turned:
+            ratio, low, high = 1 / ratio, 1 / high, 1 / low
+        word = {"equal": "equal", "undecided": "undecided"}.get(
+            row["practical"], "worse" if row["practical"] == ("a" if turned else "b") else "better")
+        table[label(analysis, row["b"] if turned else row["a"])] = (
+            f"{ratio_text(ratio)} [{ratio_text(low)}, {ratio_text(high)}]", word)
+    return table
+
+
+def ranks_apart(analysis, member):
+    """solver -> mean rank among the problems of a kind, which has so many of them."""
+    ranking = analysis.get(member)
+    if ranking is None:
+        return 0, {}
+    return ranking["problems"], {label(analysis, row["solver"]): f"{row['mean_rank']:.1f}" for row in ranking["rows"]}
 
 
 palette = ["#1b6ca8", "#c0392b", "#1e8449", "#8e44ad", "#b9770e", "#00a3c4", "#2c3e50", "#d35400", "#7f8c8d", "#a93226"]
@@ -192,7 +220,13 @@ lines = ["# Solvers on a suite of problems", "",
           f" {results[-1][0]} evaluations: the part of the suite that is cheap enough, {len(results[-1][2]['problems'])} problems."), "",
          "A problem is a block: each solver counts once a problem, with its median over the seeds. Places are those of "
          "Friedman's test with Nemenyi's critical difference at 5 %: one more than the number of solvers shown to be better. "
-         "Ratio: geometric mean over the problems of the median NRMSE over that of random search at the same seeds.", ""]
+         "Over the first: geometric mean over the problems of the NRMSE over that of the solver of the lowest mean rank, with "
+         "the 95 % interval of a bootstrap that draws problems and then seeds within them; in practice: worse where the "
+         f"interval lies above {1 + results[0][2]['equivalence']:g}, equal where it lies within that factor either way, else undecided. "
+         "Inside, on the box: mean ranks where the best known point lies inside the box, and where one of its parameters at "
+         "least sits on an end of its range. Over random search: geometric mean of the median NRMSE over that of random "
+         "search at the same seeds. Expected evaluations: over the least of any solver, median over all problems; - where "
+         "half of the problems or more are not solved.", ""]
 for budget, part, analysis in results:
     ranking = analysis["ranking"]
     random = against_random(analysis)
@@ -203,12 +237,18 @@ for budget, part, analysis in results:
               f"{ranking['blocks']} blocks, {seeds_of[budget]} {'seed' if seeds_of[budget] == 1 else 'seeds'}, critical difference {ranking['critical_difference']:.2f} ranks.", ""]
     first_target = analysis["fixed_target"][0]["target"]
     reached = to_target(analysis, first_target)
-    lines += [f"| place | solver | mean rank | ratio to random search | worse than random search on | runs within 1 % of the best known | problems of these | expected evaluations over the least, median |",
-              "|--:|---|--:|--:|--:|--:|--:|--:|"]
+    over = over_the_first(analysis)
+    inside_of, inside = ranks_apart(analysis, "ranking_inside")
+    on_box_of, on_box = ranks_apart(analysis, "ranking_on_box")
+    lines += [f"| place | solver | mean rank | inside ({inside_of}) | on the box ({on_box_of}) | over the first [95 %] | in practice | "
+              "over random search | worse than it on | runs within 1 % of the best known | problems of these | expected evaluations |",
+              "|--:|---|--:|--:|--:|--:|---|--:|--:|--:|--:|--:|"]
     for row in ranking["rows"]:
         name = label(analysis, row["solver"])
         share, solved, of, ert = reached[name]
-        lines.append(f"| {row['place']} | {name} | {row['mean_rank']:.2f} | {ratio_text(random[name][0])} | {len(random[name][1])} | "
+        ratio, word = over.get(name, ("1", "-"))
+        lines.append(f"| {row['place']} | {name} | {row['mean_rank']:.2f} | {inside.get(name, '-')} | {on_box.get(name, '-')} | {ratio} | "
+                     f"{word} | {ratio_text(random[name][0])} | {len(random[name][1])} | "
                      f"{100 * share:.0f} % | {solved} of {of} | {'-' if math.isinf(ert) else ratio_text(ert)} |")
     worse = {name: where for name, (_, where) in random.items() if where}
     lines.append("")
@@ -233,17 +273,20 @@ lines += ["## Distributions and profiles", "",
           "Data profile: share of (problem, seed) solved to 1 % above the best known cost. The best known cost is the best of all "
           "runs of that budget. In grey: the other solvers.", "",
           "## Problems", "",
-          "| problem | dimension | " + " | ".join(f"best at {budget}" for budget, _, _ in results) + " | by, at the largest |",
-          "|---|--:|" + "--:|" * len(results) + "---|"]
+          "| problem | dimension | " + " | ".join(f"best at {budget}" for budget, _, _ in results) +
+          " | by, at the largest | on the box |",
+          "|---|--:|" + "--:|" * len(results) + "---|---|"]
 for problem in results[0][2]["problems"]:
     cells = []
     solver = ""
+    on_box = []
     for _, _, analysis in results:
         own = [p for p in analysis["problems"] if p["label"] == problem["label"]]
         best = own[0]["best"] if own else None
         cells.append(f"{best['nrmse']:.4f}" if best else "-")
         solver = best["solver"] if best else solver
-    lines.append(f"| {problem['label']} | {problem['dimension']} | " + " | ".join(cells) + f" | {solver} |")
+        on_box = best["on_box"] if best else on_box
+    lines.append(f"| {problem['label']} | {problem['dimension']} | " + " | ".join(cells) + f" | {solver} | {', '.join(on_box) or '-'} |")
 lines += ["", "What such a table says is of these problems: damper laws in the program's coordinates, on sines. A solver that uses "
           "derivatives is charged 1 + dimension evaluations a point, as finite differences would be.", ""]
 (root / "results/suite.md").write_text("\n".join(lines), encoding="utf-8")

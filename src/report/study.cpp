@@ -54,9 +54,10 @@ std::string verdict_of(const json& row, const Names& names) {
   return verdict == "tie" ? "tie" : names.solver(row.at(verdict)) + " better";
 }
 
-StudyTable ranking_table(const json& analysis, const Names& names) {
-  const json& ranking = analysis.at("ranking");
-  StudyTable table{"ranking", "Ranking", {}, {"place", "solver", "mean rank", "share best", "ties with"}, {}};
+StudyTable ranking_table(const json& analysis, const Names& names, const char* member, const char* id,
+                         const char* title) {
+  const json& ranking = analysis.at(member);
+  StudyTable table{id, title, {}, {"place", "solver", "mean rank", "share best", "ties with"}, {}};
   if (ranking.at("rows").empty()) {
     table.note = "No seed has been finished by every solver yet.";
     return table;
@@ -190,15 +191,18 @@ StudyTable pair_table(const json& analysis, const Names& names, const std::strin
 }
 
 StudyTable problem_table(const json& analysis) {
-  StudyTable table{"problems",
-                   "Problems and best known values",
-                   "Best NRMSE of any run of this study, with the key of the run that found it.",
-                   {"problem", "dimension", "recordings", "samples", "best NRMSE", "by", "run"},
-                   {}};
+  StudyTable table{
+      "problems",
+      "Problems and best known values",
+      "Best NRMSE of any run of this study, with the parameters that it has on an end of their range and the "
+      "key of the run that found it.",
+      {"problem", "dimension", "recordings", "samples", "best NRMSE", "on the box", "by", "run"},
+      {}};
   for (const json& row : analysis.at("problems")) {
     const json& best = row.at("best");
     table.rows.push_back({row.at("label"), whole(row.at("dimension")), std::to_string(row.at("recordings").size()),
                           whole(row.at("samples")), best.is_null() ? "-" : shown(best.at("nrmse"), 6),
+                          best.is_null() || best.at("on_box").empty() ? "-" : joined(best.at("on_box")),
                           best.is_null() ? "-" : best.at("solver").get<std::string>(),
                           best.is_null() ? "-" : best.at("key").get<std::string>().substr(0, 12)});
   }
@@ -307,7 +311,15 @@ std::vector<StudyTable> study_tables(const json& analysis, const json& times) {
   // A single solver has no rank and nothing to be paired with.
   const bool several = analysis.at("solvers").size() > 1;
   std::vector<StudyTable> tables;
-  if (several) tables.push_back(ranking_table(analysis, names));
+  if (several) {
+    tables.push_back(ranking_table(analysis, names, "ranking", "ranking", "Ranking"));
+    if (analysis.contains("ranking_inside")) {
+      tables.push_back(ranking_table(analysis, names, "ranking_inside", "ranking-inside",
+                                     "Ranking where the best known point lies inside the box"));
+      tables.push_back(ranking_table(analysis, names, "ranking_on_box", "ranking-on-box",
+                                     "Ranking where the best known point lies on the box"));
+    }
+  }
   if (!analysis.at("models").empty()) tables.push_back(model_table(analysis, names));
   tables.push_back(fixed_budget_table(analysis, names));
   tables.push_back(fixed_target_table(analysis, names));

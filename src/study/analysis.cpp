@@ -127,7 +127,11 @@ class Analysis {
     result["problems"] = problem_rows();
     result["fixed_budget"] = fixed_budget();
     result["models"] = models(result["fixed_budget"]);
-    result["ranking"] = ranking();
+    result["ranking"] = ranking(study_blocks(all_problems()));
+    if (const auto [inside, on_box] = by_place_of_the_best(); !inside.empty() && !on_box.empty()) {
+      result["ranking_inside"] = ranking(study_blocks(inside));
+      result["ranking_on_box"] = ranking(study_blocks(on_box));
+    }
     result["pairs"] = pairs();
     result["problem_pairs"] = problem_pairs();
     result["fixed_target"] = fixed_target();
@@ -175,11 +179,51 @@ class Analysis {
         row["best"] = {{"nrmse", best_cost(p)},
                        {"key", best_[p]->key},
                        {"solver", solver_name(best_solver_[p])},
-                       {"parameters", json::parse(best_[p]->parameters)}};
+                       {"parameters", json::parse(best_[p]->parameters)},
+                       {"on_box", on_box(p)}};
       }
       rows.push_back(std::move(row));
     }
     return rows;
+  }
+
+  // Parameters that the best run of a problem has on an end of their range: to a millionth of it, which no search comes
+  // near by chance.
+  [[nodiscard]] std::vector<std::string> on_box(std::size_t p) const {
+    constexpr double near = 1e-6;
+    std::vector<std::string> names;
+    const json& problem = plan_.at("problems").at(p);
+    if (best_[p] == nullptr || !problem.contains("box")) return names;
+    const json parameters = json::parse(best_[p]->parameters);
+    for (const auto& [name, range] : problem.at("box").items()) {
+      if (!parameters.contains(name)) continue;
+      const double value = parameters.at(name).get<double>();
+      const double lower = range.at(0).get<double>();
+      const double upper = range.at(1).get<double>();
+      const double slack = near * (upper - lower);
+      if (value <= lower + slack || value >= upper - slack) names.push_back(name);
+    }
+    return names;
+  }
+
+  [[nodiscard]] std::vector<std::size_t> all_problems() const {
+    std::vector<std::size_t> result(problems_);
+    std::iota(result.begin(), result.end(), std::size_t{0});
+    return result;
+  }
+
+  struct ByPlace {
+    std::vector<std::size_t> inside;
+    std::vector<std::size_t> on_box;
+  };
+  // Problems by where their best known point lies: a solver that clips, reflects or projects does well or ill on those
+  // of the second kind for that alone.
+  [[nodiscard]] ByPlace by_place_of_the_best() const {
+    ByPlace result;
+    for (std::size_t p = 0; p < problems_; ++p) {
+      if (best_[p] != nullptr) (on_box(p).empty() ? result.inside : result.on_box).push_back(p);
+    }
+    return result;
   }
 
   [[nodiscard]] json fixed_budget() const {
@@ -272,9 +316,9 @@ class Analysis {
     std::vector<std::vector<std::vector<double>>> by_problem;  // problem, seed, solver
     std::vector<std::vector<double>> rows;
   };
-  [[nodiscard]] Blocks study_blocks() const {
+  [[nodiscard]] Blocks study_blocks(const std::vector<std::size_t>& problems) const {
     Blocks result;
-    for (std::size_t p = 0; p < problems_; ++p) {
+    for (const std::size_t p : problems) {
       if (auto rows = blocks(p, last()); !rows.empty()) result.by_problem.push_back(std::move(rows));
     }
     if (result.by_problem.size() == 1) {
@@ -293,8 +337,7 @@ class Analysis {
     return result;
   }
 
-  [[nodiscard]] json ranking() const {
-    const Blocks of = study_blocks();
+  [[nodiscard]] json ranking(const Blocks& of) const {
     std::vector<std::vector<double>> all;
     std::vector<std::vector<double>> by_problem;
     for (const auto& seeds : of.by_problem) {
@@ -440,7 +483,7 @@ class Analysis {
   }
 
   [[nodiscard]] json pairs() const {
-    const Blocks of = study_blocks();
+    const Blocks of = study_blocks(all_problems());
     json result = json::array();
     for (std::size_t a = 0; a < solvers_; ++a) {
       for (std::size_t b = a + 1; b < solvers_; ++b) {

@@ -252,6 +252,20 @@ Plan make_plan(const Study& study, const std::string& version) {
   return plan;
 }
 
+namespace {
+
+// The ranges of the parameters that are coordinates of their own, in SI units.
+json box_of(const Layout& layout) {
+  json box = json::object();
+  for (const Coordinate& coordinate : layout.coordinates()) {
+    const bool has_a_law = std::ranges::count(layout.coordinates(), coordinate.parameter, &Coordinate::parameter) > 1;
+    if (!has_a_law) box[layout.names()[coordinate.parameter]] = {coordinate.lower, coordinate.upper};
+  }
+  return box;
+}
+
+}  // namespace
+
 json plan_json(const Plan& plan) {
   json problems = json::array();
   for (const StudyProblem& problem : plan.problems) {
@@ -270,6 +284,7 @@ json plan_json(const Plan& plan) {
                         {"data", problem.data},
                         {"hash", problem.hash},
                         {"dimension", problem.layout.dimension()},
+                        {"box", box_of(problem.layout)},
                         {"samples", samples},
                         {"recordings", files},
                         {"heldout", heldout}});

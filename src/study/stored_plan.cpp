@@ -34,6 +34,7 @@ class PlanChecker {
     for (const json& problem : list("problems")) {
       texts(problem, {"label", "model", "data"});
       whole(problem, "dimension");
+      if (problem.contains("box")) ranges(problem.at("box"));
     }
     check_runs();
   }
@@ -47,6 +48,15 @@ class PlanChecker {
     const auto at = plan_.find(name);
     if (at == plan_.end() || !at->is_array()) wrong(std::string("has no list of ") + name);
     return *at;
+  }
+
+  void ranges(const json& box) const {
+    for (const json& range : box) {
+      if (!box.is_object() || !range.is_array() || range.size() != 2 || !range[0].is_number() ||
+          !range[1].is_number()) {
+        wrong("has a box whose ranges are no pairs of numbers");
+      }
+    }
   }
 
   void texts(const json& object, std::initializer_list<const char*> names) const {

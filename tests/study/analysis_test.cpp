@@ -54,6 +54,45 @@ Made make() {
   return made;
 }
 
+// A second problem whose best run has a parameter on the end of its range, where c is best.
+TEST(Analysis, RanksApartWhereTheBestPointLiesOnTheBox) {
+  Made made = make();
+  made.plan["problems"][0]["box"] = {{"p", {0.0, 1.0}}, {"q", {-1.0, 1.0}}};
+  json other = made.plan["problems"][0];
+  other["label"] = "n @ d";
+  other["model"] = "n";
+  made.plan["problems"].push_back(other);
+  const std::size_t first = made.records.size();
+  for (std::size_t k = 0; k < first; ++k) {
+    made.records[k].parameters = R"({"p": 0.3, "q": 0.0})";
+    RunRecord record = made.records[k];
+    record.key += "-n";
+    record.nrmse = 0.3 - *record.nrmse;
+    record.parameters = R"({"p": 1.0, "q": 0.2})";
+    json run = made.plan["runs"][k];
+    run["key"] = record.key;
+    run["problem"] = 1;
+    made.plan["runs"].push_back(run);
+    made.records.push_back(record);
+  }
+  const json analysis = analyse(made.plan, made.records);
+  EXPECT_TRUE(analysis.at("problems")[0].at("best").at("on_box").empty());
+  EXPECT_EQ(analysis.at("problems")[1].at("best").at("on_box"), json::array({"p"}));
+  EXPECT_EQ(analysis.at("ranking").at("blocks"), 2);
+  const json& inside = analysis.at("ranking_inside");
+  const json& on_box = analysis.at("ranking_on_box");
+  // One problem each, so that its seeds are the blocks.
+  EXPECT_EQ(inside.at("block"), "seed");
+  EXPECT_EQ(inside.at("rows").front().at("solver"), 0);
+  EXPECT_EQ(on_box.at("rows").front().at("solver"), 2);
+  std::size_t rankings = 0;
+  for (const StudyTable& table : study_tables(analysis, nullptr)) rankings += table.id.starts_with("ranking") ? 1U : 0U;
+  EXPECT_EQ(rankings, 3U);
+  // Without ranges nothing is known of the place.
+  for (json& problem : made.plan["problems"]) problem.erase("box");
+  EXPECT_FALSE(analyse(made.plan, made.records).contains("ranking_inside"));
+}
+
 // A second model on the same data, worse on the fitted recordings and better on the held-out ones.
 TEST(Analysis, RanksModelsByHeldOutRecordings) {
   Made made = make();
