@@ -15,14 +15,17 @@ double Table::score(std::span<const double> features, std::string_view effect) c
 }
 
 double Table::probability(std::span<const double> features, std::string_view effect) const {
-  const double at = std::clamp(score(features, effect), knots.front().score, knots.back().score);
-  std::size_t k = 1;
-  while (k + 1 < knots.size() && at > knots[k].score) {
-    ++k;
+  double log_odds = score(features, effect);
+  if (knots.size() > 1) {
+    const double at = std::clamp(log_odds, knots.front().score, knots.back().score);
+    std::size_t k = 1;
+    while (k + 1 < knots.size() && at > knots[k].score) {
+      ++k;
+    }
+    const Knot& below = knots[k - 1];
+    const Knot& above = knots[k];
+    log_odds = std::lerp(below.log_odds, above.log_odds, (at - below.score) / (above.score - below.score));
   }
-  const Knot& below = knots[k - 1];
-  const Knot& above = knots[k];
-  const double log_odds = std::lerp(below.log_odds, above.log_odds, (at - below.score) / (above.score - below.score));
   return 1.0 / (1.0 + std::exp(-log_odds));
 }
 

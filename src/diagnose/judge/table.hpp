@@ -1,7 +1,7 @@
 // A probability from features: a score with weights that are never negative, then what such scores were worth on
 // campaigns that the weights had not seen.
 //   s = intercept + offset(effect) + sum weight_k feature_k
-//   log(P / (1 - P)) = piecewise linear in s through the knots, rising, constant beyond them
+//   log(P / (1 - P)) = piecewise linear in s through the knots, rising, constant beyond them; without knots s itself
 // The offset of an effect says how often it is found where it is not: some shapes cover for many others.
 // Learned by bench/learn_grades.cpp, which writes table_data.cpp.
 #pragma once

@@ -4,86 +4,79 @@
 namespace hysteron {
 namespace {
 
-constexpr double alone_weights[] = {1.278, 0.9296, 2.609, 3.774, 1.535, 1.721, 1.356, 0.7917, 0.4188, 1.093};
+constexpr double alone_weights[] = {1.197, 0.8397, 2.488, 4.233, 1.623, 1.604, 1.373, 0.852, 0.4307, 1.066};
 constexpr Offset alone_offsets[] = {
-    {"asymmetry", -0.161},
-    {"cavitation", 0.0585},
-    {"clearance", 0.806},
-    {"coil-lag", 1.04},
-    {"compliance", 0.154},
-    {"coulomb-friction", -0.741},
-    {"cubic-stiffness", 0.321},
-    {"degradation", -1.49},
-    {"end-stop", -1.22},
-    {"entrapped-gas", -0.188},
-    {"force-drift", -0.206},
-    {"gas-spring", -0.544},
-    {"inertia", 0.35},
-    {"linear-stiffness", 0.572},
-    {"magnetic-remanence", 0.376},
-    {"magnetic-saturation", 0.845},
-    {"offset-force", -0.659},
-    {"pinching", -0.386},
-    {"pre-yield-hysteresis", 0.704},
-    {"quadratic-damping", 0.447},
-    {"seal-friction", 0.0449},
+    {"asymmetry", -0.365},
+    {"cavitation", 0.495},
+    {"clearance", 0.98},
+    {"coil-lag", 1.27},
+    {"compliance", -0.0715},
+    {"coulomb-friction", -0.74},
+    {"cubic-stiffness", 0.467},
+    {"degradation", -1.42},
+    {"end-stop", -1.44},
+    {"entrapped-gas", -0.176},
+    {"force-drift", -0.194},
+    {"gas-spring", -0.713},
+    {"inertia", 0.325},
+    {"linear-stiffness", 0.796},
+    {"magnetic-remanence", 0.465},
+    {"magnetic-saturation", 0.88},
+    {"offset-force", -0.551},
+    {"pinching", -0.331},
+    {"pre-yield-hysteresis", 0.445},
+    {"quadratic-damping", 0.144},
+    {"seal-friction", -0.132},
     {"self-heating", -1.13},
-    {"sensor-delay", -0.0763},
-    {"series-dashpot", 0.47},
-    {"shear-thinning", -0.37},
-    {"stiction", -0.509},
-    {"velocity-lag", 1.89},
-    {"viscous-damping", -0.346},
+    {"sensor-delay", -0.423},
+    {"series-dashpot", 0.548},
+    {"shear-thinning", -0.478},
+    {"stiction", -0.277},
+    {"velocity-lag", 2.24},
+    {"viscous-damping", -0.525},
 };
-constexpr Knot alone_knots[] = {
-    {-5.353, -2.372},  {-3.566, -2.312},  {-2.798, -2.093},   {-2.526, -1.609}, {-2.021, -1.363}, {-1.17, -1.246},
-    {-0.7061, -0.588}, {-0.512, -0.3955}, {-0.1115, -0.2639}, {0.1736, 0.191},  {0.4963, 0.331},  {0.8661, 0.498},
-    {1.284, 1.149},    {1.802, 1.869},    {2.281, 2.53},      {2.67, 2.799},    {3.377, 3.406}};
-constexpr double alone_intercept = -12.881;
+constexpr Knot alone_knots[] = {{-8.716, -4.396}, {-1.009, -1.066}, {1.318, 1.151}, {5.71, 6.412}};
+constexpr double alone_intercept = -13.025;
 
-constexpr double name_weights[] = {1.735, 0.9003, 2.179, 2.296, 1.305, 1.82, 1.281, 0.8987, 0.5992};
+constexpr double name_weights[] = {1.576, 0.8418, 2.151, 2.626, 1.444, 1.828, 1.367, 0.8858, 0.5975};
 constexpr Offset name_offsets[] = {
-    {"asymmetry", -0.238},
-    {"cavitation", 0.253},
-    {"clearance", 0.3},
-    {"coil-lag", 0.964},
-    {"compliance", -0.0997},
-    {"coulomb-friction", -0.936},
-    {"cubic-stiffness", 0.269},
-    {"degradation", 0.674},
-    {"end-stop", -0.845},
-    {"entrapped-gas", 0.0144},
-    {"force-drift", -0.328},
-    {"gas-spring", -0.668},
-    {"inertia", 0.265},
-    {"linear-stiffness", 0.738},
-    {"magnetic-remanence", 0.561},
-    {"magnetic-saturation", 1},
-    {"offset-force", -0.799},
-    {"pinching", -0.85},
-    {"pre-yield-hysteresis", 0.387},
-    {"quadratic-damping", 0.608},
-    {"seal-friction", 0.0539},
-    {"self-heating", -1.26},
-    {"sensor-delay", -0.371},
-    {"series-dashpot", 0.193},
-    {"shear-thinning", -0.593},
-    {"stiction", -0.323},
-    {"velocity-lag", 1.58},
-    {"viscous-damping", -0.386},
+    {"asymmetry", -0.453},
+    {"cavitation", 0.691},
+    {"clearance", 0.46},
+    {"coil-lag", 1.2},
+    {"compliance", -0.289},
+    {"coulomb-friction", -0.91},
+    {"cubic-stiffness", 0.382},
+    {"degradation", 0.564},
+    {"end-stop", -1.12},
+    {"entrapped-gas", 0.119},
+    {"force-drift", -0.318},
+    {"gas-spring", -0.896},
+    {"inertia", 0.243},
+    {"linear-stiffness", 0.949},
+    {"magnetic-remanence", 0.653},
+    {"magnetic-saturation", 1.04},
+    {"offset-force", -0.691},
+    {"pinching", -0.811},
+    {"pre-yield-hysteresis", 0.19},
+    {"quadratic-damping", 0.245},
+    {"seal-friction", -0.0452},
+    {"self-heating", -1.35},
+    {"sensor-delay", -0.598},
+    {"series-dashpot", 0.319},
+    {"shear-thinning", -0.617},
+    {"stiction", -0.0634},
+    {"velocity-lag", 1.9},
+    {"viscous-damping", -0.564},
 };
-constexpr Knot name_knots[] = {{-3.822, -2.018},  {-2.681, -2.002}, {-1.473, -1.217}, {-0.3623, -0.6655},
-                               {-0.1162, -0.191}, {-0.02493, 0},    {0.4817, 0.3602}, {1.059, 1.199},
-                               {1.334, 1.341},    {1.56, 1.609},    {1.836, 1.905},   {2.238, 2.144},
-                               {2.65, 2.799},     {3.501, 3.647}};
-constexpr double name_intercept = -10.379;
+constexpr Knot name_knots[] = {{-7.742, -3.577}, {-0.5558, -0.8214}, {1.811, 1.816}, {5.835, 6.367}};
+constexpr double name_intercept = -10.615;
 
-constexpr double missing_weights[] = {2.092, 1.278, 0.761, 2.006, 1.678, 1.4};
-constexpr Knot missing_knots[] = {{-1.517, -1.609}, {-1.246, -1.289}, {-0.7949, -0.942}, {-0.1972, -0.191},
-                                  {0.7028, 0.8025}, {1.743, 1.865},   {2.764, 2.565},    {6.551, 6.436}};
-constexpr double missing_intercept = -1.5466;
+constexpr double missing_weights[] = {2.2, 1.759, 0.7425, 1.884, 1.739, 1.527};
+constexpr Knot missing_knots[] = {{-1.677, -1.787}, {-0.2822, -0.05568}, {5.476, 5.121}, {15.63, 7.225}};
+constexpr double missing_intercept = -1.6221;
 
-constexpr double of_channels = 0.9815;
+constexpr double of_channels = 0.9848;
 
 }  // namespace
 
