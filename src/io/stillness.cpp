@@ -85,6 +85,10 @@ std::vector<Still> still_stretches(std::span<const double> time, std::span<const
   if (!(sigma > 0.0)) {
     return {};
   }
+  const auto [least, most] = std::ranges::minmax(displacement);
+  if (most - least < surely_moved * sigma) {
+    return {};
+  }
   std::vector<Still> stretches;
   const std::size_t blocks = displacement.size() / block;
   std::size_t first = 0;

@@ -25,7 +25,8 @@ struct Still {
   std::size_t end;
 };
 
-// In order of time; none without noise or in fewer than 48 samples. Times strictly increasing.
+// In order of time; none without noise, in fewer than 48 samples, or where the whole displacement is within twenty
+// standard deviations of the noise: there is no motion to tell it from then. Times strictly increasing.
 [[nodiscard]] std::vector<Still> still_stretches(std::span<const double> time, std::span<const double> displacement);
 
 // Sets velocity and acceleration to zero where the rod is held; of a measured velocity only what is within four

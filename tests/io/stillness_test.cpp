@@ -74,10 +74,12 @@ TEST(Stillness, MotionIsNotTakenForStillness) {
   EXPECT_TRUE(stretches(channel([](double t) { return 1e-4 * t; }, 5.0, 1, 1e-5)).empty());
 }
 
-TEST(Stillness, ChannelsWithoutNoiseAndShortOnesSayNothing) {
+TEST(Stillness, ChannelsWithoutNoiseOrMotionAndShortOnesSayNothing) {
   const Channel exact = channel([](double) { return 0.003; }, 1.0, 1, 1e-9);
   EXPECT_TRUE(stretches({exact.time, std::vector<double>(exact.x.size(), 0.0)}).empty());
   EXPECT_TRUE(stretches(channel(stopped, 0.04, 1)).empty());
+  // Of a channel of nothing but noise it is not known what is noise.
+  EXPECT_TRUE(stretches(channel([](double) { return 0.003; }, 1.0, 1)).empty());
 }
 
 TEST(Stillness, AMeasuredVelocityKeepsWhatIsMotionByItsOwnNoise) {
