@@ -440,7 +440,8 @@ Fit Workbench::from_starts(const Hypothesis& what, const Starts& given, int roun
     starts.points = eased(given);
   }
   starts.points.resize(std::min(starts.points.size(), most));
-  const bool balances = std::ranges::any_of(what.effects, [](const std::string& id) { return find_effect(id)->balances(); });
+  const bool balances =
+      std::ranges::any_of(what.effects, [](const std::string& id) { return find_effect(id)->balances(); });
   if (!balances || starts.points.size() < 2) {
     return descended(what, *starts.layout, starts.points, rounds);
   }
