@@ -239,8 +239,8 @@ std::vector<double> unseen_scores(const std::vector<Row>& rows) {
   return sum;
 }
 
-// How far a score has come on each piece of its range, which `ends` part.
-std::vector<double> come_on(const std::vector<double>& ends, double score) {
+// Lengths of the pieces of a score's range, parted by `ends`, up to the score.
+std::vector<double> lengths_up_to(const std::vector<double>& ends, double score) {
   std::vector<double> result;
   for (std::size_t k = 1; k < ends.size(); ++k) {
     result.push_back(std::clamp(score, ends[k - 1], ends[k]) - ends[k - 1]);
@@ -259,7 +259,7 @@ std::vector<hysteron::Knot> knots_of(const std::vector<Row>& rows, const std::ve
   std::vector<Row> on_pieces(rows.size());
   std::vector<const Row*> all;
   for (std::size_t k = 0; k < rows.size(); ++k) {
-    on_pieces[k].features = come_on(ends, scores[k]);
+    on_pieces[k].features = lengths_up_to(ends, scores[k]);
     on_pieces[k].right = rows[k].right;
     all.push_back(&on_pieces[k]);
   }
@@ -267,7 +267,7 @@ std::vector<hysteron::Knot> knots_of(const std::vector<Row>& rows, const std::ve
   std::vector<hysteron::Knot> knots;
   Row at;
   for (const double end : ends) {
-    at.features = come_on(ends, end);
+    at.features = lengths_up_to(ends, end);
     knots.push_back({end, logistic.score(at)});
   }
   return knots;

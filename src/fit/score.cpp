@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "fit/mean.hpp"
+#include "core/mean.hpp"
 
 namespace hysteron {
 

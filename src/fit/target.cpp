@@ -6,7 +6,7 @@
 
 #include "core/drive.hpp"
 #include "core/frequency.hpp"
-#include "fit/mean.hpp"
+#include "core/mean.hpp"
 #include "fit/start.hpp"
 #include "simulate/lean_motion.hpp"
 

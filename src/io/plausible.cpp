@@ -220,7 +220,7 @@ void tell_of_velocity(const Recording& recording, Remarks& remarks) {
   }
 }
 
-// Noise that attenuates what is proportional to the velocity.
+// Noise that attenuates what is proportional to the velocity, from 1 % on.
 void tell_of_noise(const Recording& recording, Remarks& remarks) {
   constexpr double least_share = 0.01;
   const double share = noise_share_of_velocity(recording);
@@ -231,9 +231,9 @@ void tell_of_noise(const Recording& recording, Remarks& remarks) {
                   "follows a reversal is blurred; {}",
                   100.0 * std::sqrt(share),
                   recording.velocity_measured ? "velocity" : "velocity, derived from the displacement,", 100.0 * share,
-                  recording.velocity_measured ? "remove the column where the displacement has less: its slope "
-                                                "is then taken"
-                                              : "a larger stroke, or a sensor with less noise, mends it"));
+                  recording.velocity_measured
+                      ? "if the displacement has less noise, remove the column: its slope is then taken"
+                      : "a larger stroke, or a sensor with less noise, mends it"));
 }
 
 // A channel that stays while the other one goes on.

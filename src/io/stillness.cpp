@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "core/mean.hpp"
 #include "core/squared.hpp"
 #include "io/velocity.hpp"
 
@@ -15,21 +17,13 @@ constexpr double surely = 4.0;          // standard errors
 constexpr double surely_moved = 20.0;   // standard deviations of the noise
 constexpr double no_further_off = 3.0;  // likewise, of the samples that a stretch is extended by at its ends
 
-double mean_of(std::span<const double> x) {
-  double sum = 0.0;
-  for (const double value : x) {
-    sum += value;
-  }
-  return sum / static_cast<double>(x.size());
-}
-
 // Whether samples of noise `sigma` about a parabola in their number show neither slope nor bend. Legendre's polynomials
 // of degree one and two over the block are orthogonal.
 bool is_level(std::span<const double> x, double sigma) {
   const auto n = static_cast<double>(x.size());
   double slope = 0.0;
   double bend = 0.0;
-  double of_slope = 0.0;
+  double of_slope = 0.0;  // sums of squares of the polynomials
   double of_bend = 0.0;
   const double spread = (n * n - 1.0) / 12.0;  // mean of u^2
   for (std::size_t k = 0; k < x.size(); ++k) {
@@ -117,8 +111,8 @@ void hold_still(Recording& recording) {
   if (stretches.empty()) {
     return;
   }
-  const double most =
-      recording.velocity_measured ? surely * channel_noise(recording.time, recording.velocity) : HUGE_VAL;
+  const double most = recording.velocity_measured ? surely * channel_noise(recording.time, recording.velocity)
+                                                  : std::numeric_limits<double>::infinity();
   for (const Still& still : stretches) {
     for (std::size_t n = still.first; n < still.end; ++n) {
       if (std::fabs(recording.velocity[n]) <= most) {

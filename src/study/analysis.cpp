@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
+#include "fit/free_coordinates.hpp"
 #include "study/quantile.hpp"
 #include "study/ranks.hpp"
 #include "study/runtime.hpp"
@@ -187,21 +188,17 @@ class Analysis {
     return rows;
   }
 
-  // Parameters that the best run of a problem has on an end of their range: to a millionth of it, which no search comes
-  // near by chance.
+  // Parameters that the best run of a problem has on an end of their range.
   [[nodiscard]] std::vector<std::string> on_box(std::size_t p) const {
-    constexpr double near = 1e-6;
     std::vector<std::string> names;
     const json& problem = plan_.at("problems").at(p);
     if (best_[p] == nullptr || !problem.contains("box")) return names;
     const json parameters = json::parse(best_[p]->parameters);
     for (const auto& [name, range] : problem.at("box").items()) {
       if (!parameters.contains(name)) continue;
-      const double value = parameters.at(name).get<double>();
       const double lower = range.at(0).get<double>();
       const double upper = range.at(1).get<double>();
-      const double slack = near * (upper - lower);
-      if (value <= lower + slack || value >= upper - slack) names.push_back(name);
+      if (on_bound((parameters.at(name).get<double>() - lower) / (upper - lower))) names.push_back(name);
     }
     return names;
   }

@@ -257,9 +257,9 @@ namespace {
 // The ranges of the parameters that are coordinates of their own, in SI units.
 json box_of(const Layout& layout) {
   json box = json::object();
-  for (const Coordinate& coordinate : layout.coordinates()) {
-    const bool has_a_law = std::ranges::count(layout.coordinates(), coordinate.parameter, &Coordinate::parameter) > 1;
-    if (!has_a_law) box[layout.names()[coordinate.parameter]] = {coordinate.lower, coordinate.upper};
+  for (const ParameterLaw& law : layout.laws()) {
+    const Coordinate& coordinate = layout.coordinates()[law.first];
+    if (law.count() == 1) box[layout.names()[law.parameter]] = {coordinate.lower, coordinate.upper};
   }
   return box;
 }

@@ -15,7 +15,7 @@ TEST(Held, NoiseOfTheDisplacementTakesNoForceAway) {
   constexpr double rate = 1000.0;
   constexpr double noise = 3e-6;
   const double w = 2.0 * std::numbers::pi;
-  // A quarter of a period from rest and back to rest, held for two seconds where the hysteresis is full.
+  // Half a period from rest to rest, then held for two seconds with the hysteresis full.
   const auto place = [&](double t) { return t < 0.5 ? 0.005 * (1.0 - std::cos(w * t)) : 0.01; };
   const auto recorded = [&](double sigma) {
     Channels channels;

@@ -54,27 +54,35 @@ Made make() {
   return made;
 }
 
-// A second problem whose best run has a parameter on the end of its range, where c is best.
-TEST(Analysis, RanksApartWhereTheBestPointLiesOnTheBox) {
-  Made made = make();
-  made.plan["problems"][0]["box"] = {{"p", {0.0, 1.0}}, {"q", {-1.0, 1.0}}};
+// The problem again with another model, each of its runs changed by `change(first, second)`.
+template <class Change>
+void add_model(Made& made, Change change) {
   json other = made.plan["problems"][0];
   other["label"] = "n @ d";
   other["model"] = "n";
   made.plan["problems"].push_back(other);
   const std::size_t first = made.records.size();
   for (std::size_t k = 0; k < first; ++k) {
-    made.records[k].parameters = R"({"p": 0.3, "q": 0.0})";
     RunRecord record = made.records[k];
     record.key += "-n";
-    record.nrmse = 0.3 - *record.nrmse;
-    record.parameters = R"({"p": 1.0, "q": 0.2})";
+    change(made.records[k], record);
     json run = made.plan["runs"][k];
     run["key"] = record.key;
     run["problem"] = 1;
     made.plan["runs"].push_back(run);
     made.records.push_back(record);
   }
+}
+
+// A second problem whose best run has a parameter on the end of its range, where c is best.
+TEST(Analysis, RanksApartWhereTheBestPointLiesOnTheBox) {
+  Made made = make();
+  made.plan["problems"][0]["box"] = {{"p", {0.0, 1.0}}, {"q", {-1.0, 1.0}}};
+  add_model(made, [](RunRecord& one, RunRecord& other) {
+    one.parameters = R"({"p": 0.3, "q": 0.0})";
+    other.parameters = R"({"p": 1.0, "q": 0.2})";
+    other.nrmse = 0.3 - *one.nrmse;
+  });
   const json analysis = analyse(made.plan, made.records);
   EXPECT_TRUE(analysis.at("problems")[0].at("best").at("on_box").empty());
   EXPECT_EQ(analysis.at("problems")[1].at("best").at("on_box"), json::array({"p"}));
@@ -97,23 +105,11 @@ TEST(Analysis, RanksApartWhereTheBestPointLiesOnTheBox) {
 TEST(Analysis, RanksModelsByHeldOutRecordings) {
   Made made = make();
   EXPECT_TRUE(analyse(made.plan, made.records).at("models").empty());
-  json other = made.plan["problems"][0];
-  other["label"] = "n @ d";
-  other["model"] = "n";
-  made.plan["problems"].push_back(other);
-  const std::size_t first = made.records.size();
-  for (std::size_t k = 0; k < first; ++k) {
-    RunRecord record = made.records[k];
-    made.records[k].nrmse_heldout = *record.nrmse + 0.5;
-    record.key += "-n";
-    record.nrmse = *record.nrmse + 0.1;
-    record.nrmse_heldout = *record.nrmse + 0.05;
-    json run = made.plan["runs"][k];
-    run["key"] = record.key;
-    run["problem"] = 1;
-    made.plan["runs"].push_back(run);
-    made.records.push_back(record);
-  }
+  add_model(made, [](RunRecord& one, RunRecord& other) {
+    one.nrmse_heldout = *one.nrmse + 0.5;
+    other.nrmse = *one.nrmse + 0.1;
+    other.nrmse_heldout = *other.nrmse + 0.05;
+  });
   const json rows = analyse(made.plan, made.records).at("models");
   ASSERT_EQ(rows.size(), 2U);
   EXPECT_EQ(rows[0].at("model"), "n");

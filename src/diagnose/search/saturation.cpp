@@ -12,9 +12,7 @@ const ParameterLaw* law_of(const Layout& layout, const std::string& parameter) {
   return at == layout.laws().end() ? nullptr : &*at;
 }
 
-// Part of what richer laws take off behind the base model that the effect takes off in their place.
-constexpr double most_of_the_laws = 0.5;
-
+// Whether, behind the base model, the effect takes off more than it leaves to richer laws.
 bool does_most_of_the_laws(const std::vector<Tried>& first_stage) {
   double by_effect = 0.0;
   double by_laws = 0.0;
@@ -25,7 +23,7 @@ bool does_most_of_the_laws(const std::vector<Tried>& first_stage) {
       by_laws = std::max(by_laws, tried.gain);
     }
   }
-  return by_effect > most_of_the_laws * by_laws;
+  return by_effect > by_laws - by_effect;
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ constexpr const char* saturation = "magnetic-saturation";
 
 // Whether `parameter` is a yield force that follows the drive in the base model and that saturates in the augmented
 // one, which has no such effect: either it rises ever less with the drive, or behind the base model the effect takes
-// off most of what richer laws do. A polynomial that follows a knee is not concave everywhere.
+// off more than it leaves to richer laws. A polynomial that follows a knee is not concave everywhere.
 bool saturates(const Fit& base, const Fit& augmented, const std::string& parameter,
                const std::vector<Tried>& first_stage);
 

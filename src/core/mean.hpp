@@ -1,11 +1,11 @@
 #pragma once
 
-#include <vector>
+#include <span>
 
 namespace hysteron {
 
 // Of one value at least.
-inline double mean_of(const std::vector<double>& values) {
+inline double mean_of(std::span<const double> values) {
   double sum = 0.0;
   for (const double value : values) {
     sum += value;
