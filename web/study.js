@@ -314,7 +314,7 @@ function methodSection() {
 
 const parts = { ranks: criticalDifference(), progress: progress(), profiles: profiles(), identifiability: identifiabilitySection() };
 const sections = [
-  section("answer", "Ranking", parts.ranks ? parts.ranks.node : "", shownTable("ranking"), shownTable("models")),
+  section("answer", "Ranking", parts.ranks ? parts.ranks.node : "", shownTable("ranking"), shownTable("ranking-inside"), shownTable("ranking-on-box"), shownTable("models")),
   parts.progress.node,
   parts.profiles.node,
   section("tables", "Tables", shownTable("fixed-budget", 0), shownTable("fixed-target", 0), shownTable("pairs"), shownTable("pairs-by-problem", 0), shownTable("problems"), shownTable("times", 0)),
