@@ -67,13 +67,6 @@ LayoutOptions laws_of(const Options& options, const Campaign& campaign) {
   return layout;
 }
 
-Excites excites_of(const std::string& word) {
-  if (word == "auto") return Excites::what_is_recorded;
-  if (word == "force") return Excites::force;
-  if (word == "base") return Excites::base;
-  throw InputError("excitation: '" + word + "' is not known, expected auto, force or base");
-}
-
 FitRequest fit_request(const Options& options, const Campaign& campaign) {
   FitRequest request;
   request.model = options.get<std::string>("model");

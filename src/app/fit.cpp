@@ -49,9 +49,7 @@ FitRequest request_of(const FitOptions& options) {
   if (options.response) {
     request.rig = options.rig;
     request.rig->interpolation = interpolation_of(options.interpolation);
-    request.excitation = options.excitation == "force"  ? Excites::force
-                         : options.excitation == "base" ? Excites::base
-                                                        : Excites::what_is_recorded;
+    request.excitation = excites_of(options.excitation);
   }
   IdentifyOptions& result = request.identify;
   add_solver_commands(options.solver_commands);

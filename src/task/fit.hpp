@@ -11,11 +11,9 @@
 #include "fit/identify.hpp"
 #include "fit/two_stage.hpp"
 #include "respond/refine.hpp"
+#include "task/excites.hpp"
 
 namespace hysteron {
-
-// What moves the mass of a response.
-enum class Excites { what_is_recorded, force, base };
 
 struct FitRequest {
   std::string model;         // empty: the campaign's
