@@ -45,8 +45,8 @@ const Allowed& allowed() {
        {"check", "core", "datasets", "datasets/support", "external", "fit", "io", "presets/support", "report",
         "simulate"}},
       {"src/task",
-       {"check", "compare", "core", "datasets", "diagnose", "diagnose/search", "fit", "io", "presets", "report",
-        "respond", "simulate", "study"}},
+       {"check", "compare", "core", "datasets", "diagnose", "diagnose/search", "export", "fit", "io", "presets",
+        "report", "respond", "simulate", "study"}},
   };
   return table;
 }

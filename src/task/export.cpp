@@ -1,0 +1,85 @@
+#include "task/export.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "export/names.hpp"
+#include "export/targets.hpp"
+#include "io/output.hpp"
+#include "report/terminal.hpp"
+#include "task/result_file.hpp"
+
+namespace hysteron {
+namespace {
+
+// As `name` says, else as the file that is written, else as the law.
+std::string name_of(const ExportRequest& request, const StoredModel& stored, const std::string& file) {
+  if (!request.name.empty()) {
+    refuse_name("--name", request.name);
+    return request.name;
+  }
+  const std::string name = identifier(file.empty() ? stored.model.law->id : file);
+  refuse_name("--out", name);
+  return name;
+}
+
+// What the steps asked for cost; empty where they are those of simulate.
+std::string about_steps(const TestVector& vector) {
+  if (!vector.off_simulate) {
+    return "";
+  }
+  return wrapped(fmt::format(
+      "In these steps the force differs from that of `simulate` by up to {:.2g} % of the largest force, on the "
+      "motion of the test vector.",
+      100.0 * *vector.off_simulate));
+}
+
+}  // namespace
+
+ModelExport export_model(StoredModel stored, const std::map<std::string, ConditionNumber>& at,
+                         const std::optional<Recording>& motion, const ExportRequest& request) {
+  const ExportTarget& target = export_target(request.to);
+  hold_conditions(stored, at, "export");
+  ExportedModel exported{stored.model, stored.held, stored.terms, request.name};
+  exported.tolerance = request.tolerance;
+  exported.most_substeps = request.most_substeps;
+  exported.substeps = request.substeps;
+  const bool placed = !request.out.empty() && request.out != "-";
+  const std::filesystem::path out(placed ? request.out : "");
+  const bool one_file = !target.extension.empty() && out.extension() == target.extension;
+  exported.name = name_of(request, stored, one_file ? out.stem().string() : "");
+  const TestVector vector = test_vector(exported, motion ? *motion : motion_for_testing());
+  Export written = target.write(exported, vector);
+  ModelExport result;
+  result.folder = (one_file ? out.parent_path() : out).string();
+  result.note = written.note + "\n" + about_steps(vector);
+  if (one_file && written.files.size() == 1) {
+    result.files[out.filename().string()] = std::move(written.files.begin()->second);
+  } else {
+    result.files = std::move(written.files);
+  }
+  // An FMU is an archive, which does not say in words who wrote it, and replaced as one.
+  if (placed && target.extension != ".fmu" && (!one_file || result.files.size() > 1)) {
+    refuse_foreign(result.folder, result.files);
+  }
+  return result;
+}
+
+std::vector<std::string> write_export(const ModelExport& model) {
+  if (!model.folder.empty()) {
+    make_output_folder(model.folder);
+  }
+  std::vector<std::string> paths;
+  for (const auto& [file, text] : model.files) {
+    const std::filesystem::path path = std::filesystem::path(model.folder) / file;
+    if (path.has_parent_path()) {
+      make_output_folder(path.parent_path());
+    }
+    write_file_atomically(path, text);
+    paths.push_back(path.string());
+  }
+  return paths;
+}
+
+}  // namespace hysteron
