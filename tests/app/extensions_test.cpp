@@ -8,8 +8,8 @@
 #include <iomanip>
 #include <nlohmann/json.hpp>
 #include <numbers>
-#include <sstream>
 #include <regex>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -84,7 +84,8 @@ TEST_F(Extensions, PresetsRefuseWhatTheyCannotUse) {
   expect_refused("simulate --preset spencer-1997 r.csv --out p.csv", "records a current");
   expect_refused("simulate --preset rd8040-1-pso motion.csv --out p.csv", "has no current or voltage");
   expect_refused("simulate --preset review-13-14 r.csv --out p.csv", "--set beta=");
-  expect_refused("simulate --preset spencer-1997 --drive 1 --set c9=1 r.csv --out p.csv", "c9=1");
+  expect_refused("simulate --preset spencer-1997 --drive 1 --set c9=1 r.csv --out p.csv", "'c9' is no quantity");
+  expect_refused("simulate --preset spencer-1997 --drive 1 --set c9 r.csv --out p.csv", "QUANTITY=NUMBER");
   expect_refused("simulate --preset spencer-1997 model.json r.csv --out p.csv", "RECORDING alone");
   expect_refused("simulate r.csv --out p.csv", "MODEL and RECORDING");
   expect_refused("simulate model.json r.csv --drive 1 --out p.csv", "belong to --preset");
