@@ -51,10 +51,10 @@ void run(Options& options) {
     throw;
   }
   warn_of(remarks);
-  write_table(options.out, response.csv);
+  write_table(options.out, response.csv());
   say_beside(options.out,
              fmt::format("{} samples, largest displacement {:.6g} mm{}, largest force of the model {:.6g} N\n",
-                         response.samples, 1e3 * response.largest_displacement,
+                         response.columns.front().size(), 1e3 * response.largest_displacement,
                          response.base ? " relative to the base" : "", response.largest_force));
 }
 

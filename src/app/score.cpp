@@ -6,7 +6,6 @@
 #include "app/command.hpp"
 #include "app/result.hpp"
 #include "core/error.hpp"
-#include "report/csv.hpp"
 #include "report/terminal.hpp"
 #include "task/finite.hpp"
 #include "task/predict.hpp"
@@ -49,12 +48,7 @@ void add_score(CLI::App& program) {
     warn_of(remarks);
     const std::vector<Score>& scores = result.recordings;
     if (!options->out.empty()) {
-      std::vector<std::vector<std::string>> cells;
-      for (std::size_t k = 0; k < scores.size(); ++k) {
-        cells.push_back({campaign.recordings[k].file, fmt::format("{}", scores[k].nrmse),
-                         fmt::format("{}", scores[k].rmse), fmt::format("{}", scores[k].fit_percent)});
-      }
-      write_table(options->out, csv_table({"recording", "nrmse", "rmse [N]", "fit_percent"}, cells));
+      write_table(options->out, score_csv(result, campaign.recordings));
     }
     if (options->json) {
       fmt::print("{}", json_text(score_json(result, campaign.recordings, objective.normalisation)));

@@ -1,9 +1,12 @@
 #include "task/predict.hpp"
 
+#include <fmt/format.h>
+
 #include <iterator>
 
 #include "fit/predict.hpp"
 #include "fit/start.hpp"
+#include "report/csv.hpp"
 #include "task/finite.hpp"
 #include "task/guesses.hpp"
 
@@ -52,6 +55,16 @@ CampaignScore score_campaign(StoredModel stored, const std::string& path, const 
   }
   result.overall = overall(result.recordings, recordings, objective.normalisation, objective.weighting);
   return result;
+}
+
+std::string score_csv(const CampaignScore& score, const std::vector<Recording>& recordings) {
+  std::vector<std::vector<std::string>> cells;
+  for (std::size_t k = 0; k < score.recordings.size(); ++k) {
+    const Score& one = score.recordings[k];
+    cells.push_back({recordings[k].file, fmt::format("{}", one.nrmse), fmt::format("{}", one.rmse),
+                     fmt::format("{}", one.fit_percent)});
+  }
+  return csv_table({"recording", "nrmse", "rmse [N]", "fit_percent"}, cells);
 }
 
 nlohmann::json score_json(const CampaignScore& score, const std::vector<Recording>& recordings,

@@ -24,6 +24,8 @@ struct CampaignScore {
 // Throws as simulated_force does.
 CampaignScore score_campaign(StoredModel stored, const std::string& path, const std::vector<Recording>& recordings,
                              const ObjectiveOptions& objective, std::vector<std::string>& remarks);
+// The table of recordings as CSV text, as `hysteron score --out` writes it.
+std::string score_csv(const CampaignScore& score, const std::vector<Recording>& recordings);
 // As `hysteron score --json` writes it.
 nlohmann::json score_json(const CampaignScore& score, const std::vector<Recording>& recordings,
                           Normalisation normalisation);

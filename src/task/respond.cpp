@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <iterator>
 #include <utility>
 
@@ -68,33 +69,59 @@ Excitation excitation_of(const Recording& recording, bool base, const ResponseRe
   return excitation;
 }
 
-// The table of the last period, or of everything where none is repeated.
+// Of the last period, or of everything where none is repeated.
 MassResponse table_of(const Recording& recording, const Excitation& excitation, const MassMotion& motion) {
   MassResponse result;
   result.base = excitation.base.has_value();
-  std::string& text = result.csv;
-  text = "time [s],displacement [m],velocity [m/s],acceleration [m/s^2],force [N]";
-  text += excitation.drive ? (recording.drive_kind == DriveKind::voltage ? ",voltage [V]" : ",current [A]") : "";
-  text += result.base ? ",base [m],absolute displacement [m]\n" : "\n";
-  result.samples = recording.size();
   const std::size_t first = excitation.time.size() - recording.size();
-  for (std::size_t n = first; n < excitation.time.size(); ++n) {
-    const double time = excitation.time[n];
-    text += fmt::format("{},{},{},{},{}", recording.time[n - first], motion.displacement[n], motion.velocity[n],
-                        motion.acceleration[n], motion.force[n]);
-    if (excitation.drive) text += fmt::format(",{}", excitation.drive->value(time));
-    if (result.base) {
-      const double b = excitation.base->value(time);
-      text += fmt::format(",{},{}", b, b + motion.displacement[n]);
-    }
-    text += '\n';
-    result.largest_displacement = std::max(result.largest_displacement, std::fabs(motion.displacement[n]));
-    result.largest_force = std::max(result.largest_force, std::fabs(motion.force[n]));
+  const auto add = [&](std::string name, std::vector<double> column) {
+    result.names.push_back(std::move(name));
+    result.columns.push_back(std::move(column));
+  };
+  const auto last = [&](const std::vector<double>& values) {
+    return std::vector<double>(values.begin() + static_cast<std::ptrdiff_t>(first), values.end());
+  };
+  const auto signal = [&](const Signal& of) {
+    std::vector<double> values;
+    for (std::size_t n = first; n < excitation.time.size(); ++n) values.push_back(of.value(excitation.time[n]));
+    return values;
+  };
+  add("time [s]", recording.time);
+  add("displacement [m]", last(motion.displacement));
+  add("velocity [m/s]", last(motion.velocity));
+  add("acceleration [m/s^2]", last(motion.acceleration));
+  add("force [N]", last(motion.force));
+  if (excitation.drive) {
+    add(recording.drive_kind == DriveKind::voltage ? "voltage [V]" : "current [A]", signal(*excitation.drive));
   }
+  if (result.base) {
+    add("base [m]", signal(*excitation.base));
+    std::vector<double> absolute = result.columns.back();
+    for (std::size_t n = 0; n < absolute.size(); ++n) absolute[n] += result.columns[1][n];
+    add("absolute displacement [m]", std::move(absolute));
+  }
+  const auto largest = [](const std::vector<double>& values) {
+    double most = 0.0;
+    for (const double value : values) most = std::max(most, std::fabs(value));
+    return most;
+  };
+  result.largest_displacement = largest(result.columns[1]);
+  result.largest_force = largest(result.columns[4]);
   return result;
 }
 
 }  // namespace
+
+std::string MassResponse::csv() const {
+  std::string text = fmt::format("{}\n", fmt::join(names, ","));
+  for (std::size_t n = 0; n < columns.front().size(); ++n) {
+    for (std::size_t k = 0; k < columns.size(); ++k) {
+      text += fmt::format("{}{}", k == 0 ? "" : ",", columns[k][n]);
+    }
+    text += '\n';
+  }
+  return text;
+}
 
 MassResponse response_to(StoredModel stored, const std::string& path, Recording recording,
                          const ResponseRequest& request, std::vector<std::string>& remarks) {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cmath>
-#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -26,11 +25,13 @@ struct ResponseRequest {
 };
 
 struct MassResponse {
-  std::string csv;  // as the command writes it: names with units, then a row a sample
-  std::size_t samples = 0;
-  double largest_displacement = 0.0;  // m, relative to the base
-  double largest_force = 0.0;         // N, of the model
-  bool base = false;                  // moved, in place of a force on the mass
+  std::vector<std::string> names;            // with units, as in the table
+  std::vector<std::vector<double>> columns;  // one a name, of one length
+  double largest_displacement = 0.0;         // m, relative to the base
+  double largest_force = 0.0;                // N, of the model
+  bool base = false;                         // moved, in place of a force on the mass
+
+  [[nodiscard]] std::string csv() const;  // as the command writes it: the names, then a row a sample
 };
 
 // `recording` holds time and a force on the mass or a base (or displacement); `path` is the model's in messages;
