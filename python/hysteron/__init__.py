@@ -14,16 +14,17 @@ from . import _hysteron, plot
 from ._hysteron import InputError, WorkError
 from ._words import HysteronWarning, Progress
 from .catalogue import describe, list
+from .comparison import Comparison, compare
 from .diagnosis import Diagnosis, diagnose
-from .model import Model, Score, fit, load_model
+from .model import Export, Model, Response, Score, fit, load_model, simulate_preset
 from .recordings import Recording, Recordings, dataset, load, recording
 from .study import Study, bench
 
 __version__ = _hysteron.version
 __all__ = [
-    "Damper", "Diagnosis", "HysteronWarning", "InputError", "Model", "Progress", "Recording", "Recordings", "Score",
-    "Study", "WorkError", "bench", "dataset", "describe", "diagnose", "fit", "list", "load", "load_model", "plot",
-    "recording",
+    "Comparison", "Damper", "Diagnosis", "Export", "HysteronWarning", "InputError", "Model", "Progress", "Recording",
+    "Recordings", "Response", "Score", "Study", "WorkError", "bench", "compare", "dataset", "describe", "diagnose", "fit",
+    "list", "load", "load_model", "plot", "recording", "simulate_preset",
 ]
 
 # Datasets that ship are beside the folder that holds the package, or below the prefix where it is installed.

@@ -27,3 +27,11 @@ def of_csv(text):
     import csv
 
     return list(csv.DictReader(text.splitlines()))
+
+
+def of_columns(columns):
+    """Of arrays of one length by name."""
+    module = pandas()
+    if module is not None:
+        return module.DataFrame(columns)
+    return [dict(zip(columns, row)) for row in zip(*columns.values())]

@@ -140,6 +140,11 @@ def path(value):
     return os.fspath(value)
 
 
+def optional(name, value, low, high):
+    """As real(), or None."""
+    return None if value is None else real(name, value, low, high)
+
+
 class Command:
     """The command line that does the same; what is at its default is left out, as one who types it would."""
 

@@ -7,7 +7,7 @@ import numpy
 
 from . import _hysteron, _table, _words
 from ._hysteron import InputError
-from .recordings import Recording, as_recordings
+from .recordings import as_recording, as_recordings
 
 
 class Score(typing.NamedTuple):
@@ -65,32 +65,92 @@ class Model:
         return {one["id"]: numpy.array(one["trace"], dtype=float).reshape(-1, 2) for one in self.fit_json["solvers"]}
 
     def simulate(self, recording, out=None, tolerance=1e-4):
-        """Force in N on the motion of a recording, an array with a value per sample; `out`: a CSV file for it."""
-        if not isinstance(recording, Recording):
-            recordings = as_recordings(recording, conditions=self.json.get("by", ()))
-            if len(recordings) != 1:
-                raise InputError(f"simulate: {len(recordings)} recordings given, expected one")
-            recording = recordings[0]
+        """Force in N on the motion of a recording, an array with a value per sample; `out`: a file for it, CSV, or MAT by
+        its ending."""
+        recording = self._one(recording, "simulate", motion_only=True)
         force, remarks = _hysteron.simulate(
             self._stored, self._path, recording._core, _words.real("tolerance", tolerance, 1e-10, 1e-2))
         _words.warn(remarks)
         if out is not None:
-            text = _hysteron.csv_text(["time [s]", "force [N]"], [recording.time, force])
-            _hysteron.write_file(_words.path(out), text)
+            write_force(out, recording, force)
         return force
 
-    def score(self, recordings, normalisation="max-abs", weighting="per-recording", tolerance=1e-4):
-        """Errors on recordings that the model need not have seen."""
+    def score(self, recordings, out=None, normalisation="max-abs", weighting="per-recording", tolerance=1e-4):
+        """Errors on recordings that the model need not have seen; `out`: a file for the table, CSV, or MAT by its
+        ending."""
         options = _words.common(normalisation, weighting, tolerance, 0)
-        text, remarks = _hysteron.score(self._stored, self._path, as_recordings(
-            recordings, need_force=True, conditions=self.json.get("by", ())).core(), options)
+        recordings = as_recordings(recordings, need_force=True, conditions=self.json.get("by", ()))
+        _hysteron.refuse_unfollowed([self._stored], recordings.at)
+        text, csv, remarks = _hysteron.score(self._stored, self._path, recordings.core(), options)
         _words.warn(remarks)
+        if out is not None:
+            write_table(out, csv.encode())
         result = json.loads(text)
         return Score(result["overall"]["nrmse"], _table.of_rows(result["recordings"], "file"))
 
+    def respond(self, recording, mass, *, stiffness=0.0, damping=0.0, excitation="auto", interpolation="cubic", periods=0,
+                x0=0.0, v0=0.0, drive=None, frequency=None, tolerance=1e-8, out=None):
+        """Motion of a mass (kg) on the model under the force of a recording, or on a base that has its displacement.
+
+        recording: a file, or of load(..., excitation=True) or recording(..., excitation=True); stiffness (N/m), damping
+        (N s/m): of a spring and a dashpot beside the model; excitation: "force" or "base" where it holds both;
+        interpolation: of it between samples, "linear", "cubic", "band-limited"; periods: it is one period, repeated so
+        many times, of which the last is answered; x0, v0: displacement and velocity at the start, relative to the base;
+        drive: a constant current or voltage in place of the recording's; frequency: in Hz, for parameters that follow it,
+        default the dominant one; tolerance: relative error of a step; out: a file for the table, CSV, or MAT by its
+        ending. Returns a Response. Ctrl-C ends it."""
+        limit = _hysteron.farthest_motion
+        options = {
+            "mass": _words.real("mass", mass, 1e-9, 1e12),
+            "stiffness": _words.real("stiffness", stiffness, -1e15, 1e15),
+            "damping": _words.real("damping", damping, -1e15, 1e15),
+            "excitation": excitation,
+            "interpolation": interpolation,
+            "periods": _words.whole("periods", periods, 0, 10000),
+            "x0": _words.real("x0", x0, -limit, limit),
+            "v0": _words.real("v0", v0, -1e9, 1e9),
+            "drive": _words.optional("drive", drive, -1e9, 1e9),
+            "frequency": _words.optional("frequency", frequency, 0.0, 1e9),
+            "tolerance": _words.real("tolerance", tolerance, 1e-13, 1e-2),
+        }
+        recording = self._one(recording, "respond", excitation=True)
+        names, columns, csv, remarks = _hysteron.respond(self._stored, self._path, recording._core, options)
+        _words.warn(remarks)
+        response = Response(names, columns, csv)
+        if out is not None:
+            response.save(out)
+        return response
+
+    def export(self, to, out=None, *, name="", motion=None, at=None, tolerance=1e-4,
+               most_substeps=_hysteron.default_most_substeps, substeps=0):
+        """Writes the model for use elsewhere, with a test vector; see docs/export.md.
+
+        to: "c", "fmu", "simulink", "modelica" or "python"; out: a folder, or the main file by its ending, default: nothing
+        is written; name: identifier in the code, default that of the file or the law; motion: a recording that the test
+        vector replays; at: {"pressure": "2.1 bar"} of conditions that parameters follow; tolerance: of the integration;
+        most_substeps, substeps: its steps between two samples, at most or always. Returns an Export."""
+        options = {
+            "to": str(to),
+            "out": None if out is None else _words.path(out),
+            "name": str(name),
+            "tolerance": _words.real("tolerance", tolerance, 1e-10, 1e-2),
+            "most_substeps": _words.whole("most_substeps", most_substeps, 1, _hysteron.default_most_substeps),
+            "substeps": _words.whole("substeps", substeps, 0, _hysteron.default_most_substeps),
+        }
+        if motion is not None:
+            motion = as_recording(motion, "motion", motion_only=True)[0]._core
+        at = {str(key): str(value) for key, value in (at or {}).items()}
+        return Export(*_hysteron.export_to(self._stored, at, motion, options))
+
+    def _one(self, recording, what, **read):
+        recording, at = as_recording(recording, what, conditions=self.json.get("by", ()), **read)
+        _hysteron.refuse_unfollowed([self._stored], at)
+        return recording
+
     def save(self, path):
-        """Writes model.json, the bytes that the program writes."""
+        """Writes model.json, the bytes that the program writes; messages name the model by this file from then on."""
         _hysteron.write_file(_words.path(path), self._text)
+        self._path = _words.path(path)
 
     def save_all(self, folder):
         """Writes model.json and, of a fit, fit.json and report.html into a folder, as `hysteron fit --out` does."""
@@ -101,6 +161,79 @@ class Model:
         from . import plot
 
         return plot.loops(recordings, self, **arguments)
+
+
+class Response:
+    """Motion of a mass: time, displacement, velocity and acceleration relative to the base, force of the model, where
+    there are such `current` or `voltage`, `base` and `absolute_displacement` (else None): arrays in SI units."""
+
+    def __init__(self, names, columns, csv):
+        self._csv = csv
+        self.channels = {name.split(" [")[0].replace(" ", "_"): column for name, column in zip(names, columns)}
+
+    def __getattr__(self, name):
+        if name in ("time", "displacement", "velocity", "acceleration", "force", "current", "voltage", "base",
+                    "absolute_displacement"):
+            return self.channels.get(name)
+        raise AttributeError(f"'Response' object has no attribute '{name}'")
+
+    def __getstate__(self):
+        return self.__dict__
+
+    def __setstate__(self, state):
+        self.__dict__.update(state)
+
+    def __len__(self):
+        return len(self.channels["time"])
+
+    def __repr__(self):
+        largest = numpy.abs(self.channels["displacement"]).max()
+        return f"<hysteron.Response: {len(self)} samples, largest displacement {1e3 * largest:.4g} mm>"
+
+    @property
+    def frame(self):
+        """The channels as a table, a column each."""
+        return _table.of_columns(self.channels)
+
+    def save(self, path):
+        """Writes the table that `hysteron respond` writes, CSV, or MAT by its ending."""
+        write_table(path, self._csv)
+
+
+class Export(typing.NamedTuple):
+    """An exported model."""
+
+    files: dict  # contents, bytes, by path below the folder
+    paths: list  # of the files that were written, empty without `out`
+    note: str  # how to use it
+
+
+def write_table(out, csv):
+    out = _words.path(out)
+    _hysteron.check_table(out, [])
+    _hysteron.write_file(out, _hysteron.table_bytes(out, csv))
+
+
+def write_force(out, recording, force):
+    write_table(out, _hysteron.csv_text(["time [s]", "force [N]"], [recording.time, force]))
+
+
+def simulate_preset(preset, recording, *, drive=None, quantities=None, tolerance=1e-4, out=None):
+    """Force in N of a published parameter set on the motion of a recording.
+
+    preset: see describe("bouc-wen"); drive: a constant current or voltage in place of the recording's; quantities:
+    {"alpha_a": 14649} by the names and in the units of the source, see describe(preset); out: a file for the force, CSV,
+    or MAT by its ending."""
+    recording, at = as_recording(recording, "simulate_preset", motion_only=True)
+    if at:
+        raise InputError(f"simulate_preset: recordings were loaded with at={at!r}, which belongs to a model.json")
+    force, remarks = _hysteron.simulate_preset(
+        str(preset), _words.table("quantities", quantities, _words.real),
+        _words.optional("drive", drive, -1e9, 1e9), recording._core, _words.real("tolerance", tolerance, 1e-10, 1e-2))
+    _words.warn(remarks)
+    if out is not None:
+        write_force(out, recording, force)
+    return force
 
 
 def save_files(files, folder):

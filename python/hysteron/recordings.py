@@ -55,11 +55,7 @@ class Recording:
     @property
     def frame(self):
         """The channels as a table, a column each."""
-        module = _table.pandas()
-        if module is not None:
-            return module.DataFrame(self.channels)
-        rows = zip(*self.channels.values())
-        return [dict(zip(self.channels, row)) for row in rows]
+        return _table.of_columns(self.channels)
 
     def save(self, path):
         """Writes a CSV file. Of a recording made of arrays it holds those, and a program that reads it works on the same
@@ -138,21 +134,22 @@ class Recordings(collections.abc.Sequence):
         return [(one._core, one.role) for one in self._recordings]
 
 
-def as_recordings(value, need_force=False, conditions=()):
-    """Of whatever a function is given: recordings, one or several, or paths of them, read with the conditions."""
+def as_recordings(value, need_force=False, conditions=(), **read):
+    """Of whatever a function is given: recordings, one or several, or paths of them, read with the conditions and what
+    else load() takes."""
     if isinstance(value, Recordings):
         result = value
     elif isinstance(value, Recording):
         result = Recordings([value])
     elif isinstance(value, (str, os.PathLike)):
-        result = load(value, conditions=conditions)
+        result = load(value, conditions=conditions, **read)
     else:
         try:
             items = list(value)
         except TypeError:
             items = [value]
         if items and all(isinstance(one, (str, os.PathLike)) for one in items):
-            result = load(*items, conditions=conditions)
+            result = load(*items, conditions=conditions, **read)
         else:
             for one in items:
                 if not isinstance(one, Recording):
@@ -170,13 +167,24 @@ def as_recordings(value, need_force=False, conditions=()):
     return result
 
 
+def as_recording(value, what, **read):
+    """One recording, as as_recordings() takes it, with every sample that a file has, and the `at` it was loaded with."""
+    if isinstance(value, Recording):
+        return value, {}
+    recordings = as_recordings(value, keep_samples=0, **read)
+    if len(recordings) != 1:
+        raise InputError(f"{what}: {len(recordings)} recordings given, expected one")
+    return recordings[0], recordings.at
+
+
 def load(*data, columns=None, group="", skip=0, keep_samples=_hysteron.default_keep_samples, motion_only=False,
-         conditions=(), at=None, without_time=False):
+         excitation=False, conditions=(), at=None, without_time=False):
     """Reads CSV, MAT, TDMS, MDF 4, RPC III and xlsx files and folders of them, with an optional campaign.toml.
 
     columns: {"force": "CH1 [kgf]"} maps channels to columns of other names or units; group: of TDMS and MDF files, or
     sheet of workbooks, that is read alone; skip: lines at the head of every CSV file that are not read; keep_samples: of all recordings together, of more several in a row are averaged to one;
-    motion_only=True: the force may be missing, for simulation; conditions: columns that laws are to follow (`by` of fit),
+    motion_only=True: the force may be missing, for simulation; excitation=True: a force or a motion is enough, for
+    Model.respond; conditions: columns that laws are to follow (`by` of fit),
     ["pressure"]; at: {"pressure": "2.1 bar"} of what the laws of a model follow and no column holds, to simulate and
     score; without_time=True: the time may be missing, for laws that do not depend on the rate. Returns Recordings."""
     paths = [_words.path(one) for one in data]
@@ -185,7 +193,7 @@ def load(*data, columns=None, group="", skip=0, keep_samples=_hysteron.default_k
     keep_samples = _words.whole("keep_samples", keep_samples, 0, 1000000000)
     at = {str(key): str(value) for key, value in (at or {}).items()}
     cores, roles, model, by_current, by_frequency, by, remarks = _hysteron.load(
-        paths, columns, group, skip, keep_samples, motion_only,
+        paths, columns, group, skip, keep_samples, required(motion_only, excitation),
         [*_words.names("conditions", conditions), *at], at, bool(without_time))
     _words.warn(text for text, _ in remarks)
     command = _words.Command()
@@ -202,16 +210,20 @@ def load(*data, columns=None, group="", skip=0, keep_samples=_hysteron.default_k
     )
 
 
+def required(motion_only, excitation):
+    """What a recording has to hold beside the time."""
+    return "excitation" if excitation else "motion" if motion_only else "force"
+
+
 def recording(data=None, *, name="recording.csv", units=None, columns=None, role="",
-              keep_samples=_hysteron.default_keep_samples, motion_only=False, conditions=(), without_time=False,
-              **channels):
+              keep_samples=_hysteron.default_keep_samples, motion_only=False, excitation=False, conditions=(),
+              without_time=False, **channels):
     """A recording of arrays: what the CSV file that holds them would be read as.
 
     Either channels by keyword (time=, displacement=, force=, and velocity=, acceleration=, current=, voltage=,
     temperature=, base=), or `data`, a DataFrame or dictionary with columns named as in a file ("time", "disp [mm]", ...).
     units: {"displacement": "mm"} by the name of the column, SI without; columns: as in load; name: in results; role: ""
-    or "fit" or "validate"; motion_only=True: the force may be missing, for simulation; conditions, without_time: as in
-    load."""
+    or "fit" or "validate"; motion_only, excitation, conditions, without_time: as in load."""
     if (data is None) == (not channels):
         raise InputError("recording: expected either data or channels by keyword, e.g. time=..., displacement=..., force=...")
     if data is None:
@@ -249,7 +261,8 @@ def recording(data=None, *, name="recording.csv", units=None, columns=None, role
     if not arrays:
         raise InputError(f"{file}: no columns of numbers, expected at least time, displacement and force")
     columns = {str(key): str(value) for key, value in (columns or {}).items()}
-    core, remarks = _hysteron.recording(headers, arrays, file, columns, _words.whole("keep_samples", keep_samples, 0, 1000000000), motion_only,
+    core, remarks = _hysteron.recording(headers, arrays, file, columns, _words.whole("keep_samples", keep_samples, 0, 1000000000),
+        required(motion_only, excitation),
         _words.names("conditions", conditions), bool(without_time))
     _words.warn(text for text, _ in remarks)
     result = Recording(core, role, (headers, arrays))

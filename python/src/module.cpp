@@ -4,6 +4,7 @@
 #include "arguments.hpp"
 #include "core/error.hpp"
 #include "recordings.hpp"
+#include "use.hpp"
 #include "work.hpp"
 
 PYBIND11_MODULE(_hysteron, module) {
@@ -20,5 +21,6 @@ PYBIND11_MODULE(_hysteron, module) {
   });
   py::register_exception<hysteron::WorkError>(module, "WorkError", PyExc_RuntimeError);
   hysteron::python::add_recordings(module);
+  hysteron::python::add_use(module);
   hysteron::python::add_work(module);
 }

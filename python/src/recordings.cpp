@@ -65,22 +65,13 @@ std::vector<std::string> conditions_named(const std::vector<std::string>& names)
   return {result.begin(), result.end()};
 }
 
-std::map<std::string, ConditionNumber> numbers_of(const std::map<std::string, std::string>& at) {
-  std::map<std::string, ConditionNumber> result;
-  for (const auto& [word, text] : at) {
-    std::optional<ConditionNumber> number = condition_number(text);
-    if (!number) {
-      throw InputError("at: '" + text + "' of " + word +
-                       " is not a number with a unit, expected e.g. 2.1e5 or '2.1 bar'");
-    }
-    number->file = "at";
-    result.insert_or_assign(condition_name(word, "at"), *number);
-  }
-  return result;
+// What a recording has to hold beside the time: force, motion or excitation.
+Required required_of(const std::string& word) {
+  return word == "excitation" ? Required::nothing : word == "motion" ? Required::motion : Required::motion_and_force;
 }
 
 py::tuple load(const std::vector<std::string>& data, const std::map<std::string, std::string>& columns,
-               const std::string& group, int skip, std::size_t keep_samples, bool motion_only,
+               const std::string& group, int skip, std::size_t keep_samples, const std::string& required,
                const std::vector<std::string>& conditions, const std::map<std::string, std::string>& at,
                bool without_time) {
   ReadOptions options;
@@ -94,7 +85,7 @@ py::tuple load(const std::vector<std::string>& data, const std::map<std::string,
   Loaded loaded;
   {
     const py::gil_scoped_release released;
-    loaded = load_with_remarks(data, options, motion_only ? Required::motion : Required::motion_and_force);
+    loaded = load_with_remarks(data, options, required_of(required));
   }
   return tuple_of(std::move(loaded));
 }
@@ -115,8 +106,8 @@ std::string csv_text(const std::vector<std::string>& names, const std::vector<Nu
 }
 
 py::tuple recording(const std::vector<std::string>& names, const std::vector<Numbers>& arrays, const std::string& file,
-                    const std::map<std::string, std::string>& columns, std::size_t keep_samples, bool motion_only,
-                    const std::vector<std::string>& conditions, bool without_time) {
+                    const std::map<std::string, std::string>& columns, std::size_t keep_samples,
+                    const std::string& required, const std::vector<std::string>& conditions, bool without_time) {
   const std::string text = csv_text(names, arrays);
   RecordingPointer result;
   std::vector<Remark> remarks;
@@ -125,7 +116,8 @@ py::tuple recording(const std::vector<std::string>& names, const std::vector<Num
     ReadOptions options;
     options.columns = columns;
     options.keep_samples = keep_samples;
-    options.force_required = !motion_only;
+    options.force_required = required_of(required) == Required::motion_and_force;
+    options.displacement_required = required_of(required) != Required::nothing;
     options.conditions = conditions_named(conditions);
     options.without_time = without_time;
     options.remark = [&](const Remark& remark) { remarks.push_back(remark); };
@@ -190,6 +182,20 @@ py::object drive_of(const py::object& self) {
 }
 
 }  // namespace
+
+std::map<std::string, ConditionNumber> numbers_of(const std::map<std::string, std::string>& at) {
+  std::map<std::string, ConditionNumber> result;
+  for (const auto& [word, text] : at) {
+    std::optional<ConditionNumber> number = condition_number(text);
+    if (!number) {
+      throw InputError("at: '" + text + "' of " + word +
+                       " is not a number with a unit, expected e.g. 2.1e5 or '2.1 bar'");
+    }
+    number->file = "at";
+    result.insert_or_assign(condition_name(word, "at"), *number);
+  }
+  return result;
+}
 
 Campaign campaign_of(const std::vector<std::pair<RecordingPointer, std::string>>& recordings) {
   Campaign campaign;

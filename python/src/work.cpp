@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "fit/weighting.hpp"
 #include "io/campaign_file.hpp"
 #include "io/output.hpp"
+#include "options.hpp"
 #include "recordings.hpp"
 #include "report/html.hpp"
 #include "report/study.hpp"
@@ -24,40 +24,15 @@
 #include "task/command_text.hpp"
 #include "task/diagnosis.hpp"
 #include "task/diagnosis_text.hpp"
+#include "task/excites.hpp"
 #include "task/fit.hpp"
 #include "task/json_text.hpp"
-#include "task/predict.hpp"
 #include "task/study.hpp"
 #include "watched.hpp"
 
 namespace hysteron::python {
 namespace py = pybind11;
 namespace {
-
-using WithRoles = std::vector<std::pair<RecordingPointer, std::string>>;
-
-// Options by name, all of them given.
-class Options {
- public:
-  explicit Options(const py::dict& values) : values_(values) {}
-  template <class T>
-  [[nodiscard]] T get(const char* name) const {
-    return values_[name].cast<T>();
-  }
-  [[nodiscard]] bool given(const char* name) const { return !values_[name].is_none(); }
-
- private:
-  const py::dict& values_;
-};
-
-ObjectiveOptions objective_of(const Options& options) {
-  ObjectiveOptions objective;
-  objective.normalisation = normalisation_of(options.get<std::string>("normalisation"));
-  objective.weighting = weighting_of(options.get<std::string>("weighting"));
-  objective.tolerance = options.get<double>("tolerance");
-  objective.threads = options.get<int>("threads");
-  return objective;
-}
 
 LayoutOptions laws_of(const Options& options, const Campaign& campaign) {
   LayoutOptions layout;
@@ -169,29 +144,6 @@ py::dict diagnose(const WithRoles& recordings, const std::string& model, const p
   return py::dict(py::arg("files") = files, py::arg("text") = text);
 }
 
-// Force and remarks.
-std::pair<py::array_t<double>, std::vector<std::string>> simulate(const StoredModel& stored, const std::string& path,
-                                                                  const RecordingPointer& recording, double tolerance) {
-  std::vector<double> force;
-  std::vector<std::string> remarks;
-  {
-    const py::gil_scoped_release released;
-    force = simulated_force(stored, path, *recording, tolerance, remarks);
-  }
-  return {py::array_t<double>(static_cast<py::ssize_t>(force.size()), force.data()), remarks};
-}
-
-// `hysteron score --json`, and remarks.
-std::pair<std::string, std::vector<std::string>> score(const StoredModel& stored, const std::string& path,
-                                                       const WithRoles& recordings, const py::dict& values) {
-  const Campaign campaign = campaign_of(recordings);
-  const ObjectiveOptions objective = objective_of(Options(values));
-  std::vector<std::string> remarks;
-  const py::gil_scoped_release released;
-  const CampaignScore result = score_campaign(stored, path, campaign.recordings, objective, remarks);
-  return {json_text(score_json(result, campaign.recordings, objective.normalisation)), remarks};
-}
-
 // Runs done by this call, found in the folder before, planned.
 std::tuple<std::size_t, std::size_t, std::size_t> bench(const std::string& study, const std::string& folder,
                                                         int threads, const py::object& progress) {
@@ -232,9 +184,7 @@ std::pair<py::dict, std::string> report(const std::string& folder) {
     files = study_report(folder, view, {});
     text = study_terminal(view.analysis, view.times);
   }
-  py::dict result;
-  for (const auto& [name, content] : files) result[py::str(name)] = py::bytes(content);
-  return {result, text};
+  return {bytes_of(files), text};
 }
 
 std::string list(const std::string& kind) {
@@ -250,11 +200,6 @@ void add_work(py::module_& module) {
   module.attr("highest_order") = highest_order;
   module.def("fit", &fit);
   module.def("diagnose", &diagnose);
-  py::class_<StoredModel>(module, "StoredModel");
-  module.def("parse_model",
-             [](const py::bytes& text, const std::string& path) { return parse_model(std::string(text), path); });
-  module.def("simulate", &simulate);
-  module.def("score", &score);
   module.def("bench", &bench);
   module.def("report", &report);
   module.def("list", &list);

@@ -19,6 +19,13 @@ def program(*words, folder=None):
     return done.stdout
 
 
+def complaint(*words, folder=None):
+    """Runs the program on what it refuses; its one line, without "error: "."""
+    done = subprocess.run([PROGRAM, *map(str, words)], cwd=folder, capture_output=True, text=True)
+    assert done.returncode == 2, f"{words}: {done.returncode}, {done.stderr}"
+    return done.stderr.splitlines()[-1].removeprefix("error: ")
+
+
 def repeat(command, out, folder):
     """Runs the command line that a result says it can be made again by."""
     words = shlex.split(command)
