@@ -23,6 +23,7 @@ namespace hysteron {
 namespace {
 
 using testing::Case;
+using testing::every_entry;
 using testing::first_samples;
 using testing::model_of;
 using testing::Outcome;
@@ -31,20 +32,6 @@ using testing::shell;
 using testing::strict;
 using testing::TemporaryFolder;
 using testing::write;
-
-std::vector<Case> every_entry() {
-  std::vector<Case> result;
-  for (const Part* law : model_catalogue()) {
-    result.push_back({std::string(law->id), {}});
-  }
-  for (const Part* effect : effect_catalogue()) {
-    result.push_back({"bouc-wen", {std::string(effect->id)}});
-  }
-  result.push_back({"modified-bouc-wen", {"clearance", "compliance", "self-heating", "coil-lag", "sensor-delay"}});
-  result.push_back({"lugre", {"series-dashpot", "inertia", "magnetic-remanence", "degradation"}});
-  result.push_back({"baber-noori", {"stiction", "pre-yield-hysteresis", "velocity-lag", "asymmetry"}});
-  return result;
-}
 
 // As rows of numbers for the replay programs.
 std::string rows_of(const TestVector& vector) {
@@ -70,12 +57,8 @@ void expect_force(const std::string& printed, const TestVector& vector) {
 }
 
 class EveryEntry : public ::testing::TestWithParam<Case> {};
-INSTANTIATE_TEST_SUITE_P(Catalogue, EveryEntry, ::testing::ValuesIn(every_entry()), [](const auto& instance) {
-  std::string name = instance.param.name();
-  std::ranges::replace_if(
-      name, [](char letter) { return letter == '-' || letter == '+'; }, '_');
-  return name;
-});
+INSTANTIATE_TEST_SUITE_P(Catalogue, EveryEntry, ::testing::ValuesIn(every_entry()),
+                         [](const auto& instance) { return instance.param.test_name(); });
 
 // The program checks 1e-6 of the largest force itself; that it can fail is the next test.
 TEST_P(EveryEntry, InC) {

@@ -29,8 +29,29 @@ struct Case {
     }
     return text;
   }
+  [[nodiscard]] std::string test_name() const {
+    std::string text = name();
+    std::ranges::replace_if(
+        text, [](char letter) { return letter == '-' || letter == '+'; }, '_');
+    return text;
+  }
 };
 inline std::ostream& operator<<(std::ostream& out, const Case& value) { return out << value.name(); }
+
+// Every law alone, every effect behind one law, and long chains.
+inline std::vector<Case> every_entry() {
+  std::vector<Case> result;
+  for (const Part* law : model_catalogue()) {
+    result.push_back({std::string(law->id), {}});
+  }
+  for (const Part* effect : effect_catalogue()) {
+    result.push_back({"bouc-wen", {std::string(effect->id)}});
+  }
+  result.push_back({"modified-bouc-wen", {"clearance", "compliance", "self-heating", "coil-lag", "sensor-delay"}});
+  result.push_back({"lugre", {"series-dashpot", "inertia", "magnetic-remanence", "degradation"}});
+  result.push_back({"baber-noori", {"stiction", "pre-yield-hysteresis", "velocity-lag", "asymmetry"}});
+  return result;
+}
 
 // Parameters off their neutral values; the first of the law follows the drive. A delay of the force is not negative.
 inline ExportedModel model_of(const Case& of, std::uint64_t seed = 5) {
