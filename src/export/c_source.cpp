@@ -279,6 +279,7 @@ CSource c_source(const ExportedModel& exported, const TestVector& vector) {
   result.header = with_name(runtime::header_h(), exported.name);
   const std::pair<const char*, std::string> numbers[] = {
       {"@title@", quoted(exported.title())},
+      {"@drive@", exported.about_drive()},
       {"@room@", std::to_string(std::max(states, 1))},
       {"@parameters@", std::to_string(exported.model.parameter_count())},
       {"@memories@", std::to_string(std::max(memories, 1))},

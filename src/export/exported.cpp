@@ -11,9 +11,11 @@
 #include "core/extent.hpp"
 #include "export/fixed_steps.hpp"
 #include "export/names.hpp"
+#include "export/writer.hpp"
 #include "fit/objective.hpp"
 #include "fit/predict.hpp"
 #include "fit/start.hpp"
+#include "simulate/command.hpp"
 
 namespace hysteron {
 
@@ -32,6 +34,54 @@ bool ExportedModel::follows_drive() const {
 bool ExportedModel::follows_frequency() const {
   return std::ranges::any_of(terms, [](const Term& term) { return term.frequency_power > 0; });
 }
+
+double ExportedModel::drive_ahead() const {
+  double ahead = 0.0;
+  model.for_links([&](const Link& link) {
+    if (link.part->on_double.recall == nullptr) return;
+    for (const Term& term : terms) {
+      if (term.parameter == link.parameter && term.drive_power + term.frequency_power == 0) {
+        ahead = std::max(ahead, -term.value);
+      }
+    }
+  });
+  return follows_drive() ? ahead : 0.0;
+}
+
+std::string ExportedModel::about_drive() const {
+  const double ahead = drive_ahead();
+  return ahead > 0.0 ? fmt::format("A or V, of {} s after the sample", ahead) : "A or V";
+}
+
+namespace {
+
+// Where the drive is given ahead: whether equations take that of the sample, or operations on the drive parameters
+// at it.
+bool needs_drive_of_sample(const ExportedModel& exported, const ExportedLink& link) {
+  const PartEquations& e = link.equations;
+  for (const std::optional<Function>* function : {&e.drive, &e.rate, &e.force, &e.towards}) {
+    if (!*function) continue;
+    const Statements statements = write_statements(**function, link.part->parameters, Language::c);
+    if (std::ranges::find(statements.used, Argument::drive, &ArgumentNumber::argument) != statements.used.end()) {
+      return true;
+    }
+  }
+  const std::size_t end = link.parameter + link.part->parameters.size();
+  return (e.excite || e.recall) && std::ranges::any_of(exported.terms, [&](const Term& term) {
+           const bool varies = term.drive_power > 0 || (e.recall && term.frequency_power > 0);
+           return term.parameter >= link.parameter && term.parameter < end && varies;
+         });
+}
+
+// The drive that is given ahead, as the recall of an effect sees it.
+void give_ahead(double ahead, const Motion& motion, std::vector<TestSample>& samples) {
+  if (ahead <= 0.0 || motion.drive.empty()) return;
+  for (std::size_t n = 0; n < samples.size(); ++n) {
+    samples[n].drive = Command{motion.time, motion.drive, n}.earlier(-ahead);
+  }
+}
+
+}  // namespace
 
 std::vector<ExportedLink> links_of(const ExportedModel& exported) {
   std::vector<ExportedLink> result;
@@ -54,16 +104,15 @@ std::vector<ExportedLink> links_of(const ExportedModel& exported) {
     }
     result.push_back(std::move(link));
   });
-  for (const ExportedLink& link : result) {
-    if (!link.equations.recall) {
-      continue;
-    }
-    for (const Term& term : exported.terms) {
-      if (term.parameter == link.parameter && term.drive_power + term.frequency_power == 0 && term.value < 0.0) {
-        throw InputError("export: " + std::string(link.part->id) +
-                         " leads the recorded drive, which a step at a time does not know; expected " +
-                         std::string(link.part->parameters[0].name) + " >= 0 or no parameter that follows the drive");
+  if (exported.drive_ahead() > 0.0) {
+    for (ExportedLink& link : result) {
+      if (needs_drive_of_sample(exported, link)) {
+        throw InputError(fmt::format(
+            "export: {} needs the drive of the sample itself, which is given {:g} s ahead because an effect leads it; "
+            "expected a delay >= 0 or no parameter that follows the drive",
+            link.part->id, exported.drive_ahead()));
       }
+      link.equations.recall.reset();  // the drive comes as it acts
     }
   }
   return result;
@@ -157,8 +206,10 @@ TestVector test_vector(const ExportedModel& exported, const Recording& motion) {
   TestVector result;
   result.frequency = target.frequency;
   result.samples = samples_of(target.motion);
+  give_ahead(exported.drive_ahead(), target.motion, result.samples);
   if (target.preroll > 0) {
     result.lead_in = samples_of(target.lead_in);
+    give_ahead(exported.drive_ahead(), target.lead_in, result.lead_in);
   }
   result.force = predict(exported.model, exported.held, exported.terms, target);
   if (const auto time = diverges_at(result.force, recording)) {

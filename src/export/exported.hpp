@@ -26,6 +26,10 @@ struct ExportedModel {
   [[nodiscard]] std::string title() const;
   [[nodiscard]] bool follows_drive() const;
   [[nodiscard]] bool follows_frequency() const;
+  // s by which the drive has to be given ahead of the motion, where an effect leads it and parameters follow it; else 0.
+  [[nodiscard]] double drive_ahead() const;
+  // What the drive of a sample is: its unit, and its time where it is given ahead.
+  [[nodiscard]] std::string about_drive() const;
 };
 
 // A part in its place: law first, then the effects from the law outwards.
@@ -37,7 +41,7 @@ struct ExportedLink {
   int state;
   int memory;  // of an excite operation; -1: none
 };
-// Throws InputError where the model cannot be written without knowing the future of the drive.
+// Throws InputError where the model needs the drive of a sample and the drive ahead of it.
 std::vector<ExportedLink> links_of(const ExportedModel& exported);
 
 // Samples as simulate sees them.
@@ -48,7 +52,7 @@ struct TestSample {
   double slope;
   double acceleration;
   double jerk;
-  double drive;
+  double drive;  // ahead of the sample by ExportedModel::drive_ahead
 };
 struct TestVector {
   double frequency = 0.0;           // Hz

@@ -29,7 +29,7 @@ std::string guid_of(const std::string& text) {
 std::string model_description(const ExportedModel& exported, const TestVector& vector, const std::string& guid) {
   const double interval =
       vector.samples.size() < 2 ? 1e-3 : vector.samples.back().time / static_cast<double>(vector.samples.size() - 1);
-  const auto input = [](int reference, const char* name, const char* unit, const char* description) {
+  const auto input = [](int reference, const char* name, const char* unit, const std::string& description) {
     const std::string with_unit = *unit == '\0' ? "" : fmt::format(" unit=\"{}\"", unit);
     return fmt::format(
         "    <ScalarVariable name=\"{}\" valueReference=\"{}\" causality=\"input\" variability=\"continuous\" "
@@ -57,7 +57,7 @@ std::string model_description(const ExportedModel& exported, const TestVector& v
   text += fmt::format("  <DefaultExperiment startTime=\"0\" stepSize=\"{}\"/>\n  <ModelVariables>\n", interval);
   text += input(1, "displacement", "m", "displacement of the damper");
   text += input(2, "velocity", "m/s", "its velocity");
-  text += input(3, "drive", "", "current or voltage of the damper, A or V");
+  text += input(3, "drive", "", "current or voltage of the damper, " + exported.about_drive());
   text += input(4, "slope", "m/s2", "slope of the velocity between communication points, unless derived");
   text += input(5, "acceleration", "m/s2", "acceleration that the equations see, unless derived");
   text += input(6, "jerk", "m/s3", "slope of the acceleration, unless derived");

@@ -12,6 +12,7 @@ Export export_modelica(const ExportedModel& exported, const TestVector& vector) 
   std::string package = with_name(runtime::modelica_mo(), exported.name);
   package = replaced(package, "@title@", replaced(title, "\"", "'"));
   package = replaced(package, "@frequency@", literal(vector.frequency));
+  package = replaced(package, "@drive@", exported.about_drive());
   const ModelicaBlock block = modelica_block(exported, vector);
   package = replaced(package, "@damper@", block.text);
   package = replaced(package, "@test@", modelica_test(vector, block));

@@ -64,7 +64,7 @@ class Block {
     text += "    input Real displacement(unit = \"m\");\n    input Real velocity(unit = \"m/s\") \"its derivative\";\n";
     if (block.acceleration) text += "    input Real acceleration(unit = \"m/s2\") \"of the whole damper\";\n";
     if (block.jerk) text += "    input Real jerk(unit = \"m/s3\") \"derivative of the acceleration\";\n";
-    if (block.drive) text += "    input Real drive \"A or V\";\n";
+    if (block.drive) text += fmt::format("    input Real drive \"{}\";\n", exported_.about_drive());
     text += "    output Real force(unit = \"N\");\n";
     text += fmt::format(
         "    parameter Real frequency(unit = \"Hz\") = {} \"of the motion, where parameters follow it\";\n"

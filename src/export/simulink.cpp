@@ -6,8 +6,8 @@ namespace hysteron {
 
 Export export_simulink(const ExportedModel& exported, const TestVector& vector) {
   ExportedFiles files = c_files(exported, vector);
-  files[exported.name + "_sfun.c"] =
-      replaced(with_name(runtime::simulink_c(), exported.name), "@title@", replaced(exported.title(), "*/", "* /"));
+  const std::string code = replaced(with_name(runtime::simulink_c(), exported.name), "@drive@", exported.about_drive());
+  files[exported.name + "_sfun.c"] = replaced(code, "@title@", replaced(exported.title(), "*/", "* /"));
   return {files, "in MATLAB: mex " + exported.name + "_sfun.c " + exported.name + ".c"};
 }
 

@@ -35,6 +35,16 @@ std::string about_steps(const TestVector& vector) {
       100.0 * *vector.off_simulate));
 }
 
+// Where the drive has to be known ahead; else empty.
+std::string about_drive(const ExportedModel& exported) {
+  const double ahead = exported.drive_ahead();
+  return ahead > 0.0
+             ? wrapped(fmt::format("The force leads the drive: give with every sample the drive of {} s after it, as "
+                                   "the test vector does.",
+                                   ahead))
+             : "";
+}
+
 }  // namespace
 
 ModelExport export_model(StoredModel stored, const std::map<std::string, ConditionNumber>& at,
@@ -53,7 +63,7 @@ ModelExport export_model(StoredModel stored, const std::map<std::string, Conditi
   Export written = target.write(exported, vector);
   ModelExport result;
   result.folder = (one_file ? out.parent_path() : out).string();
-  result.note = written.note + "\n" + about_steps(vector);
+  result.note = written.note + "\n" + about_drive(exported) + about_steps(vector);
   if (one_file && written.files.size() == 1) {
     result.files[out.filename().string()] = std::move(written.files.begin()->second);
   } else {

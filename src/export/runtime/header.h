@@ -40,7 +40,7 @@ typedef struct {
   double slope;        /* m/s^2, of the velocity between samples */
   double acceleration; /* m/s^2, what the equations see: as slope, or smoother */
   double jerk;         /* m/s^3, of the acceleration */
-  double drive;        /* A or V */
+  double drive;        /* @drive@ */
 } @name@_input;
 
 /* Holds all there is of a damper: copies are dampers of their own. */

@@ -84,7 +84,7 @@ package @name@ "@title@"
     input Real slope(unit = "m/s2") "of the velocity between samples";
     input Real acceleration(unit = "m/s2");
     input Real jerk(unit = "m/s3");
-    input Real drive "A or V";
+    input Real drive "@drive@";
     input Boolean derive "take slope, acceleration and jerk from the velocity";
     output Real force(unit = "N");
     external "C" force = @name@_external_force(model, instant, displacement, velocity, slope, acceleration, jerk, drive, derive)
@@ -97,7 +97,7 @@ package @name@ "@title@"
     parameter Real frequency(unit = "Hz") = @frequency@ "of the motion, where parameters follow it";
     input Real displacement(unit = "m");
     input Real velocity(unit = "m/s");
-    input Real drive "A or V";
+    input Real drive "@drive@";
     discrete output Real force(unit = "N", start = 0, fixed = true);
   protected
     Model model = Model(frequency);

@@ -1,6 +1,7 @@
 """@title@
 
-Force of a damper from its motion, sample by sample. SI units; nothing but the standard library.
+Force of a damper from its motion, sample by sample. SI units, the drive in @drive@; nothing but the standard
+library.
 
     damper = Damper(frequency=@frequency@)
     for time, x, v, i in samples:

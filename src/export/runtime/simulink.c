@@ -4,7 +4,8 @@
  *
  * Block "S-Function", name @name@_sfun, parameters: sample time [s], frequency of the motion [Hz], 1 to derive the
  * slopes of the motion or 0 to take them from the fourth port.
- * Inputs: displacement [m], velocity [m/s], drive [A or V], [slope of the velocity, acceleration, jerk].
+ * Inputs: displacement [m], velocity [m/s], drive [@drive@],
+ * [slope of the velocity, acceleration, jerk].
  * Output: force [N].
  */
 #define S_FUNCTION_NAME @name@_sfun
