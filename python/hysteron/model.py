@@ -1,6 +1,7 @@
 """Identification, and models that have been identified."""
 
 import json
+import os
 import typing
 
 import numpy
@@ -237,8 +238,6 @@ def simulate_preset(preset, recording, *, drive=None, quantities=None, tolerance
 
 
 def save_files(files, folder):
-    import os
-
     folder = _words.path(folder)
     _hysteron.make_folder(folder)
     for name, content in files.items():
@@ -248,6 +247,9 @@ def save_files(files, folder):
 def load_model(path):
     """Reads a model.json of `hysteron fit` or `hysteron diagnose`."""
     path = _words.path(path)
+    inside = os.path.join(path, "model.json")
+    if os.path.isfile(inside):
+        raise InputError(f"{path}: is a folder, expected the file in it: {inside}")
     try:
         with open(path, "rb") as file:
             text = file.read()

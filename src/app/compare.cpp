@@ -30,8 +30,13 @@ void run(const Options& options) {
   for (const std::string& word : options.words) {
     (std::filesystem::path(word).extension() == ".json" ? files : data.data).push_back(word);
   }
-  if (files.empty() || data.data.empty()) {
-    throw InputError("compare: expected at least one MODEL.json and one recording or folder");
+  if (files.empty()) {
+    const std::filesystem::path inside = std::filesystem::path(data.data.front()) / "model.json";
+    throw InputError("compare: no model among what is given, expected files that end in .json, as " +
+                     (std::filesystem::exists(inside) ? inside.string() : "out/model.json"));
+  }
+  if (data.data.empty()) {
+    throw InputError("compare: models alone are given, expected a recording or a folder of them besides");
   }
   const ObjectiveOptions objective = objective_options(options.common);
   std::vector<ComparedModel> models;

@@ -65,7 +65,9 @@ void add_export(CLI::App& program) {
   auto options = std::make_shared<Options>();
   CLI::App* command = program.add_subcommand("export", "an identified model for use elsewhere, with a test vector");
   command->add_option("MODEL", options->model, "model.json written by fit or diagnose")->required();
-  command->add_option("--to", options->request.to, "c, fmu, simulink, modelica or python")->required();
+  command->add_option("--to", options->request.to, "c, fmu, simulink, modelica or python")
+      ->required()
+      ->check(one_of({"c", "fmu", "simulink", "modelica", "python"}));
   command
       ->add_option("--out", options->request.out,
                    "folder, or the file (.c, .fmu, .py) with its companions beside it; -: standard output for one file")

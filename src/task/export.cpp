@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <string_view>
 
+#include "core/error.hpp"
 #include "export/names.hpp"
 #include "export/targets.hpp"
 #include "io/output.hpp"
@@ -45,6 +48,20 @@ std::string about_drive(const ExportedModel& exported) {
              : "";
 }
 
+// A file of another kind is no folder that somebody wants.
+void refuse_other_file(const std::filesystem::path& out, const ExportTarget& target) {
+  static constexpr std::string_view endings[] = {".c", ".h",  ".fmu", ".zip",  ".slx",
+                                                 ".m", ".mo", ".py",  ".json", ".csv"};
+  const std::string ending = out.extension().string();
+  if (ending.empty() || ending == target.extension || std::ranges::find(endings, ending) == std::end(endings) ||
+      std::filesystem::is_directory(out)) {
+    return;
+  }
+  throw InputError("--out " + out.string() + ": " + std::string(target.id) + " is not written as " + ending +
+                   ", expected a folder" +
+                   (target.extension.empty() ? "" : " or a file that ends in " + std::string(target.extension)));
+}
+
 }  // namespace
 
 ModelExport export_model(StoredModel stored, const std::map<std::string, ConditionNumber>& at,
@@ -57,6 +74,7 @@ ModelExport export_model(StoredModel stored, const std::map<std::string, Conditi
   exported.substeps = request.substeps;
   const bool placed = !request.out.empty() && request.out != "-";
   const std::filesystem::path out(placed ? request.out : "");
+  refuse_other_file(out, target);
   const bool one_file = !target.extension.empty() && out.extension() == target.extension;
   exported.name = name_of(request, stored, one_file ? out.stem().string() : "");
   const TestVector vector = test_vector(exported, motion ? *motion : motion_for_testing());

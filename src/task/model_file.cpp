@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <optional>
 
 #include "core/error.hpp"
@@ -314,7 +315,14 @@ std::vector<int> condition_powers_of(const json& entry, const std::vector<Condit
 
 }  // namespace
 
-StoredModel read_model(const std::string& path) { return parse_model(read_file(path), path); }
+StoredModel read_model(const std::string& path) {
+  std::error_code code;
+  const std::filesystem::path inside = std::filesystem::path(path) / "model.json";
+  if (std::filesystem::is_regular_file(inside, code)) {
+    throw InputError(path, 0, "is a folder, expected the file in it: " + inside.string());
+  }
+  return parse_model(read_file(path), path);
+}
 
 StoredModel parse_model(std::string_view text, const std::string& path) {
   const json root = parse_json(text, path, "expected a model.json written by hysteron");
@@ -323,6 +331,11 @@ StoredModel parse_model(std::string_view text, const std::string& path) {
     throw wrong("no schema, expected \"hysteron.model/1\"");
   }
   if (root["schema"] != "hysteron.model/1") {
+    const auto& schema = root["schema"].get_ref<const std::string&>();
+    if (schema.starts_with("hysteron.") && !schema.starts_with("hysteron.model/")) {
+      throw wrong("schema " + root["schema"].dump() +
+                  " is another kind of result, expected a model.json, which fit and diagnose write beside it");
+    }
     throw wrong("schema " + root["schema"].dump() + " is not known to this version, expected \"hysteron.model/1\"");
   }
   StoredModel result;

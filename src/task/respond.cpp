@@ -31,9 +31,13 @@ bool moves_base(const Recording& recording, Excites excitation) {
   const bool has_force = !recording.force.empty();
   const bool has_base = !ground_of(recording).empty();
   if (excitation == Excites::what_is_recorded && has_force == has_base) {
-    throw InputError(recording.file +
-                     (has_force ? ": holds a force and a displacement of the base, expected --excitation force or base"
-                                : ": holds neither a force nor a base or displacement, expected one of them"));
+    if (has_force) {
+      throw InputError(recording.file +
+                       ": holds a force and a displacement of the base, expected --excitation force or base");
+    }
+    throw InputError(recording.file + ": no force and no base or displacement column" +
+                     (recording.acceleration.empty() ? "" : " (an acceleration is not enough)") +
+                     ", expected one of them, or --column force=NAME or base=NAME");
   }
   const bool base = excitation == Excites::what_is_recorded ? has_base : excitation == Excites::base;
   if (base ? !has_base : !has_force) {

@@ -66,5 +66,26 @@ TEST_F(Exported, NamesThatNoLanguageTakesAreRefused) {
           "error: --out: 'class' is a word of C++, Python and Modelica, expected another file or --name NAME");
 }
 
+TEST_F(Exported, AFileOfAnotherKindIsNoFolder) {
+  for (const auto& [target, out] : {std::pair{"c", "out.h"}, {"fmu", "out.zip"}, {"modelica", "out.mo"}}) {
+    refused({"export", "fitted/model.json", "--to", target, "--out", out},
+            std::string("error: --out ") + out + ": " + target + " is not written as ");
+    EXPECT_FALSE(fs::exists(folder_ / out));
+  }
+}
+
+TEST_F(Exported, WhatIsNoModelIsRefusedWithTheOneThatIs) {
+  refused({"export", "fitted", "--to", "c", "--out", "out"},
+          "error: fitted: is a folder, expected the file in it: fitted/model.json\n");
+  refused({"export", "fitted/fit.json", "--to", "c", "--out", "out"},
+          "is another kind of result, expected a model.json, which fit and diagnose write beside it\n");
+  refused({"compare", "fitted", "data", "--out", "out"}, "expected files that end in .json, as fitted/model.json\n");
+  refused({"compare", "fitted/model.json", "fitted/model.json", "--out", "out"}, "models alone are given");
+  testing::write(folder_ / "shaker.csv",
+                 "time [s],Kraft [N]\n0,1\n0.1,2\n0.2,3\n0.3,1\n0.4,1\n0.5,2\n0.6,3\n0.7,1\n0.8,2\n");
+  refused({"respond", "fitted/model.json", "shaker.csv", "--mass", "1", "--out", "out"},
+          "shaker.csv: no force and no base or displacement column, expected one of them, or --column force=NAME");
+}
+
 }  // namespace
 }  // namespace hysteron
