@@ -72,6 +72,12 @@ concept IsSeries = requires {
   &M::template yield<double>;
 };
 
+// Stands behind a law, never alone: laws have neither. An effect with none of both has a march that nobody asks for.
+template <class M>
+concept IsEffect = HasLoadedRate<M> || requires {
+  M::knowledge;
+};
+
 template <class M>
 constexpr int settling_state() {
   if constexpr (Settles<M>) {
@@ -226,7 +232,7 @@ constexpr PartOperations<T> operations() {
   } else {
     result.force = [](const T*, const T*, const Input<T>&, T&) {};
   }
-  if constexpr (!HasLoadedRate<M> && !std::is_same_v<T, Trace>) {
+  if constexpr (!IsEffect<M> && !std::is_same_v<T, Trace>) {
     result.march = [](const Motion& motion, const T* p, std::size_t stride, std::size_t begin, std::size_t end,
                       T* state, T* out) { march<T>(Fused<M>{}, motion, p, stride, begin, end, state, out); };
   }

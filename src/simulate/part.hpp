@@ -102,7 +102,7 @@ struct PartOperations {
   void (*excite)(const T* p, T* memory, double elapsed, T& drive) = nullptr;
   // March of this part alone over samples [begin, end): writes force of sample n to out[n - begin], and leaves the
   // state of sample `end` in `state`. Parameters of sample n stand at p + (n - begin) * stride, those of sample `end`
-  // too where the motion has one; between samples the mean of both acts. Stride 0 is constant.
+  // too where the motion has one; between samples the mean of both acts. Stride 0 is constant. Effects have none.
   void (*march)(const Motion& motion, const T* p, std::size_t stride, std::size_t begin, std::size_t end, T* state,
                 T* out) = nullptr;
 };
