@@ -354,6 +354,20 @@ template <int N, class T, class Chain>
   return true;
 }
 
+// Advances the state over a segment in as many sub-steps as the stiffness asks for.
+template <int N, class T, class Chain>
+[[gnu::always_inline]] inline void enough_sub_steps(const Chain& system, const T* p, int states, const Segment& segment,
+                                                    StateArray<T, N>& state) {
+  const double finer = fineness(segment.motion, segment.n);
+  const value_t<T> count = segment.count(system.stiffness(p, segment.interval().speed), finer);
+  if (fewer_sub_steps<N, T>(system, p, states, segment, finer, count, state)) return;
+  const auto rate = [&](const StateArray<T, N>& s, const Input<T>& in, StateArray<T, N>& rates, const auto& /*active*/)
+      __attribute__((always_inline)) {
+    system.rate(p, s.data(), in, rates.data());
+  };
+  sub_steps<N, T>(rate, states, segment, count, nullptr, state);
+}
+
 // Advances the state over the part [from, to] of interval n.
 template <class T, class Chain>
 [[gnu::noinline, gnu::flatten]] void march_segment(const Chain& system, const Motion& motion, std::size_t n,
@@ -362,19 +376,38 @@ template <class T, class Chain>
   constexpr int N = fixed_states<Chain>();
   const int states = system.states();
   const Parameters<T, Chain> copy(parameters);
-  const T* p = copy.data();
-  const Segment segment{motion, n, from, to - from};
-  const double finer = fineness(motion, n);
-  const value_t<T> count = segment.count(system.stiffness(p, segment.interval().speed), finer);
   StateArray<T, N> state;
   for_states<N>(
       states, [&](auto i) __attribute__((always_inline)) { state[i] = result[i]; });
-  if (!fewer_sub_steps<N, T>(system, p, states, segment, finer, count, state)) {
-    const auto rate = [&](const StateArray<T, N>& s, const Input<T>& in, StateArray<T, N>& rates,
-                          const auto& /*active*/) __attribute__((always_inline)) {
-      system.rate(p, s.data(), in, rates.data());
-    };
-    sub_steps<N, T>(rate, states, segment, count, nullptr, state);
+  enough_sub_steps<N, T>(system, copy.data(), states, Segment{motion, n, from, to - from}, state);
+  for_states<N>(
+      states, [&](auto i) __attribute__((always_inline)) { result[i] = state[i]; });
+}
+
+// march_constant over samples [begin, end), several of them so that what depends on parameters alone is computed once,
+// and apart from its loop, which would be short of registers beside this one.
+template <class T, class Chain>
+[[gnu::noinline, gnu::flatten]] void march_in_segments(const Chain& system, const Motion& motion,
+                                                       const T* __restrict parameters, std::size_t begin,
+                                                       std::size_t end, T* __restrict result, T* __restrict out) {
+  constexpr int N = fixed_states<Chain>();
+  const int states = system.states();
+  const Parameters<T, Chain> copy(parameters);
+  const T* p = copy.data();
+  StateArray<T, N> state;
+  for_states<N>(
+      states, [&](auto i) __attribute__((always_inline)) { state[i] = result[i]; });
+  for (std::size_t n = begin; n < end; ++n) {
+    out[n - begin] = system.force(p, state.data(), input_of_sample<T>(motion, n));
+    if (n >= motion.intervals.size()) continue;
+    // Up to a reversal and from it.
+    const MotionInterval& interval = motion.intervals[n];
+    double from = 0.0;
+    for (int part = 0; part < (interval.reversal ? 2 : 1); ++part) {
+      const double to = part == 0 ? interval.reversal_at : 1.0;
+      enough_sub_steps<N, T>(system, p, states, Segment{motion, n, from, to - from}, state);
+      from = to;
+    }
   }
   for_states<N>(
       states, [&](auto i) __attribute__((always_inline)) { result[i] = state[i]; });
@@ -431,28 +464,32 @@ template <class T, class Chain>
       single = !any(system.stiffness(p, speed) * Value(length * coarseness(motion, length) / motion.step_limit) >
                     Value(1.0));
     }
+    const auto in_segments = [&](std::size_t from, std::size_t to) {
+      store();
+      march_in_segments<T>(system, motion, parameters, from, to, result, out + (from - begin));
+      load();
+    };
+    if (!single) {
+      in_segments(first, last);
+      continue;
+    }
     for (std::size_t n = first; n < last; ++n) {
+      if (n < intervals && near_reversal(motion, n)) {
+        in_segments(n, n + 1);
+        continue;
+      }
       const Input<T> start = input_of_sample<T>(motion, n);
       out[n - begin] = system.force(p, state.data(), start);
-      if (n >= intervals) {
-        continue;
-      }
+      if (n >= intervals) continue;
       const MotionInterval& interval = motion.intervals[n];
-      if (single && !near_reversal(motion, n)) {
-        StateArray<T, N> k1;
-        StateArray<T, N> next;
-        Stages<T, N> stages;
-        rate(state, start, k1);
-        advance<N, T>(rate, states, Value(interval.length), k1, input_stored<T>(motion, n, 0.5, interval.middle),
-                      input_stored<T>(motion, n, 1.0, interval.end), state, stages, next);
-        for_states<N>(
-            states, [&](auto i) __attribute__((always_inline)) { state[i] = next[i]; });
-        continue;
-      }
-      store();
-      between_reversals(
-          interval, [&](double from, double to) { march_segment<T>(system, motion, n, from, to, parameters, result); });
-      load();
+      StateArray<T, N> k1;
+      StateArray<T, N> next;
+      Stages<T, N> stages;
+      rate(state, start, k1);
+      advance<N, T>(rate, states, Value(interval.length), k1, input_stored<T>(motion, n, 0.5, interval.middle),
+                    input_stored<T>(motion, n, 1.0, interval.end), state, stages, next);
+      for_states<N>(
+          states, [&](auto i) __attribute__((always_inline)) { state[i] = next[i]; });
     }
   }
   store();
