@@ -255,13 +255,15 @@ std::string page_of(const std::deque<Row>& rows, const std::deque<Limit>& limits
       "multiply-adds in the same rounds: {:.1f} GFLOP/s.\n\n"
       "## Beside kernels written by hand\n\n"
       "`bench/fused_kernels.cpp` has the two hystereses written out: classical Runge-Kutta with one step a sample, "
-      "whatever that\nloses, sums contracted to fused multiply-adds, one pack of candidates at a time or two side by "
-      "side; the faster counts. The\nmarch of the program takes the steps that its tolerance asks for, lands on "
-      "reversals, and contracts nothing, so that results\nare the same with every instruction set. *Difference*: "
-      "largest one of the forces, over the largest force; it is what single steps\nlose. *Per step*: share of the "
-      "limit if the march had taken one step a sample too.\n\n"
-      "| law | n | x_y mm | by hand, candidates/s | of peak % | difference | steps a sample | march, candidates/s | of "
-      "the limit % | per step % |\n|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n",
+      "whatever that\nloses, products and sums contracted to fused multiply-adds, one pack of eight candidates at a "
+      "time or two side by side; the\nfaster counts. The march of the program takes the steps that its tolerance asks "
+      "for and lands on reversals; it rounds every\nproduct of the equations, so that results are the same with every "
+      "instruction set; and it marches one pack at a time, which\nwaits for its own last result. "
+      "*Difference*: largest one of the forces, over the largest force; it is what single\nsteps lose. *Per step*: "
+      "share of the limit if the march had taken one step a sample too.\n\n"
+      "| law | n | x_y mm | by hand, one pack, candidates/s | the faster, candidates/s | of peak % | difference | "
+      "steps a sample | march, candidates/s | of the limit % | per step % |\n"
+      "|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n",
       rounds, samples, rate, frequency, 1e3 * amplitude, rounds, vector_bytes, 1e-9 * median_of(peak.speeds));
   for (const Limit& limit : limits) {
     const Timed& fastest = limit.fastest();
@@ -269,10 +271,11 @@ std::string page_of(const std::deque<Row>& rows, const std::deque<Limit>& limits
     const double share = 100.0 * median_ratio(limit.general, fastest);
     // The hand-written kernel's own arithmetic: that of one step a sample.
     const double operations = limit.work.operations_of_step;
-    text += fmt::format("| {} | {:g} | {:g} | {:.0f} | {:.0f} | {:.0e} | {:.2f} | {:.0f} | {:.0f} | {:.0f} |\n",
-                        limit.model.law->id, limit.knee, 1e3 * limit.yield, median_of(fastest.speeds),
-                        share_of_peak(fastest, operations), limit.difference, steps, median_of(limit.general.speeds),
-                        share, share * steps);
+    text +=
+        fmt::format("| {} | {:g} | {:g} | {:.0f} | {:.0f} | {:.0f} | {:.0e} | {:.2f} | {:.0f} | {:.0f} | {:.0f} |\n",
+                    limit.model.law->id, limit.knee, 1e3 * limit.yield, median_of(limit.one_pack.speeds),
+                    median_of(fastest.speeds), share_of_peak(fastest, operations), limit.difference, steps,
+                    median_of(limit.general.speeds), share, share * steps);
   }
   text += fmt::format(
       "\n## All laws\n\n"
