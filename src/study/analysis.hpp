@@ -14,10 +14,4 @@ namespace hysteron {
 // rankings are those of the largest budget of the plan.
 [[nodiscard]] nlohmann::json analyse(const nlohmann::json& plan, const std::vector<RunRecord>& records);
 
-// Time by solver and problem, apart because it varies between identical studies. The expected time to the first target
-// is the expected run time in `analysis` times the time of an evaluation.
-[[nodiscard]] nlohmann::json analyse_times(const nlohmann::json& plan, const nlohmann::json& analysis,
-                                           const std::vector<RunRecord>& records,
-                                           const std::vector<RunTiming>& timings);
-
 }  // namespace hysteron

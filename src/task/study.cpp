@@ -9,6 +9,7 @@
 #include "study/export.hpp"
 #include "study/identifiability.hpp"
 #include "study/stored_plan.hpp"
+#include "study/times.hpp"
 #include "task/json_text.hpp"
 
 namespace hysteron {
