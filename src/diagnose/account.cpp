@@ -103,6 +103,26 @@ std::string sizes_text(const std::vector<ParameterInterval>& parameters, std::si
   return joined(values, " and ");
 }
 
+namespace {
+
+// What a name has to do with the law that took the place of the one asked for; empty where none did.
+std::string sentence_of_law(const Diagnosis& diagnosis, const Named& named) {
+  const std::string law = law_instead(diagnosis.search);
+  if (law.empty()) {
+    return {};
+  }
+  const std::string taken = law + ", which takes the place of " + diagnosis.search.base.what.model + ",";
+  if (!named.of_law) {
+    return " All this behind " + taken.substr(0, taken.size() - 1) + ".";
+  }
+  if (named.in_place_of) {
+    return " It is set in the place of a part that " + taken + " has of its own: " + title_of(*named.in_place_of) + ".";
+  }
+  return " " + taken + " has it as a part of its own.";
+}
+
+}  // namespace
+
 std::string sentence_of(const Diagnosis& diagnosis, const Named& named,
                         const std::vector<ParameterInterval>& parameters) {
   std::vector<std::string> values;
@@ -152,7 +172,7 @@ std::string sentence_of(const Diagnosis& diagnosis, const Named& named,
     }
     text += ". " + sentence_of_robustness(named, "it");
   }
-  return text + ".";
+  return text + "." + sentence_of_law(diagnosis, named);
 }
 
 std::string sentence_of_robustness(const Named& named, std::string_view it) {

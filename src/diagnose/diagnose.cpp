@@ -184,7 +184,6 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const Split& split
   diagnosis.verdict = std::move(judgement.verdict);
   diagnosis.contrasts = std::move(judgement.contrasts);
   diagnosis.drive = drive_kind_of(campaign.recordings);
-  const std::string instead = law_instead(diagnosis.search);
   const std::vector<Named> names = listed(diagnosis.verdict);
   score_on_all(diagnosis.search, named_of(names, false), diagnosis.bench);
   if (diagnosis.asked) {
@@ -207,12 +206,7 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const Split& split
   for (const Named& named : names) {
     const Fit& fit = fit_of(diagnosis, named);
     diagnosis.parameters.push_back(judgement.estimates->intervals(fit, named.id));
-    diagnosis.sentences.push_back(
-        sentence_of(diagnosis, named, diagnosis.parameters.back()) +
-        (instead.empty() ? ""
-         : named.of_law
-             ? " " + instead + ", which takes the place of " + options.model + ", has it as a part of its own."
-             : " All this behind " + instead + ", which takes the place of " + options.model + "."));
+    diagnosis.sentences.push_back(sentence_of(diagnosis, named, diagnosis.parameters.back()));
   }
   for (const Named& named : names) {
     diagnosis.views.push_back(

@@ -27,23 +27,42 @@ std::vector<Extension> effects_but(const Extension& part, const std::vector<std:
   return result;
 }
 
+// The fit of `law` alone, of those at hand.
+const Fit* fit_of_law(const std::string& law, const Search& asked) {
+  if (asked.base.what.model == law) return &asked.quick_base;
+  const auto at = std::ranges::find_if(asked.other_laws, [&](const Fit& fit) {
+    return fit.what == Hypothesis{law, {}, {}};
+  });
+  return at == asked.other_laws.end() ? nullptr : &*at;
+}
+
 }  // namespace
 
 void take_parts_of_law(Search& behind_law, const Search& asked, const Workbench& quick, const SearchOptions& options,
                        const SearchProgress& progress) {
   const Fit& full = behind_law.quick_augmented;
   const std::string& law = full.what.model;
-  const Hypothesis less = behind(asked.base.what.model, full.what);
+  const std::string& lacking = asked.base.what.model;
   for (const std::string& id : options.candidates) {
     const Extension part = effect_extension(id);
-    if (rest_of_law(id, law) != asked.base.what.model || contains(full.what, part)) {
+    const std::string rest = rest_of_law(id, law);
+    if (rest.empty() || is_part_of(id, lacking) || contains(full.what, part)) {
+      continue;
+    }
+    const Fit* rest_alone = fit_of_law(rest, asked);
+    if (rest_alone == nullptr) {
       continue;
     }
     progress(0.0, "what " + law + " gains by " + name_of(part));
     Found found;
     found.part = part;
     found.of_law = law;
-    found.without = quick.from_fit(less, full, fitting_rounds, &asked.quick_augmented);
+    const Hypothesis less = behind(rest, full.what);
+    found.without = quick.from_fit(less, full, fitting_rounds, rest_alone);
+    if (rest == lacking) {
+      Fit from_asked = quick.from_fit(less, full, fitting_rounds, &asked.quick_augmented);
+      if (from_asked.cost < found.without.cost) found.without = std::move(from_asked);
+    }
     found.gain = squared(found.without.cost) - squared(full.cost);
     if (found.gain <= 0.0) {
       continue;
@@ -51,7 +70,7 @@ void take_parts_of_law(Search& behind_law, const Search& asked, const Workbench&
     found.evidence = evidence(squared(found.without.cost), squared(full.cost),
                               static_cast<double>(full.dimension()) - static_cast<double>(found.without.dimension()),
                               behind_law.independent);
-    found.alone = squared(asked.quick_base.cost) - squared(behind_law.quick_base.cost);
+    found.alone = squared(rest_alone->cost) - squared(behind_law.quick_base.cost);
     progress(0.5, "setting " + name_of(part) + " against its rivals");
     for (const Tried& tried : stage(quick, found.without, effects_but(part, options.candidates), behind_law.independent,
                                     nullptr, effects_but(part, relatives(id)))) {
