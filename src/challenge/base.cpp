@@ -68,7 +68,8 @@ WrongBase wrong_base_for(Law law, const Stream& stream) {
       if (draws.chance(0.5)) return {"bingham", {"pre-yield-hysteresis", "linear-stiffness", "coulomb-friction"}};
       return {"hyperbolic-tangent", {"pre-yield-hysteresis"}};
     case Law::modified_bouc_wen:
-      return {"bouc-wen", {"series-dashpot", "linear-stiffness"}};
+      if (draws.chance(0.5)) return {"bouc-wen", {"series-dashpot", "linear-stiffness"}};
+      return {"bingham", {"series-dashpot", "linear-stiffness", "pre-yield-hysteresis", "coulomb-friction"}};
     case Law::lugre:
       return {"bouc-wen", {"seal-friction", "coulomb-friction", "pre-yield-hysteresis"}};
     case Law::tanh_hysteresis:
