@@ -45,7 +45,7 @@ using Matrix = Eigen::MatrixXd;
 constexpr int parts = 10;
 constexpr double ridge = 3.0;  // of standardised weights
 constexpr int iterations = 4000;
-constexpr std::size_t pieces = 3;  // of the log odds over the score
+constexpr std::size_t default_pieces = 3;  // of the log odds over the score
 // What the channels of a recording show without a model.
 const std::string channel_effect = "velocity-lag";
 
@@ -249,7 +249,8 @@ std::vector<double> lengths_up_to(const std::vector<double>& ends, double score)
 }
 
 // The log odds of being right over the scores of campaigns not seen.
-std::vector<hysteron::Knot> knots_of(const std::vector<Row>& rows, const std::vector<double>& scores) {
+std::vector<hysteron::Knot> knots_of(const std::vector<Row>& rows, const std::vector<double>& scores,
+                                     std::size_t pieces = default_pieces) {
   std::vector<double> sorted = scores;
   std::ranges::sort(sorted);
   std::vector<double> ends;
@@ -418,42 +419,114 @@ struct Judged {
   }
 };
 
-std::string page_of_others(const std::string& title, const std::vector<Row>& rows) {
+// A folder of campaigns, and what was learned from all others.
+struct LeftOutFolder {
+  std::string folder;
+  std::vector<Row> others;
+  Logistic logistic;
+  std::vector<double> scores;  // of the others, each by a function that did not know it
+
+  [[nodiscard]] std::vector<double> probabilities(const std::vector<Row>& rows, std::size_t pieces) const {
+    const std::vector<hysteron::Knot> knots = knots_of(others, scores, pieces);
+    static constexpr double one[] = {1.0};
+    const hysteron::Table table{0.0, one, knots};
+    std::vector<double> result(rows.size());
+    std::ranges::transform(rows, result.begin(), [&](const Row& row) {
+      const double score = logistic.score(row);
+      return table.probability(std::span(&score, 1));
+    });
+    return result;
+  }
+};
+
+std::vector<LeftOutFolder> left_out_in_turn(const std::vector<Row>& rows) {
   std::set<std::string> folders;
   for (const Row& row : rows) {
     folders.insert(folder_of(row));
   }
-  if (folders.size() < 2) {
-    return {};
+  std::vector<LeftOutFolder> result;
+  for (const std::string& folder : folders) {
+    LeftOutFolder one{folder, {}, {}, {}};
+    std::ranges::copy_if(rows, std::back_inserter(one.others),
+                         [&](const Row& row) { return folder_of(row) != folder; });
+    std::vector<const Row*> all(one.others.size());
+    std::ranges::transform(one.others, all.begin(), [](const Row& row) { return &row; });
+    one.logistic = learned(all);
+    one.scores = unseen_scores(one.others);
+    result.push_back(std::move(one));
   }
+  return result;
+}
+
+std::vector<Row> of_folder(const std::vector<Row>& rows, const std::string& folder) {
+  std::vector<Row> result;
+  std::ranges::copy_if(rows, std::back_inserter(result), [&](const Row& row) { return folder_of(row) == folder; });
+  return result;
+}
+
+std::string page_of_others(const std::string& title, const std::vector<Row>& rows,
+                           const std::vector<LeftOutFolder>& left_out) {
   std::string text = fmt::format(
       "\n## {}: each folder judged by a table learned from the others\n\nLogarithmic loss of a name, probabilities "
       "between 1 and 99 %; names that are right of those stated, and how many were promised.\n\n"
       "| folder | names | loss | {:.2f} and more | {:.2f} and more |\n|---|--:|--:|--:|--:|\n",
       title, hysteron::supported_from, hysteron::established_from);
-  Judged all;
-  for (const std::string& folder : folders) {
-    std::vector<Row> others;
-    std::ranges::copy_if(rows, std::back_inserter(others), [&](const Row& row) { return folder_of(row) != folder; });
-    const Learned learned = learned_table("name", "", others);
-    const std::span<const double> weights(learned.logistic.weights.data(),
-                                          static_cast<std::size_t>(learned.logistic.weights.size()));
-    std::vector<hysteron::Offset> offsets;
-    for (const auto& [effect, offset] : learned.logistic.offsets) {
-      offsets.push_back({effect, offset});
-    }
-    const hysteron::Table table{learned.logistic.intercept, weights, learned.knots, offsets};
-    Judged judged;
-    for (const Row& row : rows) {
-      if (folder_of(row) == folder) {
-        const double probability = table.probability(row.features, row.id);
-        judged.add(probability, row.right);
-        all.add(probability, row.right);
+  std::string of_pieces =
+      "\nThe same of all, with so many straight pieces of the log odds:\n\n"
+      "| pieces | names | loss | " +
+      fmt::format("{:.2f} and more | {:.2f} and more", hysteron::supported_from, hysteron::established_from) +
+      " |\n|---|--:|--:|--:|--:|\n";
+  for (const std::size_t pieces : {1, 2, 3, 4, 6}) {
+    Judged all;
+    for (const LeftOutFolder& one : left_out) {
+      const std::vector<Row> own = of_folder(rows, one.folder);
+      const std::vector<double> probabilities = one.probabilities(own, pieces);
+      Judged judged;
+      for (std::size_t k = 0; k < own.size(); ++k) {
+        judged.add(probabilities[k], own[k].right);
+        all.add(probabilities[k], own[k].right);
+      }
+      if (pieces == default_pieces) {
+        text += judged.line(one.folder);
       }
     }
-    text += judged.line(folder);
+    if (pieces == default_pieces) {
+      text += all.line("all");
+    }
+    of_pieces += all.line(std::to_string(pieces));
   }
-  return text + all.line("all");
+  return text + of_pieces;
+}
+
+// What names and sets would be stated if a set had to be so much surer than its first member to be told in its place.
+std::string page_of_sets(const Rows& rows, const std::vector<LeftOutFolder>& alone,
+                         const std::vector<LeftOutFolder>& names) {
+  std::string text = fmt::format(
+      "\n## A name or its set\n\nWhat would be stated with {:.2f} and more, each folder judged by tables learned from "
+      "the others, if a set had to be so much surer than the effect that was found to be told in its place.\n\n"
+      "| surer by | names, right | names, wrong | sets, right | sets, wrong |\n|--:|--:|--:|--:|--:|\n",
+      hysteron::supported_from);
+  for (const double worth : {0.0, 0.05, hysteron::worth_of_a_set, 0.15, 0.2, 1.0}) {
+    std::array<std::array<std::size_t, 2>, 2> stated{};  // name or set, right or wrong
+    for (std::size_t f = 0; f < alone.size(); ++f) {
+      const std::vector<Row> own = of_folder(rows.alone, alone[f].folder);
+      const std::vector<Row> own_sets = of_folder(rows.names, alone[f].folder);
+      const std::vector<double> of_one = alone[f].probabilities(own, default_pieces);
+      const std::vector<double> of_set = names[f].probabilities(own_sets, default_pieces);
+      for (std::size_t k = 0; k < own.size(); ++k) {
+        const bool single = own[k].features.back() == 1.0;
+        const double all = std::max(of_one[k], of_set[k]);
+        const bool told_alone = single || hysteron::stands_alone(of_one[k], all, worth);
+        const double confidence = told_alone ? of_one[k] : all;
+        if (confidence >= hysteron::supported_from) {
+          ++stated[told_alone ? 0 : 1][(told_alone ? own[k].right : own_sets[k].right) ? 0 : 1];
+        }
+      }
+    }
+    text += fmt::format("| {:.2f}{} | {} | {} | {} | {} |\n", worth, worth == hysteron::worth_of_a_set ? " (used)" : "",
+                        stated[0][0], stated[0][1], stated[1][0], stated[1][1]);
+  }
+  return text;
 }
 
 int run(int argc, char** argv) {
@@ -504,9 +577,15 @@ int run(int argc, char** argv) {
   }
   std::vector<hysteron::Feature> alone_features(hysteron::name_features.begin(), hysteron::name_features.end());
   alone_features.push_back(hysteron::of_set);
-  page += page_of(tables[0], alone_features) + page_of_others("One name", rows.alone) +
-          page_of(tables[1], hysteron::name_features) + page_of_others("A name or its set", rows.names) +
-          page_of(tables[2], hysteron::missing_features);
+  std::vector<LeftOutFolder> alone;
+  std::vector<LeftOutFolder> names;
+  if (folders.size() > 1) {
+    alone = left_out_in_turn(rows.alone);
+    names = left_out_in_turn(rows.names);
+  }
+  page += page_of(tables[0], alone_features) + page_of_others("One name", rows.alone, alone) +
+          page_of(tables[1], hysteron::name_features) + page_of_others("A name or its set", rows.names, names) +
+          page_of_sets(rows, alone, names) + page_of(tables[2], hysteron::missing_features);
   const double told = (static_cast<double>(rows.told_rightly) + 0.5) / (static_cast<double>(rows.told) + 1.0);
   page += fmt::format(
       "\n## The channels tell it without a model\n\nThe contrast of a lag between velocity and displacement speaks in "

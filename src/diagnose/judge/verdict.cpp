@@ -14,10 +14,6 @@ namespace {
 // better.
 constexpr double structure_over_noise = 0.3;
 
-// By this much probability a set must be surer than the one effect that was found, to be told in its place: a wrong
-// name is as bad as ten sets in the place of names.
-constexpr double worth_of_a_set = 0.1;
-
 bool structure_remains(const Left& left) {
   return left.structure > structure_over_noise * std::max(left.squares - left.structure, 1e-300);
 }
@@ -45,9 +41,7 @@ std::vector<Named> named(std::size_t index, const Evidence& evidence) {
   if (candidate.as_channels) {
     others.clear();
   }
-  const bool listed_alike =
-      (first.alone >= supported_from) == (of_all >= supported_from) && first.alone >= suggested_from;
-  if (listed_alike && of_all - first.alone <= worth_of_a_set) {
+  if (stands_alone(first.alone, of_all, worth_of_a_set)) {
     for (const Contender* other : others) {
       first.less_likely.push_back(other->id);
     }
@@ -122,6 +116,11 @@ double unknown_share(const Verdict& verdict, const Evidence& evidence) {
 }
 
 }  // namespace
+
+bool stands_alone(double alone, double of_all, double worth) {
+  const bool listed_alike = (alone >= supported_from) == (of_all >= supported_from) && alone >= suggested_from;
+  return listed_alike && of_all - alone <= worth;
+}
 
 const Evidence& evidence_for(const Named& named, const Evidence& evidence) {
   return named.behind_asked ? evidence.behind_asked.front() : evidence;

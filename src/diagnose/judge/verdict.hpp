@@ -40,6 +40,14 @@ struct Named {
   bool behind_asked = false;  // judged by what was found behind the law asked for
 };
 
+// By this much probability a set must be surer than the one effect that was found, to be told in its place: a wrong
+// name is as bad as ten sets in the place of names. What other worths would do: results/grades.md.
+inline constexpr double worth_of_a_set = 0.1;
+
+// Whether an effect is told alone: it would be listed by the probability `alone` that it is in the truth as well as by
+// that of its set, which is at most `worth` surer.
+bool stands_alone(double alone, double of_all, double worth);
+
 // The evidence that a name was judged by, and the candidate there.
 const Evidence& evidence_for(const Named& named, const Evidence& evidence);
 const Candidate& candidate_of(const Named& named, const Evidence& evidence);
