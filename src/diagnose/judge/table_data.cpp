@@ -4,79 +4,79 @@
 namespace hysteron {
 namespace {
 
-constexpr double alone_weights[] = {1.197, 0.8397, 2.488, 4.233, 1.623, 1.604, 1.373, 0.852, 0.4307, 1.066};
+constexpr double alone_weights[] = {1.042, 0.8603, 2.514, 4.148, 1.614, 1.707, 1.915, 0.8505, 0.4819, 1.209};
 constexpr Offset alone_offsets[] = {
-    {"asymmetry", -0.365},
-    {"cavitation", 0.495},
-    {"clearance", 0.98},
-    {"coil-lag", 1.27},
-    {"compliance", -0.0715},
-    {"coulomb-friction", -0.74},
-    {"cubic-stiffness", 0.467},
-    {"degradation", -1.42},
-    {"end-stop", -1.44},
-    {"entrapped-gas", -0.176},
-    {"force-drift", -0.194},
-    {"gas-spring", -0.713},
-    {"inertia", 0.325},
-    {"linear-stiffness", 0.796},
-    {"magnetic-remanence", 0.465},
-    {"magnetic-saturation", 0.88},
-    {"offset-force", -0.551},
-    {"pinching", -0.331},
-    {"pre-yield-hysteresis", 0.445},
-    {"quadratic-damping", 0.144},
-    {"seal-friction", -0.132},
-    {"self-heating", -1.13},
-    {"sensor-delay", -0.423},
-    {"series-dashpot", 0.548},
-    {"shear-thinning", -0.478},
-    {"stiction", -0.277},
-    {"velocity-lag", 2.24},
+    {"asymmetry", -0.444},
+    {"cavitation", 0.637},
+    {"clearance", 1.11},
+    {"coil-lag", 1.23},
+    {"compliance", -0.11},
+    {"coulomb-friction", -0.634},
+    {"cubic-stiffness", 0.32},
+    {"degradation", -1.34},
+    {"end-stop", -1.48},
+    {"entrapped-gas", -0.279},
+    {"force-drift", -0.103},
+    {"gas-spring", -0.804},
+    {"inertia", 0.2},
+    {"linear-stiffness", 0.966},
+    {"magnetic-remanence", 0.451},
+    {"magnetic-saturation", 1.28},
+    {"offset-force", -0.888},
+    {"pinching", -0.511},
+    {"pre-yield-hysteresis", 0.365},
+    {"quadratic-damping", 0.0739},
+    {"seal-friction", -0.0151},
+    {"self-heating", -1.18},
+    {"sensor-delay", -0.453},
+    {"series-dashpot", 0.511},
+    {"shear-thinning", -0.593},
+    {"stiction", -0.171},
+    {"velocity-lag", 2.44},
+    {"viscous-damping", -0.504},
+};
+constexpr Knot alone_knots[] = {{-9.367, -5.058}, {-1.137, -1.111}, {1.363, 1.17}, {5.991, 6.816}};
+constexpr double alone_intercept = -13.601;
+
+constexpr double name_weights[] = {1.389, 0.7927, 2.165, 2.39, 1.495, 1.92, 1.879, 0.8872, 0.6292};
+constexpr Offset name_offsets[] = {
+    {"asymmetry", -0.552},
+    {"cavitation", 0.615},
+    {"clearance", 0.539},
+    {"coil-lag", 1.2},
+    {"compliance", -0.293},
+    {"coulomb-friction", -0.764},
+    {"cubic-stiffness", 0.23},
+    {"degradation", 0.36},
+    {"end-stop", -1.03},
+    {"entrapped-gas", 0.238},
+    {"force-drift", -0.183},
+    {"gas-spring", -1.01},
+    {"inertia", 0.124},
+    {"linear-stiffness", 1.16},
+    {"magnetic-remanence", 0.614},
+    {"magnetic-saturation", 1.37},
+    {"offset-force", -1.01},
+    {"pinching", -0.922},
+    {"pre-yield-hysteresis", 0.113},
+    {"quadratic-damping", 0.101},
+    {"seal-friction", 0.0639},
+    {"self-heating", -1.31},
+    {"sensor-delay", -0.619},
+    {"series-dashpot", 0.321},
+    {"shear-thinning", -0.841},
+    {"stiction", 0.226},
+    {"velocity-lag", 2.05},
     {"viscous-damping", -0.525},
 };
-constexpr Knot alone_knots[] = {{-8.716, -4.396}, {-1.009, -1.066}, {1.318, 1.151}, {5.71, 6.412}};
-constexpr double alone_intercept = -13.025;
+constexpr Knot name_knots[] = {{-8.219, -3.732}, {-0.6482, -0.9118}, {1.761, 1.737}, {5.999, 7.044}};
+constexpr double name_intercept = -10.832;
 
-constexpr double name_weights[] = {1.576, 0.8418, 2.151, 2.626, 1.444, 1.828, 1.367, 0.8858, 0.5975};
-constexpr Offset name_offsets[] = {
-    {"asymmetry", -0.453},
-    {"cavitation", 0.691},
-    {"clearance", 0.46},
-    {"coil-lag", 1.2},
-    {"compliance", -0.289},
-    {"coulomb-friction", -0.91},
-    {"cubic-stiffness", 0.382},
-    {"degradation", 0.564},
-    {"end-stop", -1.12},
-    {"entrapped-gas", 0.119},
-    {"force-drift", -0.318},
-    {"gas-spring", -0.896},
-    {"inertia", 0.243},
-    {"linear-stiffness", 0.949},
-    {"magnetic-remanence", 0.653},
-    {"magnetic-saturation", 1.04},
-    {"offset-force", -0.691},
-    {"pinching", -0.811},
-    {"pre-yield-hysteresis", 0.19},
-    {"quadratic-damping", 0.245},
-    {"seal-friction", -0.0452},
-    {"self-heating", -1.35},
-    {"sensor-delay", -0.598},
-    {"series-dashpot", 0.319},
-    {"shear-thinning", -0.617},
-    {"stiction", -0.0634},
-    {"velocity-lag", 1.9},
-    {"viscous-damping", -0.564},
-};
-constexpr Knot name_knots[] = {{-7.742, -3.577}, {-0.5558, -0.8214}, {1.811, 1.816}, {5.835, 6.367}};
-constexpr double name_intercept = -10.615;
+constexpr double missing_weights[] = {2.448, 1.787, 0.8122, 1.967, 1.866, 1.534};
+constexpr Knot missing_knots[] = {{-1.797, -1.927}, {-0.1575, 0.1006}, {5.89, 5.452}, {16.68, 7.382}};
+constexpr double missing_intercept = -1.7487;
 
-constexpr double missing_weights[] = {2.2, 1.759, 0.7425, 1.884, 1.739, 1.527};
-constexpr Knot missing_knots[] = {{-1.677, -1.787}, {-0.2822, -0.05568}, {5.476, 5.121}, {15.63, 7.225}};
-constexpr double missing_intercept = -1.6221;
-
-constexpr double of_channels = 0.9848;
+constexpr double of_channels = 0.9872;
 
 }  // namespace
 
