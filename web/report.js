@@ -602,7 +602,8 @@ function modelSection() {
     list(model.equations).length ? el("pre", { class: "equations", tabindex: 0, "aria-label": "Equations" }, model.equations.join("\n")) : null,
     list(report.effects).length ? el("p", {}, "Effects added to the model: ", report.effects.map((e, i) => [i ? ", " : "", el("code", {}, e)]).flat(), ".") : null,
     model.reference ? el("p", { class: "muted" }, "Source: ", model.reference) : null,
-    parameters.length ? plainTable("Identified values. The bar shows the value and its interval between the search bounds (logarithmic where they are positive and far apart).", columns, rows) : null);
+    parameters.length ? plainTable("Identified values. The bar shows the value and its interval between the search bounds (logarithmic where they are positive and far apart).", columns, rows) : null,
+    report.on_bounds ? el("p", {}, `${report.on_bounds}.`) : null);
 }
 
 // --------------------------------------------------------------------------------------------------------------- solvers

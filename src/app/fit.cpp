@@ -96,7 +96,9 @@ void tell(const FitResult& fit, const FitData& data, const FitOptions& options) 
                   narrow_table({"solver", "NRMSE fit", "held out", "evaluations", "diverged", "stopped"}, table_rows)));
   table_rows.clear();
   for (const Estimate& estimate : result.estimates) {
-    std::string remark = estimate.at_bound ? "at " + *estimate.at_bound + " bound" : "";
+    std::string remark = estimate.at_limit   ? "at its limit"
+                         : estimate.at_bound ? "at " + *estimate.at_bound + " bound"
+                                             : "";
     if (!estimate.identifiable) {
       remark += (remark.empty() ? "" : ", ") + std::string("not identifiable");
     }
@@ -105,6 +107,7 @@ void tell(const FitResult& fit, const FitData& data, const FitOptions& options) 
                           remark});
   }
   say(fmt::format("{}\n", table({"parameter", "value", "std error", "unit", "remark"}, table_rows)));
+  if (!result.bounds_met.empty()) say(wrapped(printable(result.bounds_met)) + "\n");
   table_rows.clear();
   for (std::size_t k = 0; k < fit.scores.size(); ++k) {
     table_rows.push_back({campaign.recordings[k].file, format_number(fit.scores[k].nrmse, 4),

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "core/unit_text.hpp"
+#include "fit/bounds_met.hpp"
 #include "fit/curvature_directions.hpp"
 #include "fit/free_coordinates.hpp"
 #include "fit/identify.hpp"
@@ -136,11 +137,13 @@ void add_estimates(Identification& result, const Uncertainty& uncertainty, const
     bool law_open = false;
     bool law_free = false;
     std::optional<std::string> bound;
+    bool limit = true;
     for (std::size_t k = 0; k < count; ++k) {
       const double position = u[law.first + k];
       law_open = law_open || uncertainty.open[law.first + k];
       if (on_bound(position)) {
         bound = position < 0.5 ? "lower" : "upper";
+        limit = limit && is_limit(layout.cards()[law.parameter], position > 0.5);
       } else {
         law_free = true;
       }
@@ -158,6 +161,7 @@ void add_estimates(Identification& result, const Uncertainty& uncertainty, const
       estimate.lower = card.box.lower;
       estimate.upper = card.box.upper;
       estimate.at_bound = bound;
+      estimate.at_limit = bound && limit;
       estimate.identifiable = !law_open;
       const auto row = static_cast<Eigen::Index>(t);
       // A term all of whose nodes sit on bounds has no error to state, not the error zero.
@@ -183,6 +187,7 @@ void estimate(Identification& result, const Objective& objective, const std::vec
     const Response derivatives = objective.evaluate({u, true});
     result.correlations = correlations(derivatives, u);
     result.sensitivities = sensitivities(objective.layout(), derivatives, measured_square(objective.targets()), u);
+    result.bounds_met = bounds_text(objective.layout(), derivatives, u, drive_kind);
     uncertainty = uncertainty_of(objective.layout(), derivatives,
                                  static_cast<double>(objective.samples()) * (1.0 - r) / (1.0 + r), u,
                                  [&](const std::vector<Eigen::Index>& free) { return jackknife(objective, u, free); });
@@ -195,6 +200,7 @@ void estimate(Identification& result, const Objective& objective, const std::vec
 void estimate(Identification& result, const Response& derivatives, double independent, const std::vector<double>& u,
               DriveKind drive_kind) {
   result.correlations = correlations(derivatives, u);
+  result.bounds_met = bounds_text(result.layout, derivatives, u, drive_kind);
   add_estimates(result,
                 uncertainty_of(result.layout, derivatives, independent, u,
                                [](const std::vector<Eigen::Index>&) { return std::optional<Jackknife>(); }),

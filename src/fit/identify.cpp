@@ -124,10 +124,6 @@ std::vector<std::string> warnings_of(const std::vector<Estimate>& estimates) {
     if (!estimate.term.constant()) {
       continue;
     }
-    if (estimate.at_bound) {
-      result.push_back("parameter " + estimate.name + " sits on its " + *estimate.at_bound +
-                       " bound: the data want it outside the box, or do not need it");
-    }
     if (!estimate.identifiable) {
       result.push_back("parameter " + estimate.name + " is not identifiable from these recordings");
     }

@@ -33,6 +33,7 @@ struct Estimate {
   std::optional<double> std_error;      // absent when the data do not determine it
   std::optional<double> half_width;     // of the 95 % interval, at least 1.96 std_error; absent likewise
   std::optional<std::string> at_bound;  // "lower" or "upper": the node value that sits on the box
+  bool at_limit = false;  // the bound is the end of what the parameter can be at all, not of its search range only
   bool identifiable = true;
   double lower;
   double upper;
@@ -63,6 +64,7 @@ struct Identification {
   std::optional<RunResult> final_run = {};
   std::string final_stage = {};
   std::vector<std::string> warnings = {};
+  std::string bounds_met = {};  // bounds_text of the final point
   // At the final point; absent and empty where an interruption came before them.
   std::optional<Correlations> correlations = {};
   std::vector<ScaledSensitivity> sensitivities = {};
@@ -92,7 +94,8 @@ Identification identify(const Campaign& campaign, const std::string& model, cons
 double residual_correlation(const Objective& objective, const std::vector<Term>& terms);
 
 // Estimates of every searched term at a point: value, standard error, bounds met, identifiability. Sets
-// result.estimates, correlations and sensitivities; result.layout and result.terms must be those of the point.
+// result.estimates, bounds_met, correlations and sensitivities; result.layout and result.terms must be those of the
+// point.
 void estimate(Identification& result, const Objective& objective, const std::vector<double>& point,
               DriveKind drive_kind);
 // The same of another objective: from its cost and derivatives at the point, and how many independent samples it sums
@@ -100,7 +103,7 @@ void estimate(Identification& result, const Objective& objective, const std::vec
 void estimate(Identification& result, const Response& derivatives, double independent, const std::vector<double>& point,
               DriveKind drive_kind);
 
-// What a reader has to be told of estimates: on a bound, or not identifiable.
+// What a reader has to be warned of in estimates: not identifiable. On a bound: Identification::bounds_met.
 std::vector<std::string> warnings_of(const std::vector<Estimate>& estimates);
 
 }  // namespace hysteron

@@ -237,6 +237,7 @@ json fit_json(const FitResult& fit, const FitData& data, const FitRequest& reque
           {"stages", fit.two_stages ? stages_json(*fit.two_stages, result, campaign) : json(nullptr)},
           {"response", fit.response ? response_json(*fit.response, *request.rig) : json(nullptr)},
           {"warnings", fit.warnings},
+          {"on_bounds", result.bounds_met},
           {"provenance", fit.model_file["provenance"]}};
 }
 

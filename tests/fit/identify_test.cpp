@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "fit/bounds_met.hpp"
 #include "synthetic.hpp"
 
 namespace hysteron {
@@ -370,15 +371,50 @@ TEST(AtBound, IsRaisedWhenTheTruthIsOutsideAndOnlyThen) {
   EXPECT_EQ(estimate_of(result, "k0").at_bound, "lower");
   EXPECT_FALSE(estimate_of(result, "f0").at_bound.has_value());
   EXPECT_FALSE(estimate_of(result, "c0").std_error.has_value());
-  EXPECT_EQ(std::ranges::count_if(result.warnings, [](const auto& text) { return text.find("bound") != text.npos; }),
-            2);
+  EXPECT_FALSE(estimate_of(result, "c0").at_limit);
+  EXPECT_TRUE(result.warnings.empty());
+  EXPECT_NE(result.bounds_met.find("c0 (1e+03 N s/m) and k0 (2e+04 N/m) are at the ends of their search ranges"),
+            std::string::npos)
+      << result.bounds_met;
+  EXPECT_NE(result.bounds_met.find("--bounds c0=0:1e+04 --bounds k0=2e+03:3e+04"), std::string::npos)
+      << result.bounds_met;
   options.layout.bounds.clear();
   const Identification inside = identify(viscous_campaign(5.0), "viscous", options, {});
+  EXPECT_TRUE(inside.bounds_met.empty()) << inside.bounds_met;
   for (const Estimate& estimate : inside.estimates) {
     EXPECT_FALSE(estimate.at_bound.has_value()) << estimate.name;
     EXPECT_TRUE(estimate.identifiable) << estimate.name;
     EXPECT_TRUE(estimate.std_error.has_value()) << estimate.name;
   }
+}
+
+// The step from the bound is exact where the force is affine in the parameters.
+TEST(AtBound, WhatTheRangeCostsIsWhatTheWiderFitGains) {
+  const Campaign campaign = viscous_campaign(5.0);
+  IdentifyOptions options;
+  options.budget = 1000;
+  const Identification wide = identify(campaign, "viscous", options, {});
+  options.layout.bounds = {{"c0", {0.0, 2900.0}}, {"k0", {12500.0, 30000.0}}};
+  const Identification narrow = identify(campaign, "viscous", options, {});
+  std::vector<double> point;
+  for (std::size_t c = 0; c < narrow.layout.dimension(); ++c) {
+    point.push_back(narrow.layout.unit(c, narrow.estimates[c].term.value));
+  }
+  const Objective objective(narrow.layout, campaign.recordings, options.objective);
+  const std::optional<double> beyond = cost_beyond_bounds(narrow.layout, objective.evaluate({point, true}), point);
+  ASSERT_TRUE(beyond.has_value());
+  EXPECT_GT(narrow.cost, 1.5 * wide.cost);
+  EXPECT_NEAR(*beyond, wide.cost, 1e-9);
+}
+
+TEST(AtBound, TheEndOfWhatAParameterCanBeIsNoMatterOfTheRange) {
+  IdentifyOptions options;
+  options.budget = 1000;
+  const Identification result = identify(viscous_campaign(5.0, -100.0), "viscous", options, {});
+  EXPECT_EQ(estimate_of(result, "c0").at_bound, "lower");
+  EXPECT_TRUE(estimate_of(result, "c0").at_limit);
+  EXPECT_NE(result.bounds_met.find("c0 is 0 N s/m, the least it can be"), std::string::npos) << result.bounds_met;
+  EXPECT_EQ(result.bounds_met.find("--bounds"), std::string::npos) << result.bounds_met;
 }
 
 TEST(Identifiable, TwoOffsetsInOneModelAreFlaggedAndTheRestIsNot) {
