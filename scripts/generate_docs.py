@@ -18,7 +18,7 @@ KINDS = {
     "effects": ("Effects", "Physical effects that go behind a law with `--effects`, nearest to the law first."),
     "solvers": ("Solvers", "Identification algorithms. How to choose: [solvers.md](../solvers.md)."),
 }
-OPTIONAL = ("pagmo:*",)
+OPTIONAL = ("minpack:*", "pagmo:*")
 SCALED = ("Bounds and defaults are those of the reference device (1 kN peak force, 25 mm half stroke, 0.3 m/s); an "
           "identification scales them to the recordings, see [models.md](../models.md#the-box).")
 

@@ -19,8 +19,9 @@ namespace hysteron::support {
 
 // What the library's thread is told of one point.
 struct Answer {
-  double cost;                   // ordered, never NaN
-  std::vector<double> gradient;  // J^T r, empty unless asked for
+  double cost;                       // ordered, never NaN
+  std::vector<double> gradient;      // J^T r, empty unless asked for
+  std::vector<double> gauss_newton;  // J^T J, likewise
 };
 
 class ForeignSolver : public Solver {
@@ -61,8 +62,11 @@ class ForeignSolver : public Solver {
       const std::lock_guard lock(mutex_);
       if (!asked_ || response.cost.empty()) return;
       const auto d = static_cast<std::ptrdiff_t>(point_.size());
-      answer_ = Answer{ordered_cost(response.cost[0]), {}};
-      if (derivatives_) answer_->gradient.assign(response.gradient.begin(), response.gradient.begin() + d);
+      answer_ = Answer{ordered_cost(response.cost[0]), {}, {}};
+      if (derivatives_) {
+        answer_->gradient.assign(response.gradient.begin(), response.gradient.begin() + d);
+        answer_->gauss_newton.assign(response.gauss_newton.begin(), response.gauss_newton.begin() + d * d);
+      }
       asked_ = false;
     }
     changed_.notify_all();

@@ -229,7 +229,8 @@ TEST_P(SolverContract, EvaluatesTheStartItIsGiven) {
     for (std::size_t d = 0; d < 3; ++d) farthest = std::max(farthest, std::fabs(points[first + d] - problem.start[d]));
     nearest = std::min(nearest, farthest);
   }
-  EXPECT_LE(nearest, entry().id == "cma-es" ? 0.6 : 0.0);
+  // The sine of minpack rounds.
+  EXPECT_LE(nearest, entry().id == "cma-es" ? 0.6 : entry().id == "minpack:lmder" ? 1e-15 : 0.0);
 }
 
 // Targets in terms of the sum of squares; the cost told to the solver is its root.
