@@ -67,6 +67,9 @@ std::string reproduction_markdown(const PublishedTable& entry, const Reproductio
     text += "\n## " + one.title + "\n\n" + (one.note.empty() ? "" : one.note + "\n\n") +
             markdown_table(one.header, one.rows);
   }
+  for (const ReproducedPicture& picture : result.pictures) {
+    text += fmt::format("\n## {}\n\n![{}]({}.svg)\n", picture.title, picture.title, picture.id);
+  }
   text += list("## As published", result.remade);
   text += list("## Not as published", result.not_remade);
   return text;
@@ -133,6 +136,9 @@ void run(const Options& options) {
     const StudyView view = view_of(store, std::move(records), out);
     write_study_report(out, out, view, {});
     write_file_atomically(out / (options.table + ".md"), reproduction_markdown(*entry, result, used));
+    for (const ReproducedPicture& picture : result.pictures) {
+      write_file_atomically(out / (picture.id + ".svg"), picture.svg);
+    }
     write_file_atomically(out / (options.table + ".json"), json_text(reproduction_json(*entry, result, used)));
   }
   if (options.json) {
@@ -142,6 +148,9 @@ void run(const Options& options) {
   fmt::print("{}\n{}\n{} seeds, {} evaluations a run\n\n", entry->title, entry->source, used.seeds, used.budget);
   for (const StudyTable& one : result.tables) fmt::print("{}\n{}\n", one.title, table(one.header, one.rows));
   for (const std::string& line : result.findings) fmt::print("{}\n", line);
+  for (const ReproducedPicture& picture : result.pictures) {
+    fmt::print("picture: {}\n", options.out.empty() ? "with --out DIR" : (out / (picture.id + ".svg")).string());
+  }
   fmt::print("{}{}", list("As published:", result.remade), list("Not as published:", result.not_remade));
 }
 

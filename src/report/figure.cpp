@@ -70,7 +70,7 @@ std::vector<double> ticks(const Axis& axis) {
     step = factor * power >= raw ? factor * power : step;
   }
   for (double k = std::ceil(axis.low / step); k * step <= axis.high; k += 1.0) {
-    result.push_back(k * step);
+    result.push_back(k * step + 0.0);  // no negative zero
   }
   return result;
 }
@@ -90,6 +90,33 @@ std::string curve_path(const FigureCurve& curve, const Axis& x, const Axis& y) {
     before = point;
   }
   return path;
+}
+
+// Curves with a label, on white that lets the others through, in a corner of the frame that ends at `end`.
+std::string legend_svg(const FigurePanel& panel, double end) {
+  std::size_t longest = 0;
+  std::size_t count = 0;
+  for (const FigureCurve& curve : panel.curves) {
+    longest = std::max(longest, curve.label.size());
+    count += curve.label.empty() ? 0 : 1;
+  }
+  if (count == 0) return {};
+  const double wide = 32.0 + 5.6 * static_cast<double>(longest);
+  const double high = 6.0 + 14.0 * static_cast<double>(count);
+  const double begin = end - wide - 3.0;
+  const double upper = panel.corner == LegendCorner::upper_right ? top + 3.0 : panel_height - bottom - high - 3.0;
+  std::string out = fmt::format(
+      "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"#fff\" opacity=\"0.75\"/>\n", begin,
+      upper, wide, high);
+  double line = upper + 14.0;
+  for (const FigureCurve& curve : panel.curves) {
+    if (curve.label.empty()) continue;
+    out += fmt::format("<path class=\"c\" stroke=\"{}\" stroke-width=\"{:.1f}\" d=\"M{:.1f} {:.1f}h16\"/>\n",
+                       curve.colour, curve.width, begin + 4.0, line - 4.0);
+    out += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", begin + 25.0, line, html_escape(curve.label));
+    line += 14.0;
+  }
+  return out;
 }
 
 std::string panel_svg(const FigurePanel& panel, double offset) {
@@ -114,6 +141,7 @@ std::string panel_svg(const FigurePanel& panel, double offset) {
     out += fmt::format("<path class=\"c\" stroke=\"{}\" stroke-width=\"{:.1f}\" d=\"{}\"/>\n", curve.colour,
                        curve.width, curve_path(curve, x, y));
   }
+  out += legend_svg(panel, x.end);
   text(0.5 * (x.begin + x.end), panel_height - 8.0, "middle", panel.x_label);
   out += fmt::format("<text transform=\"translate({:.1f} {:.1f}) rotate(-90)\" text-anchor=\"middle\">{}</text>\n",
                      offset + 12.0, 0.5 * (top + panel_height - bottom), html_escape(panel.y_label));
@@ -122,16 +150,23 @@ std::string panel_svg(const FigurePanel& panel, double offset) {
 
 }  // namespace
 
-std::string figure_svg(const std::vector<FigurePanel>& panels, const std::string& description) {
-  const double width = panel_width * static_cast<double>(panels.size());
+std::string figure_svg(const std::vector<FigurePanel>& panels, const std::string& description, std::size_t columns) {
+  const std::size_t across = columns == 0 ? panels.size() : std::min(columns, panels.size());
+  const std::size_t down = (panels.size() + across - 1) / across;
+  const double width = panel_width * static_cast<double>(across);
+  const double height = panel_height * static_cast<double>(down);
   std::string out = fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:.0f} {1:.0f}\" width=\"{0:.0f}\" height=\"{1:.0f}\" "
       "role=\"img\" aria-label=\"{2}\">\n<style>text{{font:11px sans-serif;fill:#222}}.g{{stroke:#ddd}}"
       ".f{{fill:none;stroke:#888}}.c{{fill:none;stroke-linejoin:round}}</style>\n"
       "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n",
-      width, panel_height, html_escape(description));
+      width, height, html_escape(description));
   for (std::size_t k = 0; k < panels.size(); ++k) {
-    out += panel_svg(panels[k], panel_width * static_cast<double>(k));
+    const std::string panel = panel_svg(panels[k], panel_width * static_cast<double>(k % across));
+    const std::size_t row = k / across;
+    out += row == 0 ? panel
+                    : fmt::format("<g transform=\"translate(0 {:.0f})\">\n{}</g>\n",
+                                  panel_height * static_cast<double>(row), panel);
   }
   return out + "</svg>\n";
 }

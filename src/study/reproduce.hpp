@@ -18,11 +18,19 @@ struct ReproduceOptions {
   std::vector<std::string> data;  // recordings instead of the stand-in, for tables that can
 };
 
+// A figure of the paper made again, as an SVG file of its own.
+struct ReproducedPicture {
+  std::string id;  // name of the file
+  std::string title;
+  std::string svg;
+};
+
 struct Reproduction {
   std::vector<StudyTable> tables;
   std::vector<std::string> findings;    // what the numbers say
   std::vector<std::string> remade;      // what is as published
   std::vector<std::string> not_remade;  // what is not, and why
+  std::vector<ReproducedPicture> pictures = {};
 };
 
 struct PublishedTable {
@@ -57,12 +65,22 @@ Study pso_table_v(const ReproduceOptions& options);
 Study pso_table_vi(const ReproduceOptions& options);
 Study pso_table_vii(const ReproduceOptions& options);
 Study pso_table_viii(const ReproduceOptions& options);
+Study pso_figure_6(const ReproduceOptions& options);
+Study pso_figure_7(const ReproduceOptions& options);
+Study pso_figure_8(const ReproduceOptions& options);
 Study pso_figure_9(const ReproduceOptions& options);
+Study pso_figure_10(const ReproduceOptions& options);
+Study pso_figure_11(const ReproduceOptions& options);
 Reproduction pso_table_v_result(const Plan& plan, const std::vector<RunRecord>& records);
 Reproduction pso_table_vi_result(const Plan& plan, const std::vector<RunRecord>& records);
 Reproduction pso_table_vii_result(const Plan& plan, const std::vector<RunRecord>& records);
 Reproduction pso_table_viii_result(const Plan& plan, const std::vector<RunRecord>& records);
+Reproduction pso_figure_6_result(const Plan& plan, const std::vector<RunRecord>& records);
+Reproduction pso_figure_7_result(const Plan& plan, const std::vector<RunRecord>& records);
+Reproduction pso_figure_8_result(const Plan& plan, const std::vector<RunRecord>& records);
 Reproduction pso_figure_9_result(const Plan& plan, const std::vector<RunRecord>& records);
+Reproduction pso_figure_10_result(const Plan& plan, const std::vector<RunRecord>& records);
+Reproduction pso_figure_11_result(const Plan& plan, const std::vector<RunRecord>& records);
 
 Study least_squares_table_2(const ReproduceOptions& options);
 Reproduction least_squares_table_2_result(const Plan& plan, const std::vector<RunRecord>& records);

@@ -1,6 +1,7 @@
 // What the tables and the figure of the PSO paper share.
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,8 @@ inline constexpr const char* full_model = "modified-bouc-wen+offset-force";
                          const std::vector<std::string>& conditions);
 // Whether the study is on the twin, not on recordings given.
 [[nodiscard]] bool on_twin(const Plan& plan);
+// beta, gamma, A, k1, k0, c0, c1, f0 of a run of the full model with n = 1, at the paper's alpha of 80.
+[[nodiscard]] std::array<double, 8> paper_parameters(const RunRecord& run);
 // What is and is not as published in everything that is made on the twin or on recordings given, whatever the solver.
 void say_of_data(const Plan& plan, Reproduction& result);
 

@@ -16,6 +16,7 @@
 #include <nlohmann/json.hpp>
 
 #include "fit/objective.hpp"
+#include "report/figure.hpp"
 #include "report/terminal.hpp"
 #include "study/quantile.hpp"
 #include "study/reproduce_pso.hpp"
@@ -206,6 +207,32 @@ std::string quartile(std::vector<double> values, double share) {
   return values.empty() ? "-" : format_number(quantile(values, share), 3);
 }
 
+// Errors from order 1 up; the paper's third curve, the computation time, is that of a machine.
+ReproducedPicture error_picture(const std::vector<double>& curve_fitting, const std::vector<double>& through,
+                                const std::vector<double>& jointly) {
+  const auto curve = [](const std::vector<double>& errors, const char* colour, const char* label) {
+    FigureCurve result;
+    result.colour = colour;
+    result.label = label;
+    for (std::size_t k = 0; k < errors.size(); ++k) {
+      if (!std::isfinite(errors[k])) continue;
+      result.x.push_back(static_cast<double>(k + 1));
+      result.y.push_back(errors[k]);
+    }
+    return result;
+  };
+  FigurePanel of_parameters{
+      "order", "curve fitting error", {curve(curve_fitting, "#0072b2", "through the conditions")}};
+  FigurePanel of_force{
+      "order",
+      "force NRMSE, median",
+      {curve(through, "#0072b2", "through the conditions"), curve(jointly, "#d55e00", "fitted to all at once")}};
+  of_parameters.corner = LegendCorner::upper_right;
+  of_force.corner = LegendCorner::upper_right;
+  return {"figure-9", "Errors against the order of the polynomials",
+          figure_svg({of_parameters, of_force}, "Curve fitting error and force error against the order")};
+}
+
 std::vector<double> nrmse_of(const Total& total) {
   std::vector<double> result;
   for (const Misfit& one : total.each) {
@@ -215,6 +242,13 @@ std::vector<double> nrmse_of(const Total& total) {
 }
 
 }  // namespace
+
+std::array<double, 8> pso::paper_parameters(const RunRecord& run) {
+  const Theta theta = paper_form(json::parse(run.parameters));
+  std::array<double, 8> result{};
+  std::ranges::copy(theta, result.begin());
+  return result;
+}
 
 Study pso_figure_9(const ReproduceOptions& options) {
   Study study = pso::base(options, "figure-9", {});
@@ -252,6 +286,7 @@ Reproduction pso_figure_9_result(const Plan& plan, const std::vector<RunRecord>&
       {}};
   // The smallest budgets are those of tests.
   const std::size_t most = std::min<std::size_t>(60, std::max<std::size_t>(2, plan.study.budgets.front() / 5));
+  std::vector<double> curve_fitting;
   std::vector<double> through;
   std::vector<double> jointly;
   Surface before;
@@ -285,6 +320,7 @@ Reproduction pso_figure_9_result(const Plan& plan, const std::vector<RunRecord>&
     before = joint.surface;
     const std::vector<double> own = nrmse_of(as_published);
     const std::vector<double> all = nrmse_of(joint.total);
+    curve_fitting.push_back(std::sqrt(squares / count));
     through.push_back(own.empty() ? std::numeric_limits<double>::infinity() : quantile(own, 0.5));
     jointly.push_back(all.empty() ? std::numeric_limits<double>::infinity() : quantile(all, 0.5));
     table.rows.push_back({std::to_string(order), std::to_string(terms), format_number(std::sqrt(squares / count), 3),
@@ -293,6 +329,7 @@ Reproduction pso_figure_9_result(const Plan& plan, const std::vector<RunRecord>&
                           std::to_string(joint.total.broken), std::to_string(joint.simulations)});
   }
   result.tables.push_back(std::move(table));
+  result.pictures.push_back(error_picture(curve_fitting, through, jointly));
   if (!direct.empty()) {
     result.findings.push_back(fmt::format("Identified condition by condition, without polynomials: median NRMSE {}.",
                                           format_number(quantile(direct, 0.5), 3)));

@@ -31,6 +31,11 @@ TEST_P(Table, CanBeMade) {
   EXPECT_FALSE(result.findings.empty());
   EXPECT_FALSE(result.remade.empty());
   EXPECT_FALSE(result.not_remade.empty());
+  for (const ReproducedPicture& picture : result.pictures) {
+    EXPECT_TRUE(picture.svg.starts_with("<svg")) << picture.id;
+    EXPECT_EQ(picture.svg.find("nan"), std::string::npos) << picture.id;
+  }
+  EXPECT_EQ(result.pictures.size(), GetParam().starts_with("figure") ? 1U : 0U);
   for (const StudyTable& table : result.tables) {
     EXPECT_FALSE(table.rows.empty()) << table.id;
     for (const auto& row : table.rows) {
@@ -41,9 +46,9 @@ TEST_P(Table, CanBeMade) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Table,
-                         ::testing::Values("table-v", "table-vi", "table-vii", "table-viii", "figure-9",
-                                           "least-squares-table-2", "lm-table-1", "nelder-mead-tables",
-                                           "review-polynomials"),
+                         ::testing::Values("table-v", "table-vi", "table-vii", "table-viii", "figure-6", "figure-7",
+                                           "figure-8", "figure-9", "figure-10", "figure-11", "least-squares-table-2",
+                                           "lm-table-1", "nelder-mead-tables", "review-polynomials"),
                          [](const auto& row) {
                            std::string name = row.param;
                            std::ranges::replace(name, '-', '_');
@@ -51,7 +56,7 @@ INSTANTIATE_TEST_SUITE_P(All, Table,
                          });
 
 // What `list tables` names is what is tested above.
-TEST(Tables, AreAllTested) { EXPECT_EQ(published_tables().size(), 9U); }
+TEST(Tables, AreAllTested) { EXPECT_EQ(published_tables().size(), 14U); }
 
 // Table V of so many conditions and seeds, by runs that are far too short.
 Reproduction table_v_of(std::size_t conditions, std::size_t seeds) {
