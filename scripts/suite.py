@@ -3,8 +3,9 @@
 
   scripts/suite.py [BINARY] [--budgets 100:3,1000:1] [--long 10000:1] [--without DATA,MODEL] [--threads N]
 
-BUDGET:SEEDS each. Runs bench/studies/suite.toml once a budget, without the data and models of those labels, and at the long budget the
-part of it that its file names in a comment line "# long: models ...; recordings ...". The records stay in
+BUDGET:SEEDS each. Runs bench/studies/suite.toml once a budget, without the data and models of those labels, with the solvers
+of its comment line "# where built: ..." that the program has, and at the long budget the part of it that its file names in a
+comment line "# long: models ...; recordings ...". The records stay in
 build/results/suite; rerun the command to resume.
 """
 import argparse
@@ -25,6 +26,13 @@ parser.add_argument("--threads", type=int, default=0)
 options = parser.parse_args()
 
 source = (root / "bench/studies/suite.toml").read_text(encoding="utf-8")
+optional = re.search(r"^# where built: (.*)$", source, flags=re.M)[1].split()
+listed = json.loads(subprocess.run([options.binary, "list", "solvers", "--json"], check=True, capture_output=True, text=True).stdout)
+known = {row["id"] for row in listed}
+added = [name for name in optional if name in known]
+missing = [name for name in optional if name not in known]
+quoted = "".join(f', "{name}"' for name in added)
+source = re.sub(r"^(solvers = \[[^\]]*)\]", lambda found: f"{found[1]}{quoted}]", source, flags=re.M)
 out = root / "build/results/suite"
 out.mkdir(parents=True, exist_ok=True)
 reference = "random-search"
@@ -216,6 +224,8 @@ lines = ["# Solvers on a suite of problems", "",
          "recordings, of which none chose a default), defaults as shipped. Every budget is a study of its own, as several solvers "
          "set their population by the budget." +
          (f" Left out of the study for their length: {options.without.replace(',', ', ')}." if options.without else "") +
+         (f" The rows {', '.join(added)} are solvers of libraries that a build may be without." if added else "") +
+         (f" Not in this build and left out: {', '.join(missing)}." if missing else "") +
          ("" if not options.long else
           f" {results[-1][0]} evaluations: the part of the suite that is cheap enough, {len(results[-1][2]['problems'])} problems."), "",
          "A problem is a block: each solver counts once a problem, with its median over the seeds. Places are those of "
