@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds everything and runs all tests; words given go to ctest. Reports are also looked at in
+# Installs what is missing, builds everything and runs all tests; words given go to ctest. Then ratios of times, which no
+# test measures, have to lie within their bounds (docs/development.md). Reports are also looked at in
 # headless Chromium where it is installed, and so is the page of scripts/browser.sh where it was made; screenshots are then in
 # out/pages.
 set -euo pipefail
@@ -10,6 +11,7 @@ scripts/setup.sh libopenmpi-dev openmpi-bin pybind11-dev python3-dev python3-num
 cmake --preset release -DHYSTERON_TESTS=ON -DHYSTERON_BENCH=ON -DHYSTERON_PYTHON=ON
 cmake --build --preset release
 ctest --preset release --no-tests=error "$@"
+build/release/bench/hysteron_ratios
 # 77: no Chromium, which has been said.
 scripts/check_reports.py build/release/hysteron out/pages || [ $? -eq 77 ]
 scripts/check_browser.py build/release/hysteron build/browser/hysteron.html out/pages || [ $? -eq 77 ]
