@@ -122,10 +122,11 @@ std::string bounds_text(const Layout& layout, const Response& derivatives, const
     text += (text.empty() ? "" : "; ") + joined(ends) + (one ? " is at the end of its" : " are at the ends of their") +
             " search range" + (one ? "" : "s");
     if (const std::optional<double> beyond = cost_beyond_bounds(layout, derivatives, u)) {
-      const std::string now = number_text(derivatives.cost[0]);
-      const std::string then = number_text(*beyond);
-      text += now == then ? ", which costs no error that shows (NRMSE " + now + ")"
-                          : ", beyond which the NRMSE would go from " + now + " to " + then + ", to first order";
+      // A share: where steps are coarse the NRMSE of the derivatives is not that of the table.
+      const double falls = 1.0 - *beyond / derivatives.cost[0];
+      text += falls < 0.005
+                  ? ", which costs no error that shows"
+                  : ", beyond which the NRMSE would fall by about " + number_text(std::round(100.0 * falls)) + " %";
     }
     text += "; wider with" + options;
   }
