@@ -99,15 +99,15 @@ VelocityFault velocity_fault_of(const Recording& recording) {
 
 double noise_share_of_velocity(const Recording& recording) {
   double squares = 0.0;
-  std::size_t moving = 0;
+  std::size_t in_motion = 0;
   for (const double v : recording.velocity) {
     squares += squared(v);
-    moving += v != 0.0 ? 1 : 0;
+    in_motion += v != 0.0 ? 1 : 0;
   }
   if (!(squares > 0.0)) return 0.0;
   const double noise = recording.velocity_measured ? channel_noise(recording.time, recording.velocity)
                                                    : derived_velocity_noise(recording.time, recording.displacement);
-  return std::min(squared(noise) * static_cast<double>(moving) / squares, 1.0);
+  return std::min(squared(noise) * static_cast<double>(in_motion) / squares, 1.0);
 }
 
 }  // namespace hysteron
