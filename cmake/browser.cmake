@@ -12,8 +12,9 @@ add_compile_options(-nostdinc++ "SHELL:-isystem ${PROJECT_SOURCE_DIR}/browser/st
 # Linked one by one into a folder of their own: beside them stand headers of the machine's C library.
 set(headers "${PROJECT_BINARY_DIR}/headers")
 file(MAKE_DIRECTORY "${headers}")
-foreach(header fmt/core.h nlohmann/json.hpp toml++/toml.h Random123/philox.h boost/version.hpp Eigen/Core)
-  get_filename_component(folder "${header}" DIRECTORY)
+foreach(header fmt/core.h nlohmann/json.hpp toml++/toml.h Random123/philox.h boost/version.hpp Eigen/Core
+    unsupported/Eigen/FFT)
+  string(REGEX REPLACE "/.*" "" folder "${header}")
   find_path(HYSTERON_HEADERS_${folder} NAMES "${header}" PATHS /usr/include /usr/include/eigen3
     NO_DEFAULT_PATH NO_CMAKE_FIND_ROOT_PATH)
   if(NOT HYSTERON_HEADERS_${folder})
