@@ -193,7 +193,7 @@ void run(const Options& options) {
   if (options.out.empty()) throw InputError("--out is required");
   refuse_standard_output(options.out, "campaigns, diagnoses and their score");
   const std::filesystem::path out(options.out);
-  const bool hidden = !options.data.empty();
+  const bool hidden = options.score_only ? challenge::is_hidden_in_recordings(out) : !options.data.empty();
   // What is wrong with the options is said before a folder is made.
   for (const auto* list : {&options.choice.only, &options.choice.without, &options.choice.foreign}) {
     for (const std::string& id : *list) static_cast<void>(challenge::hidden_form(id));

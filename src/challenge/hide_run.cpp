@@ -22,6 +22,8 @@ namespace {
 
 using nlohmann::json;
 
+constexpr const char* hidden_answers = "hysteron.hidden-answers/1";  // schema
+
 std::string campaign_name(std::size_t number) { return fmt::format("campaign-{:04}", number); }
 
 std::string csv_of(const Recording& recording) {
@@ -241,12 +243,14 @@ std::string hide_all(const std::filesystem::path& out, const Campaign& campaign,
                        {"share", one.share},
                        {"parameters", parameters}});
   }
-  return seal({{"schema", "hysteron.hidden-answers/1"},
+  return seal({{"schema", hidden_answers},
                {"seed", seed},
                {"base_residual_n", sized ? json(left) : json(nullptr)},
                {"campaigns", answers}},
               out);
 }
+
+bool is_hidden_in_recordings(const std::filesystem::path& out) { return open_seal(out).at("schema") == hidden_answers; }
 
 json score_hidden(const std::filesystem::path& out, const std::string& hash) {
   const json answers = open_seal(out, hash);

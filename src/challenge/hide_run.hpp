@@ -36,6 +36,9 @@ using BaseResidual = std::function<double(const std::filesystem::path& data)>;
 std::string hide_all(const std::filesystem::path& out, const Campaign& campaign, const std::vector<HideTask>& tasks,
                      std::uint64_t seed, const BaseResidual& residual = {});
 
+// Whether the sealed answers of a folder are of effects hidden in recordings. Throws InputError where there are none.
+[[nodiscard]] bool is_hidden_in_recordings(const std::filesystem::path& out);
+
 // Opens the seal, holding it against `hash` (empty: the one of seal.sha256), and scores:
 // {"schema","seed","seal","base_residual_n","not_diagnosed","as_recorded":{"verdict","named","candidates"},"sizes":[..],
 //  "placebos":rate,"names":rate,"reliability":[..],"campaigns":[{"campaign","hidden","placebo","size","share","verdict",

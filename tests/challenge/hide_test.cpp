@@ -239,6 +239,7 @@ TEST_F(HideRun, WritesCampaignsThatDoNotTellAndScoresThem) {
   const std::vector<HideTask> ids = {{"inertia"}, {"swapped-forces"}};
   const std::string hash = hide_all(out_, campaign(), ids, 7);
   EXPECT_EQ(hide_all(out_, campaign(), ids, 7), hash);
+  EXPECT_TRUE(is_hidden_in_recordings(out_)) << "which --score-only goes by, without --in";
   EXPECT_THROW(hide_all(out_, campaign(), ids, 8), InputError);
   for (const char* name : {"campaign-0000", "campaign-0001", "campaign-0002"}) {
     const Campaign read = load_campaign({(out_ / name).string()});
