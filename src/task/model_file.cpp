@@ -446,9 +446,7 @@ void refuse_unfollowed(const std::vector<const StoredModel*>& models,
                        const std::map<std::string, ConditionNumber>& values) {
   std::vector<std::string> followed = conditions_of(models);
   for (const auto& [drive, name] : {std::pair{DriveKind::current, "current"}, {DriveKind::voltage, "voltage"}}) {
-    if (std::ranges::any_of(models, [&](const StoredModel* model) { return model->drive == drive; })) {
-      followed.emplace_back(name);
-    }
+    if (std::ranges::find(models, drive, &StoredModel::drive) != models.end()) followed.emplace_back(name);
   }
   refuse_others(values, followed);
 }

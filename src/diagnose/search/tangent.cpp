@@ -11,14 +11,14 @@ constexpr double rank_tolerance = 1e-7;
 
 }  // namespace
 
-Eigen::MatrixXd orthonormal_basis(Eigen::MatrixXd slopes, double rank_tolerance) {
+Eigen::MatrixXd orthonormal_basis(Eigen::MatrixXd slopes, double threshold) {
   for (Eigen::Index c = 0; c < slopes.cols(); ++c) {
     const double norm = slopes.col(c).norm();
     slopes.col(c) =
         std::isfinite(norm) && norm > 0.0 ? (slopes.col(c) / norm).eval() : Eigen::VectorXd::Zero(slopes.rows()).eval();
   }
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(slopes);
-  qr.setThreshold(rank_tolerance);
+  qr.setThreshold(threshold);
   return qr.householderQ() * Eigen::MatrixXd::Identity(slopes.rows(), qr.rank());
 }
 

@@ -17,7 +17,7 @@ struct Tangent {
 Tangent tangent_of(const Workbench& bench, const Fit& fit);
 
 // Orthonormal columns that span those of `slopes`, each scaled to one; what is not finite or zero spans nothing, nor
-// does what the others span but for `rank_tolerance` of the largest direction.
-Eigen::MatrixXd orthonormal_basis(Eigen::MatrixXd slopes, double rank_tolerance);
+// does what the others span but for `threshold` of the largest direction.
+Eigen::MatrixXd orthonormal_basis(Eigen::MatrixXd slopes, double threshold);
 
 }  // namespace hysteron
