@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <iterator>
 #include <optional>
 
 #include "compare/criteria.hpp"
@@ -19,6 +18,7 @@
 #include "report/terminal.hpp"
 #include "task/finite.hpp"
 #include "task/guesses.hpp"
+#include "task/remarks.hpp"
 #include "task/residual_record.hpp"
 
 namespace hysteron {
@@ -106,10 +106,6 @@ json loops_json(const Recording& recording, std::size_t r, const std::vector<Com
     }
   }
   return row;
-}
-
-void append(std::vector<std::string>& remarks, std::vector<std::string> more) {
-  remarks.insert(remarks.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
 }
 
 }  // namespace
@@ -228,7 +224,7 @@ ModelComparison compare_models(const std::vector<ComparedModel>& given, const st
     file["recordings"].push_back(std::move(row));
   }
   json page = file;
-  page["title"] = "ModelComparison of models";
+  page["title"] = "Comparison of models";
   page["version"] = HYSTERON_VERSION;
   page["command"] = command;
   page["loops"] = json::array();

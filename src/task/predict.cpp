@@ -2,20 +2,15 @@
 
 #include <fmt/format.h>
 
-#include <iterator>
-
 #include "fit/predict.hpp"
 #include "fit/start.hpp"
 #include "report/csv.hpp"
 #include "task/finite.hpp"
 #include "task/guesses.hpp"
+#include "task/remarks.hpp"
 
 namespace hysteron {
 namespace {
-
-void append(std::vector<std::string>& remarks, std::vector<std::string> more) {
-  remarks.insert(remarks.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
-}
 
 std::vector<double> force_on(const StoredModel& stored, const std::string& path, const Recording& recording,
                              const ObjectiveOptions& objective) {

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <iterator>
 #include <utility>
 
 #include "core/drive.hpp"
@@ -12,13 +11,10 @@
 #include "core/frequency.hpp"
 #include "respond/one_period.hpp"
 #include "task/guesses.hpp"
+#include "task/remarks.hpp"
 
 namespace hysteron {
 namespace {
-
-void append(std::vector<std::string>& remarks, std::vector<std::string> more) {
-  remarks.insert(remarks.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
-}
 
 // A file that names a base has the displacement of the mass beside it, as what `respond` writes.
 const std::vector<double>& ground_of(const Recording& recording) {

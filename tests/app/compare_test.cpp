@@ -4,6 +4,7 @@
 #include <string>
 
 #include "app/program_fixture.hpp"
+#include "io/file.hpp"
 
 namespace hysteron {
 namespace {
@@ -24,6 +25,12 @@ TEST_F(Compare, ExplainsAStarWhereThereIsOne) {
   const Outcome unseen = run({"compare", "fitted/model.json", "data", "new.csv", "--quiet", "--out", "b"});
   ASSERT_EQ(unseen.status, 0) << unseen.err;
   EXPECT_NE(unseen.out.find("* not fitted on by that model\n"), std::string::npos) << unseen.out;
+}
+
+TEST_F(Compare, HeadsItsPageWithWhatItIs) {
+  fit();
+  ASSERT_EQ(run({"compare", "fitted/model.json", "data", "--quiet", "--out", "a"}).status, 0);
+  EXPECT_NE(read_file(folder_ / "a" / "report.html").find("\"title\":\"Comparison of models\""), std::string::npos);
 }
 
 }  // namespace
