@@ -5,13 +5,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <functional>
 #include <map>
 #include <set>
 #include <utility>
 
 #include "core/error.hpp"
+#include "export/names.hpp"
 #include "export/writer.hpp"
 
 namespace hysteron {
@@ -26,11 +26,7 @@ std::string quoted(std::string text) {
 }
 
 std::string name_of_parameter(const ExportedLink& link, std::size_t k) {
-  std::string text = link.name + "_";
-  for (const char letter : link.part->parameters[k].name) {
-    text += std::isalnum(static_cast<unsigned char>(letter)) != 0 ? letter : '_';
-  }
-  return text;
+  return identifier(link.name + "_" + std::string(link.part->parameters[k].name));
 }
 
 std::string name_of_state(const ExportedLink& link, int k) {
@@ -39,6 +35,11 @@ std::string name_of_state(const ExportedLink& link, int k) {
 
 // What a link sees of the motion, by name.
 using Seen = std::map<Argument, std::string>;
+
+std::string name_of_seen(Argument argument) {
+  static constexpr const char* members[] = {"x", "v", "drive", "time", "age", "a", "jerk"};
+  return members[static_cast<int>(argument) - static_cast<int>(Argument::x)];
+}
 
 class Block {
  public:
@@ -284,9 +285,7 @@ class Block {
         seen[Argument::v] = "v_behind_" + link.name;
       } else if (link.equations.drive) {
         for (const Function::Result& result : link.equations.drive->results) {
-          static constexpr const char* members[] = {"x", "v", "drive", "time", "age", "a", "jerk"};
-          const int member = static_cast<int>(result.target.argument) - static_cast<int>(Argument::x);
-          seen[result.target.argument] = fmt::format("{}_behind_{}", members[member], link.name);
+          seen[result.target.argument] = fmt::format("{}_behind_{}", name_of_seen(result.target.argument), link.name);
         }
       }
     }
@@ -321,11 +320,10 @@ class Block {
     };
     if (link.equations.yield) return add_series(link, i, below, write);
     if (link.equations.drive) {
-      static constexpr const char* members[] = {"x", "v", "drive", "time", "age", "a", "jerk"};
       for (const Statements::Result& result : write(*link.equations.drive)) {
-        const int member = static_cast<int>(result.target.argument) - static_cast<int>(Argument::x);
-        const std::string name = fmt::format("{}_behind_{}", members[member], link.name);
-        declare(name, fmt::format("{} as what is inside sees it", members[member]));
+        const std::string member = name_of_seen(result.target.argument);
+        const std::string name = fmt::format("{}_behind_{}", member, link.name);
+        declare(name, fmt::format("{} as what is inside sees it", member));
         equation("", name, result.expression);
       }
     }
@@ -377,12 +375,17 @@ class Block {
 };
 
 // One column of the replayed samples.
-std::string column(const char* name, const std::vector<TestSample>& samples, double TestSample::*member) {
+std::string column(const char* name, const std::vector<double>& values) {
   std::string text = fmt::format("    constant Real {}[:] = {{", name);
-  for (std::size_t n = 0; n < samples.size(); ++n) {
-    text += (n == 0 ? "" : n % 6 == 0 ? ",\n      " : ", ") + literal(samples[n].*member);
+  for (std::size_t n = 0; n < values.size(); ++n) {
+    text += (n == 0 ? "" : n % 6 == 0 ? ",\n      " : ", ") + literal(values[n]);
   }
   return text + "};\n";
+}
+std::string column(const char* name, const std::vector<TestSample>& samples, double TestSample::*member) {
+  std::vector<double> values(samples.size());
+  std::ranges::transform(samples, values.begin(), [member](const TestSample& sample) { return sample.*member; });
+  return column(name, values);
 }
 
 }  // namespace
@@ -400,13 +403,10 @@ std::string modelica_test(const TestVector& vector, const ModelicaBlock& block) 
   const double lead = first > 0 ? vector.lead_in.back().time - vector.lead_in.front().time : 0.0;
   for (TestSample& sample : samples) sample.time += begin - vector.lead_in.back().time;
   samples.insert(samples.end(), vector.samples.begin(), vector.samples.end());
+  std::vector<double> force(first, 0.0);
+  force.insert(force.end(), vector.force.begin(), vector.force.end());
   double peak = 0.0;
-  std::string force = "    constant Real expected[:] = {";
-  for (std::size_t n = 0; n < samples.size(); ++n) {
-    const double value = n < first ? 0.0 : vector.force[n - first];
-    peak = std::max(peak, std::abs(value));
-    force += (n == 0 ? "" : n % 6 == 0 ? ",\n      " : ", ") + literal(value);
-  }
+  for (const double value : force) peak = std::max(peak, std::abs(value));
   std::string text =
       "  model Test \"Replays the test vector: error is the largest difference, as a share of the largest force\"\n";
   text += fmt::format("    Damper damper(startTime = {}, lead = {});\n", signed_literal(begin), literal(lead));
@@ -417,7 +417,7 @@ std::string modelica_test(const TestVector& vector, const ModelicaBlock& block) 
     text += column("a", samples, &TestSample::acceleration) + column("j", samples, &TestSample::jerk);
   }
   if (block.drive) text += column("i", samples, &TestSample::drive);
-  text += force + "};\n";
+  text += column("expected", force);
   text += fmt::format("    constant Integer first = {} \"before it nothing is compared\";\n", first + 1);
   text += fmt::format("    constant Real largest = {};\n", literal(peak > 0.0 ? peak : 1.0));
   text +=

@@ -3,8 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <utility>
+
+#include "export/names.hpp"
 
 namespace hysteron {
 namespace {
@@ -229,13 +230,7 @@ std::string literal(double value) {
   return text;
 }
 
-std::string parameter_identifier(const Parameter& parameter) {
-  std::string text = "p_";
-  for (const char letter : parameter.name) {
-    text += std::isalnum(static_cast<unsigned char>(letter)) != 0 ? letter : '_';
-  }
-  return text;
-}
+std::string parameter_identifier(const Parameter& parameter) { return identifier("p_" + std::string(parameter.name)); }
 
 Statements write_statements(const Function& function, std::span<const Parameter> parameters, Language language) {
   const NameOf name_of = [&](const ArgumentNumber& number) { return name_in_code(number, parameters, language); };
