@@ -111,14 +111,15 @@ std::string sentence_of_law(const Diagnosis& diagnosis, const Named& named) {
   if (law.empty()) {
     return {};
   }
-  const std::string taken = law + ", which takes the place of " + diagnosis.search.base.what.model + ",";
+  const std::string taken = law + ", which takes the place of " + diagnosis.search.base.what.model;
   if (!named.of_law) {
-    return " All this behind " + taken.substr(0, taken.size() - 1) + ".";
+    return " All this behind " + taken + ".";
   }
   if (named.in_place_of) {
-    return " It is set in the place of a part that " + taken + " has of its own: " + title_of(*named.in_place_of) + ".";
+    return " It is set in the place of a part that " + taken + ", has of its own: " + title_of(*named.in_place_of) +
+           ".";
   }
-  return " " + taken + " has it as a part of its own.";
+  return " " + taken + ", has it as a part of its own.";
 }
 
 }  // namespace

@@ -3,21 +3,13 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
+#include "core/number_text.hpp"
 #include "fit/curvature_directions.hpp"
 #include "fit/free_coordinates.hpp"
 
 namespace hysteron {
 namespace {
-
-std::string number_text(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
-  return text;
-}
-
-bool on_upper(double u) { return u > 0.5; }
 
 bool coordinate_is_at_limit(const Layout& layout, std::size_t c, double u) {
   return is_limit(layout.cards()[layout.coordinates()[c].parameter], on_upper(u));

@@ -10,6 +10,9 @@
 
 namespace hysteron {
 
+// Of a coordinate on a bound: the upper one.
+inline bool on_upper(double u) { return u > 0.5; }
+
 // Whether an end of the parameter's box is one of what it can be at all.
 bool is_limit(const Parameter& card, bool upper);
 

@@ -143,7 +143,7 @@ void add_estimates(Identification& result, const Uncertainty& uncertainty, const
       law_open = law_open || uncertainty.open[law.first + k];
       if (on_bound(position)) {
         bound = position < 0.5 ? "lower" : "upper";
-        limit = limit && is_limit(layout.cards()[law.parameter], position > 0.5);
+        limit = limit && is_limit(layout.cards()[law.parameter], on_upper(position));
       } else {
         law_free = true;
       }

@@ -2,21 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "core/error.hpp"
 #include "core/frequency.hpp"
+#include "core/number_text.hpp"
 #include "core/suggest.hpp"
 #include "core/unit_text.hpp"
 
 namespace hysteron {
 namespace {
-
-std::string number_text(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
-  return text;
-}
 
 std::vector<double> nodes(double low, double high, int order) {
   std::vector<double> result;

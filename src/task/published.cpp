@@ -107,7 +107,7 @@ std::vector<double> force_of_preset(const Preset& preset, const std::map<std::st
     const std::vector<double> values = parameters(at);
     all.insert(all.end(), values.begin(), values.end());
   }
-  std::vector<double> state(16, 0.0);
+  std::vector<double> state(static_cast<std::size_t>(model.states()), 0.0);
   std::vector<double> force(recording.size());
   Motion motion = target.motion;
   motion.lead = 0.0;
