@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "report/html.hpp"
 
@@ -149,6 +150,11 @@ std::string panel_svg(const FigurePanel& panel, double offset) {
 }
 
 }  // namespace
+
+std::string curve_colour(std::size_t index) {
+  static constexpr const char* colours[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9"};
+  return colours[index % std::size(colours)];
+}
 
 std::string figure_svg(const std::vector<FigurePanel>& panels, const std::string& description, std::size_t columns) {
   const std::size_t across = columns == 0 ? panels.size() : std::min(columns, panels.size());

@@ -6,6 +6,9 @@
 
 namespace hysteron {
 
+// Colours that people who see few tell apart (Okabe and Ito); after six from the first again.
+std::string curve_colour(std::size_t index);
+
 struct FigureCurve {
   std::vector<double> x;
   std::vector<double> y;  // of equal length

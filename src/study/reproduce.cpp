@@ -53,15 +53,24 @@ constexpr PublishedTable tables[] = {
      false, &reproduce::review_polynomials, &reproduce::review_polynomials_result},
 };
 
-std::vector<double> costs(const Plan& plan, const std::vector<RunRecord>& records, std::size_t problem,
-                          std::size_t solver) {
+// Runs of a (problem, solver) that there are records of.
+std::vector<const RunRecord*> runs_of(const Plan& plan, const std::vector<RunRecord>& records, std::size_t problem,
+                                      std::size_t solver) {
   std::map<std::string, const RunRecord*> by_key;
   for (const RunRecord& record : records) by_key[record.key] = &record;
-  std::vector<double> result;
+  std::vector<const RunRecord*> result;
   for (const PlannedRun& run : plan.runs) {
     if (run.problem != problem || run.solver != solver) continue;
-    const auto found = by_key.find(run.key);
-    if (found != by_key.end()) result.push_back(found->second->nrmse.value_or(std::numeric_limits<double>::infinity()));
+    if (const auto found = by_key.find(run.key); found != by_key.end()) result.push_back(found->second);
+  }
+  return result;
+}
+
+std::vector<double> costs(const Plan& plan, const std::vector<RunRecord>& records, std::size_t problem,
+                          std::size_t solver) {
+  std::vector<double> result;
+  for (const RunRecord* run : runs_of(plan, records, problem, solver)) {
+    result.push_back(run->nrmse.value_or(std::numeric_limits<double>::infinity()));
   }
   return result;
 }
@@ -88,6 +97,15 @@ std::string spread(const Plan& plan, const std::vector<RunRecord>& records, std:
 double median_nrmse(const Plan& plan, const std::vector<RunRecord>& records, std::size_t problem, std::size_t solver) {
   const std::vector<double> own = costs(plan, records, problem, solver);
   return own.empty() ? std::numeric_limits<double>::infinity() : quantile(own, 0.5);
+}
+
+const RunRecord* median_run(const Plan& plan, const std::vector<RunRecord>& records, std::size_t problem,
+                            std::size_t solver) {
+  std::vector<const RunRecord*> own = runs_of(plan, records, problem, solver);
+  std::erase_if(own, [](const RunRecord* run) { return !run->nrmse; });
+  if (own.empty()) return nullptr;
+  std::ranges::stable_sort(own, {}, [](const RunRecord* run) { return *run->nrmse; });
+  return own[(own.size() - 1) / 2];
 }
 
 const RunRecord* best_run(const Plan& plan, const std::vector<RunRecord>& records, std::size_t problem) {

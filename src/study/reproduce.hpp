@@ -56,6 +56,9 @@ namespace reproduce {
 // Median of the same; infinite without runs.
 [[nodiscard]] double median_nrmse(const Plan& plan, const std::vector<RunRecord>& records, std::size_t problem,
                                   std::size_t solver);
+// The run of that median, the lower of two; null without runs that stayed finite.
+[[nodiscard]] const RunRecord* median_run(const Plan& plan, const std::vector<RunRecord>& records, std::size_t problem,
+                                          std::size_t solver);
 // The run with the smallest NRMSE of a problem; null without runs.
 [[nodiscard]] const RunRecord* best_run(const Plan& plan, const std::vector<RunRecord>& records, std::size_t problem);
 // Index of the problem with this label; the number of problems where there is none.

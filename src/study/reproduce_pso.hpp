@@ -1,4 +1,4 @@
-// What the tables and the figure of the PSO paper share.
+// What the tables and figures of the PSO paper share.
 #pragma once
 
 #include <array>
