@@ -20,6 +20,7 @@
 #include "baselines/page.hpp"
 #include "baselines/sparse.hpp"
 #include "baselines/stepwise.hpp"
+#include "bench/page.hpp"
 #include "bench/program.hpp"
 #include "challenge/score.hpp"
 #include "challenge/seal.hpp"
@@ -156,11 +157,7 @@ int run(int argc, char** argv) {
   command +=
       " --out DIR" + (most < all_campaigns ? " --most " + std::to_string(most) : "") + " --page results/baselines.md";
   const std::string text = scores.page(command);
-  if (page.empty()) {
-    fmt::print("{}", text);
-  } else {
-    write_file_atomically(page, text);
-  }
+  bench::write_page(page, text);
   return 0;
 }
 

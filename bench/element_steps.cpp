@@ -17,10 +17,10 @@
 #include <string>
 #include <vector>
 
+#include "bench/drawn.hpp"
+#include "bench/page.hpp"
 #include "bench/program.hpp"
 #include "core/extent.hpp"
-#include "core/random.hpp"
-#include "io/output.hpp"
 #include "simulate/composite.hpp"
 #include "simulate/motion.hpp"
 
@@ -53,18 +53,6 @@ Motion following(const Motion& motion, double rate) {
   result.implicit_elements = false;
   result.element_rate_limit = 5.0 * rate;
   return result;
-}
-
-std::vector<double> drawn(const CompositeModel& model, const Stream& stream) {
-  std::vector<double> p;
-  std::uint32_t j = 0;
-  for (const Parameter& card : model.parameters()) {
-    const double u = stream.uniform(0, j++);
-    p.push_back(card.fixed                         ? card.initial
-                : card.scale == Scale::logarithmic ? card.box.lower * std::pow(card.box.upper / card.box.lower, u)
-                                                   : card.box.lower + u * (card.box.upper - card.box.lower));
-  }
-  return p;
 }
 
 double error_of(const std::vector<double>& force, const std::vector<double>& reference) {
@@ -134,7 +122,7 @@ std::string row_of(const std::string& element, double rate, std::size_t draws) {
     std::vector<std::vector<double>> rows;
     std::vector<std::vector<double>> exact;
     for (std::size_t k = 0; k < draws; ++k) {
-      rows.push_back(drawn(model, Stream(7100 + k)));
+      rows.push_back(bench::drawn(model, Stream(7100 + k)));
       exact.push_back(simulate(model, motion, rows.back()));
     }
     free.look(model, comparing_motion(motion), rows, exact);
@@ -173,11 +161,7 @@ int run(int argc, char** argv) {
       if (!page.empty()) fmt::print(stderr, "{} at {:.0f} samples/s\n", element, rate);
     }
   }
-  if (page.empty()) {
-    fmt::print("{}", text);
-  } else {
-    write_file_atomically(page, text);
-  }
+  bench::write_page(page, text);
   return 0;
 }
 

@@ -2,10 +2,9 @@
 //
 //   hysteron_kernels [--rounds 15] [--page results/kernels.md]
 //
-// Everything is timed in turn, once a round, by the processor time of this process; figures are medians over the
+// Everything is timed in turn, once a round, by processor time; figures are medians over the
 // rounds, ratios medians of the ratios within a round.
 #include <fmt/format.h>
-#include <time.h>
 
 #include <CLI/CLI.hpp>
 #include <cmath>
@@ -16,13 +15,13 @@
 #include <string>
 #include <vector>
 
+#include "bench/drawn.hpp"
 #include "bench/fused_kernels.hpp"
+#include "bench/page.hpp"
 #include "bench/program.hpp"
 #include "bench/work_of_march.hpp"
 #include "core/error.hpp"
-#include "core/random.hpp"
 #include "core/robust.hpp"
-#include "io/output.hpp"
 #include "simulate/composite.hpp"
 
 namespace {
@@ -50,12 +49,6 @@ Motion sine() {
   return make_motion(time, x, v, {});
 }
 
-double processor_time() {
-  timespec now{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
 // Something that is done again and again, `amount` of it a time (candidates, operations).
 struct Timed {
   std::function<void()> once;
@@ -63,13 +56,13 @@ struct Timed {
   std::vector<double> speeds;  // amount per second, one a round
 
   void take_turn() {
-    const double begun = processor_time();
+    const double begun = bench::cpu_seconds();
     double elapsed = 0.0;
     double times = 0.0;
     while (elapsed < least_time) {
       once();
       times += 1.0;
-      elapsed = processor_time() - begun;
+      elapsed = bench::cpu_seconds() - begun;
     }
     speeds.push_back(times * amount / elapsed);
   }
@@ -153,18 +146,6 @@ std::vector<double> initial(const CompositeModel& model) {
   return p;
 }
 
-std::vector<double> drawn(const CompositeModel& model, const Stream& stream) {
-  std::vector<double> p;
-  std::uint32_t j = 0;
-  for (const Parameter& card : model.parameters()) {
-    const double u = stream.uniform(0, j++);
-    p.push_back(card.fixed                         ? card.initial
-                : card.scale == Scale::logarithmic ? card.box.lower * std::pow(card.box.upper / card.box.lower, u)
-                                                   : card.box.lower + u * (card.box.upper - card.box.lower));
-  }
-  return p;
-}
-
 // A law of the catalogue.
 struct Row {
   CompositeModel model;
@@ -188,7 +169,7 @@ struct Row {
     derivative = marched<LaneDual>(model, motion, {dual_candidates, p});
     std::vector<std::vector<double>> rows;
     for (std::size_t k = 0; k < drawn_candidates; ++k) {
-      rows.push_back(drawn(model, Stream(7300 + k)));
+      rows.push_back(bench::drawn(model, Stream(7300 + k)));
     }
     from_box = marched<Lanes>(model, motion, rows);
   }
@@ -336,11 +317,7 @@ int run(int argc, char** argv) {
     }
   }
   const std::string text = page_of(rows, limits, peak, rounds);
-  if (page.empty()) {
-    fmt::print("{}", text);
-  } else {
-    write_file_atomically(page, text);
-  }
+  bench::write_page(page, text);
   return 0;
 }
 

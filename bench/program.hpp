@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdio>
+#include <ctime>
 #include <exception>
 
 namespace hysteron::bench {
@@ -14,6 +15,13 @@ inline int guarded(int (*run)(int, char**), int argc, char** argv) {
     std::fprintf(stderr, "error: %s\n", problem.what());
     return 1;
   }
+}
+
+// Processor time of the calling thread, s.
+inline double cpu_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
 }  // namespace hysteron::bench

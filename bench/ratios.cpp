@@ -9,18 +9,17 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <functional>
 #include <numbers>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
-#include "core/random.hpp"
+#include "bench/peers/plain_twin.hpp"
+#include "bench/program.hpp"
+#include "core/robust.hpp"
 #include "fit/driver.hpp"
 #include "fit/objective.hpp"
-#include "peers/plain_rk4.h"
-#include "program.hpp"
 #include "simulate/composite.hpp"
 
 namespace hysteron::bench {
@@ -40,14 +39,6 @@ constexpr double doubles_of_register = 4.0;
 #else
 constexpr double doubles_of_register = 2.0;
 #endif
-// alpha, c0, c1, k0, k1, x_y, share, n, x0 of an MR damper of about 1 kN.
-const std::vector<double> truth{600.0, 800.0, 3.0e4, 2.0e3, 500.0, 1.2e-3, 0.6, 1.6, 0.0};
-
-double cpu_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 // CPU seconds of one call.
 double time_of(const std::function<void()>& call) {
@@ -72,11 +63,8 @@ Recording make_recording() {
     recording.velocity.push_back(amplitude * omega * std::sin(omega * t));
   }
   recording.force = simulate(make_model("modified-bouc-wen", {}),
-                             make_motion(recording.time, recording.displacement, recording.velocity, {}), truth);
-  double peak = 0.0;
-  for (const double force : recording.force) peak = std::max(peak, std::fabs(force));
-  const Stream noise = Stream(1).child("ratios");
-  for (std::size_t n = 0; n < sample_count; ++n) recording.force[n] += noise_share * peak * noise.normal(n);
+                             make_motion(recording.time, recording.displacement, recording.velocity, {}), peers::truth);
+  peers::add_noise(recording, noise_share, Stream(1).child("ratios"));
   return recording;
 }
 
@@ -117,11 +105,7 @@ struct Ratio {
   std::function<double()> measure;
   std::vector<double> values = {};
 
-  [[nodiscard]] double median() const {
-    std::vector<double> sorted = values;
-    std::ranges::sort(sorted);
-    return sorted[sorted.size() / 2];
-  }
+  [[nodiscard]] double median() const { return median_of(values); }
   [[nodiscard]] bool holds() const { return at_least ? median() >= bound : median() <= bound; }
 };
 
@@ -133,27 +117,11 @@ int run(int argc, char** argv) {
 
   const Recording recording = make_recording();
   const Layout layout(make_model("modified-bouc-wen", {}), scale_of({recording}), {});
-  if (layout.dimension() != plain_dimension) {
-    throw std::runtime_error("the model has another number of free parameters than plain_rk4.h");
-  }
   ObjectiveOptions options;
   options.threads = 1;
   const Objective objective(layout, {recording}, options);
-  plain_problem plain{};
-  plain.samples = recording.size();
-  plain.time = recording.time.data();
-  plain.displacement = recording.displacement.data();
-  plain.velocity = recording.velocity.data();
-  plain.force = recording.force.data();
-  plain.normaliser = normaliser(recording, Normalisation::max_abs);
-  std::vector<double> at_truth;
-  for (std::size_t k = 0; k < layout.dimension(); ++k) {
-    const Coordinate& coordinate = layout.coordinates()[k];
-    plain.lower[k] = coordinate.lower;
-    plain.upper[k] = coordinate.upper;
-    plain.logarithmic[k] = coordinate.scale == Scale::logarithmic ? 1 : 0;
-    at_truth.push_back(layout.unit(k, truth[coordinate.parameter]));
-  }
+  const plain_problem plain = peers::plain_problem_of(recording, layout);
+  const std::vector<double> at_truth = peers::truth_in(layout);
   std::vector<double> eight;
   for (int lane = 0; lane < lane_count; ++lane) eight.insert(eight.end(), at_truth.begin(), at_truth.end());
   const double target = 1.01 * objective.evaluate({at_truth, false}).cost[0];

@@ -19,6 +19,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/page.hpp"
 #include "bench/program.hpp"
 #include "challenge/concealed.hpp"
 #include "challenge/levels.hpp"
@@ -29,7 +30,6 @@
 #include "diagnose/residual/tone.hpp"
 #include "diagnose/workbenches.hpp"
 #include "io/campaign.hpp"
-#include "io/output.hpp"
 
 namespace {
 
@@ -222,11 +222,7 @@ int run(int argc, char** argv) {
   }
   std::filesystem::remove_all(made);
   const std::string text = page_of(all, draws, seed, command);
-  if (page.empty()) {
-    fmt::print("{}", text);
-  } else {
-    write_file_atomically(page, text);
-  }
+  bench::write_page(page, text);
   return 0;
 }
 

@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <ctime>
 #include <fstream>
 #include <limits>
 #include <map>
@@ -22,13 +21,16 @@
 #include <string>
 #include <vector>
 
+#include "bench/peers/plain_twin.hpp"
+#include "bench/program.hpp"
 #include "fit/driver.hpp"
 #include "fit/objective.hpp"
 #include "pagmo_peers.hpp"
-#include "plain_rk4.h"
 
 namespace hysteron::peers {
 namespace {
+
+using bench::cpu_seconds;
 
 constexpr std::size_t sample_count = 1000;
 constexpr double sampling = 1e-3;     // s
@@ -37,8 +39,6 @@ constexpr double amplitude = 0.025;   // m
 constexpr double ramp = 0.125;        // s
 constexpr double noise_share = 0.01;  // of the peak force
 constexpr double target_factor = 1.01;
-// alpha, c0, c1, k0, k1, x_y, share, n, x0: an MR damper of about 1 kN.
-const std::vector<double> truth{600.0, 800.0, 3.0e4, 2.0e3, 500.0, 1.2e-3, 0.6, 1.6, 0.0};
 
 Recording make_recording() {
   Recording recording;
@@ -58,21 +58,8 @@ Recording make_recording() {
   // Finer integration than either objective uses.
   recording.force =
       simulate(model, make_motion(recording.time, recording.displacement, recording.velocity, {}, 1e-9), truth);
-  double peak = 0.0;
-  for (const double force : recording.force) {
-    peak = std::max(peak, std::fabs(force));
-  }
-  const Stream noise = Stream(1).child("peers").child("noise");
-  for (std::size_t n = 0; n < sample_count; ++n) {
-    recording.force[n] += noise_share * peak * noise.normal(n);
-  }
+  add_noise(recording, noise_share, Stream(1).child("peers").child("noise"));
   return recording;
-}
-
-double cpu_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
 struct Outcome {
@@ -148,31 +135,12 @@ struct Setup {
 Setup make_setup() {
   Recording recording = make_recording();
   const Layout layout(make_model("modified-bouc-wen", {}), scale_of({recording}), {});
-  if (layout.dimension() != plain_dimension) {
-    throw std::runtime_error("the model has another number of free parameters than plain_rk4.h");
-  }
   ObjectiveOptions options;
   options.threads = 1;
   Objective objective(layout, {recording}, options);
-  plain_problem plain{};
-  plain.samples = recording.size();
-  plain.normaliser = normaliser(recording, Normalisation::max_abs);
-  std::vector<double> at_truth;
-  for (std::size_t k = 0; k < layout.dimension(); ++k) {
-    const Coordinate& coordinate = layout.coordinates()[k];
-    plain.lower[k] = coordinate.lower;
-    plain.upper[k] = coordinate.upper;
-    plain.logarithmic[k] = coordinate.scale == Scale::logarithmic ? 1 : 0;
-    at_truth.push_back(layout.unit(k, truth[coordinate.parameter]));
-  }
-  Setup setup{std::move(recording), layout, std::move(objective), plain, 0.0, 0.0};
-  const auto point_at_data = [](Setup& s) {
-    s.plain.time = s.recording.time.data();
-    s.plain.displacement = s.recording.displacement.data();
-    s.plain.velocity = s.recording.velocity.data();
-    s.plain.force = s.recording.force.data();
-  };
-  point_at_data(setup);
+  Setup setup{std::move(recording), layout, std::move(objective), {}, 0.0, 0.0};
+  setup.plain = plain_problem_of(setup.recording, setup.layout);
+  const std::vector<double> at_truth = truth_in(layout);
   setup.plain_target = target_factor * plain_residuals(&setup.plain, at_truth.data(), nullptr);
   setup.own_target = target_factor * setup.objective.evaluate({at_truth, false}).cost[0];
   return setup;
@@ -360,7 +328,8 @@ std::string table_of(const std::vector<Row>& rows, const Setup& setup, std::size
       return ratio(median_seconds(other->outcomes[column]), median_seconds(own->outcomes[column]));
     };
     text += fmt::format(
-        "\npagmo2 pso / hysteron pso on the same objective: {} on the plain one; {} on Hysteron's, which pagmo2 asks one "
+        "\npagmo2 pso / hysteron pso on the same objective: {} on the plain one; {} on Hysteron's, which pagmo2 asks "
+        "one "
         "candidate a call and Hysteron in packs of eight\n",
         on(plain_column), on(own_column));
   }
