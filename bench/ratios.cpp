@@ -151,8 +151,7 @@ int run(int argc, char** argv) {
   };
 
   std::vector<Ratio> ratios;
-  // Measured on the build machine, AVX2: 5.8, 3.7, 1.1, 0.48, 21, the same within a tenth when it has five times as
-  // much to do as it has processors.
+  // What a healthy build measures stands in docs/development.md.
   ratios.push_back({"one candidate alone / one of eight in a pack, march",
                     "a pack marches eight candidates in one; without its vector instructions it takes as long as eight "
                     "marches",
