@@ -58,10 +58,14 @@ json reproduction_json(const PublishedTable& entry, const Reproduction& result, 
           {"provenance", {{"program", "hysteron " HYSTERON_VERSION}, {"command", command_line()}}}};
 }
 
+std::string effort_text(const ReproduceOptions& used) {
+  return fmt::format("{} seed{}, {} evaluations a run", used.seeds, used.seeds == 1 ? "" : "s", used.budget);
+}
+
 std::string reproduction_markdown(const PublishedTable& entry, const Reproduction& result,
                                   const ReproduceOptions& used) {
-  std::string text = fmt::format("# {}: {}\n\nSource: {}.\nMade by `{}` ({} seeds, {} evaluations a run).\n", entry.id,
-                                 entry.title, entry.source, command_line(), used.seeds, used.budget);
+  std::string text = fmt::format("# {}: {}\n\nSource: {}.\nMade by `{}` ({}).\n", entry.id, entry.title, entry.source,
+                                 command_line(), effort_text(used));
   text += list("## What the numbers say", result.findings);
   for (const StudyTable& one : result.tables) {
     text += "\n## " + one.title + "\n\n" + (one.note.empty() ? "" : one.note + "\n\n") +
@@ -145,7 +149,7 @@ void run(const Options& options) {
     fmt::print("{}", json_text(reproduction_json(*entry, result, used)));
     return;
   }
-  fmt::print("{}\n{}\n{} seeds, {} evaluations a run\n\n", entry->title, entry->source, used.seeds, used.budget);
+  fmt::print("{}\n{}\n{}\n\n", entry->title, entry->source, effort_text(used));
   for (const StudyTable& one : result.tables) fmt::print("{}\n{}\n", one.title, table(one.header, one.rows));
   for (const std::string& line : result.findings) fmt::print("{}\n", line);
   for (const ReproducedPicture& picture : result.pictures) {
