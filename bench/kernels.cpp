@@ -13,6 +13,7 @@
 #include <functional>
 #include <numbers>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "bench/drawn.hpp"
@@ -111,7 +112,7 @@ Timed peak_arithmetic() {
 // Marches candidates pack by pack.
 template <class T>
 Timed marched(const CompositeModel& model, const Motion& motion, const std::vector<std::vector<double>>& rows) {
-  constexpr std::size_t width = lane_count;
+  constexpr std::size_t width = value_t<T>::lanes;
   std::vector<std::vector<T>> packs;
   for (std::size_t first = 0; first < rows.size(); first += width) {
     std::vector<T> p(model.parameter_count());
@@ -146,12 +147,15 @@ std::vector<double> initial(const CompositeModel& model) {
   return p;
 }
 
+using Widest = std::conditional_t<wide_lanes_pay, WideLanes, Lanes>;
+
 // A law of the catalogue.
 struct Row {
   CompositeModel model;
   std::string rates = "-";
   double operations = 0.0;  // a sample; 0: not known
   Timed value;
+  Timed one_pack;
   Timed derivative;
   Timed from_box;
 
@@ -165,13 +169,14 @@ struct Row {
     } catch (const InputError&) {
       // Its equations cannot be written out, and so not be counted.
     }
-    value = marched<Lanes>(model, motion, {drawn_candidates, p});
+    value = marched<Widest>(model, motion, {drawn_candidates, p});
+    one_pack = marched<Lanes>(model, motion, {drawn_candidates, p});
     derivative = marched<LaneDual>(model, motion, {dual_candidates, p});
     std::vector<std::vector<double>> rows;
     for (std::size_t k = 0; k < drawn_candidates; ++k) {
       rows.push_back(bench::drawn(model, Stream(7300 + k)));
     }
-    from_box = marched<Lanes>(model, motion, rows);
+    from_box = marched<Widest>(model, motion, rows);
   }
 };
 
@@ -193,7 +198,7 @@ struct Limit {
     p[static_cast<std::size_t>(std::ranges::find(names, "n") - names.begin())] = n;
     p[static_cast<std::size_t>(std::ranges::find(names, "x_y") - names.begin())] = x_y;
     work = bench::work_of_march(*model.law, motion, p);
-    general = marched<Lanes>(model, motion, {drawn_candidates, p});
+    general = marched<Widest>(model, motion, {drawn_candidates, p});
     std::vector<Lanes> packs;
     for (int pack = 0; pack < bench::most_packs; ++pack) {
       packs.insert(packs.end(), p.begin(), p.end());
@@ -239,7 +244,8 @@ std::string page_of(const std::deque<Row>& rows, const std::deque<Limit>& limits
       "whatever that\nloses, products and sums contracted to fused multiply-adds, one pack of eight candidates at a "
       "time or two side by side; the\nfaster counts. The march of the program takes the steps that its tolerance asks "
       "for and lands on reversals; it rounds every\nproduct of the equations, so that results are the same with every "
-      "instruction set; and it marches one pack at a time, which\nwaits for its own last result. "
+      "instruction set; and it marches two packs side by side, as\n"
+      "fits do where candidates and threads allow. "
       "*Difference*: largest one of the forces, over the largest force; it is what single\nsteps lose. *Per step*: "
       "share of the limit if the march had taken one step a sample too.\n\n"
       "| law | n | x_y mm | by hand, one pack, candidates/s | the faster, candidates/s | of peak % | difference | "
@@ -265,17 +271,19 @@ std::string page_of(const std::deque<Row>& rows, const std::deque<Limit>& limits
       "step. *Operations*: floating-point\noperations of equations and Runge-Kutta sums a sample; an fma counts as "
       "two, a division as one, elementary functions as what\n`scalar/math.hpp` does for them, comparisons, "
       "selections, inputs between samples, and the choice of steps as none. The share of\nthe peak is by these. "
-      "*Derivative*: time of a candidate with {} derivatives over that of its value.\n\n"
-      "| law | states | rates | operations | candidates/s | of peak % | derivative, times the value | from the box, "
-      "candidates/s |\n|---|--:|--:|--:|--:|--:|--:|--:|\n",
+      "*Two at once*: speed over that of one pack of eight at a time. *Derivative*: time of a candidate with "
+      "{}\nderivatives, which go one pack at a time, over that of its value.\n\n"
+      "| law | states | rates | operations | candidates/s | of peak % | two at once | derivative, times the value | "
+      "from the box, "
+      "candidates/s |\n|---|--:|--:|--:|--:|--:|--:|--:|--:|\n",
       drawn_candidates, sweep_directions);
   for (const Row& row : rows) {
     const bool known = row.operations > 0.0;
-    text +=
-        fmt::format("| {} | {} | {} | {} | {:.0f} | {} | {:.1f} | {:.0f} |\n", row.model.law->id, row.model.law->states,
-                    row.rates, known ? fmt::format("{:.0f}", row.operations) : "-", median_of(row.value.speeds),
-                    known ? fmt::format("{:.0f}", share_of_peak(row.value, row.operations)) : "-",
-                    median_ratio(row.value, row.derivative), median_of(row.from_box.speeds));
+    text += fmt::format(
+        "| {} | {} | {} | {} | {:.0f} | {} | {:.2f} | {:.1f} | {:.0f} |\n", row.model.law->id, row.model.law->states,
+        row.rates, known ? fmt::format("{:.0f}", row.operations) : "-", median_of(row.value.speeds),
+        known ? fmt::format("{:.0f}", share_of_peak(row.value, row.operations)) : "-",
+        median_ratio(row.value, row.one_pack), median_ratio(row.value, row.derivative), median_of(row.from_box.speeds));
   }
   return text;
 }
@@ -312,6 +320,7 @@ int run(int argc, char** argv) {
     }
     for (Row& row : rows) {
       row.value.take_turn();
+      row.one_pack.take_turn();
       row.derivative.take_turn();
       row.from_box.take_turn();
     }

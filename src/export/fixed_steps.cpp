@@ -4,7 +4,6 @@
 
 #include "fit/march_inputs.hpp"
 #include "fit/predict.hpp"
-#include "simulate/assembly.hpp"
 #include "simulate/lean_motion.hpp"
 #include "simulate/march.hpp"
 
@@ -139,7 +138,7 @@ std::vector<double> force_in_shortest_steps(const ExportedModel& exported, Targe
 
 std::vector<double> force_in_fixed_steps(const ExportedModel& exported, const Target& target) {
   const CompositeModel& model = exported.model;
-  if (needs_assembly<double>(model)) {
+  if (model.balances()) {
     return force_in_shortest_steps(exported, target);
   }
   std::vector<double> state(max_states, 0.0);

@@ -369,6 +369,8 @@ std::vector<T> Layout::weights(const ParameterLaw& law, const T& drive, double f
 }
 template std::vector<double> Layout::weights(const ParameterLaw&, const double&, double, std::span<const double>);
 template std::vector<Lanes> Layout::weights(const ParameterLaw&, const Lanes&, double, std::span<const double>);
+template std::vector<WideLanes> Layout::weights(const ParameterLaw&, const WideLanes&, double,
+                                                 std::span<const double>);
 template std::vector<LaneDual> Layout::weights(const ParameterLaw&, const LaneDual&, double, std::span<const double>);
 
 namespace {

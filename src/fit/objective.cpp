@@ -2,11 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
-#include <tuple>
 
 #include "fit/march_target.hpp"
-#include "fit/pack.hpp"
+#include "fit/packing.hpp"
 #include "fit/parallel.hpp"
 
 namespace hysteron {
@@ -16,17 +14,6 @@ namespace {
 // Of one pack on one target, in packs (Objective::sum_costs, sum_derivatives).
 std::size_t sums_size(std::size_t dimension, bool derivatives) {
   return 2 + (derivatives ? dimension + dimension * (dimension + 1) / 2 : 0);
-}
-
-// Sum over the parts of their bounds of |d rate / d state|, 1/s. A series element has none of its own: its state is
-// solved for together with the force.
-double stiffness_bound(const CompositeModel& model, const double* p, double speed) {
-  double bound = 0.0;
-  model.for_links([&](const Link& link) {
-    const auto stiffness = link.part->on_double.stiffness;
-    if (stiffness != nullptr) bound += stiffness(p + link.parameter, speed);
-  });
-  return bound;
 }
 
 }  // namespace
@@ -86,68 +73,43 @@ void Objective::check_stopped() const {
   }
 }
 
-void Objective::sum_costs(const std::vector<double>& points, Rows rows, const Target& target, double* sums) const {
+template <class P>
+void Objective::sum_costs(const std::vector<double>& points, Rows rows, const Target& target, double* sums,
+                          std::size_t next_pack) const {
   const std::size_t d = layout_.dimension();
   const auto candidate = [&](std::size_t lane) { return std::min(lane, rows.size() - 1); };
-  std::vector<Lanes> nodes(d);
+  std::vector<P> nodes(d);
   for (std::size_t c = 0; c < d; ++c) {
-    nodes[c] = lanes_of(points, rows, layout_, c, false, candidate);
+    nodes[c] = lanes_of<P>(points, rows, layout_, c, false, candidate);
   }
-  const Lanes limit(1e12 * target.normaliser);
-  Lanes squares;
-  Lanes alive;
-  march_target<Lanes>(
+  const P limit(1e12 * target.normaliser);
+  P squares;
+  P alive;
+  march_target<P>(
       layout_.model(), target,
-      [&](const auto& drive, std::span<const double> conditions, Lanes* p) {
+      [&](const auto& drive, std::span<const double> conditions, P* p) {
         parameters_of_pack(layout_, nodes, drive, target.frequency, conditions, p);
       },
-      [&](std::size_t begin, std::size_t samples, const Lanes* out) {
+      [&](std::size_t begin, std::size_t samples, const P* out) {
         check_stopped();
         for (std::size_t k = 0; k < samples; ++k) {
-          const Lanes residual = out[k] - Lanes(target.force[begin + k]);
+          const P residual = out[k] - P(target.force[begin + k]);
           if (begin + k >= target.run_in) {
             squares = fma(residual, residual, squares);
           }
-          alive += select(abs(residual) < limit, Lanes(1.0), Lanes(0.0));
+          alive += select(abs(residual) < limit, P(1.0), P(0.0));
         }
       },
-      [&](std::size_t begin, std::size_t samples, const Lanes* out) {
+      [&](std::size_t begin, std::size_t samples, const P* out) {
         for (std::size_t k = 0; k < samples; ++k) {
-          alive += select(abs(out[k] - Lanes(target.force[begin + k])) < limit, Lanes(1.0), Lanes(0.0));
+          alive += select(abs(out[k] - P(target.force[begin + k])) < limit, P(1.0), P(0.0));
         }
       });
-  for (int lane = 0; lane < lane_count; ++lane) {
-    sums[lane] = squares.lane(lane) * target.weight;
-    sums[lane_count + lane] = alive.lane(lane);
+  for (int lane = 0; lane < P::lanes; ++lane) {
+    double* own = sums + static_cast<std::size_t>(lane / lane_count) * next_pack + lane % lane_count;
+    own[0] = squares.lane(lane) * target.weight;
+    own[lane_count] = alive.lane(lane);
   }
-}
-
-// A pack takes as long as its stiffest lane, so candidates are packed in the order of their stiffness. No lane depends
-// on its company: the order changes no result.
-std::vector<std::size_t> Objective::packing(const std::vector<double>& points) const {
-  const std::size_t d = layout_.dimension();
-  std::vector<std::size_t> order(points.size() / d);
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  const CompositeModel& model = layout_.model();
-  if (order.size() <= lane_count || model.states() == 0) {
-    return order;
-  }
-  const Target& target = targets_.front();
-  const std::vector<double> conditions = target.conditions_at(0);
-  std::vector<double> stiffness(order.size());
-  std::vector<double> nodes(d);
-  std::vector<double> p(model.parameter_count());
-  for (std::size_t row = 0; row < order.size(); ++row) {
-    for (std::size_t c = 0; c < d; ++c) {
-      nodes[c] = layout_.physical(c, points[row * d + c]);
-    }
-    parameters_of_pack(layout_, nodes, target.drive, target.frequency, conditions, p.data());
-    const double bound = stiffness_bound(model, p.data(), target.fastest);
-    stiffness[row] = std::isfinite(bound) ? bound : 1e300;
-  }
-  std::ranges::sort(
-      order, [&](std::size_t a, std::size_t b) { return std::tie(stiffness[a], a) < std::tie(stiffness[b], b); });
-  return order;
 }
 
 Response Objective::evaluate(const Request& request) const {
@@ -159,17 +121,23 @@ Response Objective::evaluate(const Request& request) const {
   const std::size_t packs = (points + lane_count - 1) / lane_count;
   const std::size_t size = sums_size(d, request.derivatives) * lane_count;
   const std::vector<Target>& targets = request.screening ? screening_targets_ : targets_;
-  const std::size_t tasks = packs * targets.size();
-  const std::vector<std::size_t> order = packing(request.points);
-  std::vector<double> sums(tasks * size);
-  parallel_for(tasks, threads_, [&](std::size_t task) {
-    const std::size_t first = task / targets.size() * lane_count;
-    const Rows rows = Rows(order).subspan(first, std::min<std::size_t>(lane_count, points - first));
-    const Target& target = targets[task % targets.size()];
+  const std::size_t target_count = targets.size();
+  // Pairs of packs leave work for every thread.
+  const bool in_pairs = !request.derivatives && layout_.model().has_wide_march() &&
+                        (packs + 1) / 2 * target_count >= static_cast<std::size_t>(team_size(threads_));
+  const Packing packing = pack_candidates(layout_, request.points, targets_.front(), in_pairs);
+  std::vector<double> sums(packs * target_count * size);
+  parallel_for(packing.deals.size() * target_count, threads_, [&](std::size_t task) {
+    const Deal& deal = packing.deals[task / target_count];
+    const std::size_t target_at = task % target_count;
+    const Target& target = targets[target_at];
+    double* own = sums.data() + (deal.first_pack * target_count + target_at) * size;
     if (request.derivatives) {
-      sum_derivatives(request.points, rows, target, sums.data() + task * size);
+      sum_derivatives(request.points, packing.rows(deal), target, own);
+    } else if (deal.packs == 2) {
+      sum_costs<WideLanes>(request.points, packing.rows(deal), target, own, target_count * size);
     } else {
-      sum_costs(request.points, rows, target, sums.data() + task * size);
+      sum_costs<Lanes>(request.points, packing.rows(deal), target, own, 0);
     }
   });
   double total = 0.0;
@@ -183,12 +151,12 @@ Response Objective::evaluate(const Request& request) const {
     response.gauss_newton.assign(points * d * d, 0.0);
   }
   for (std::size_t at = 0; at < points; ++at) {
-    const std::size_t row = order[at];
+    const std::size_t row = packing.order[at];
     const std::size_t lane = at % lane_count;
     double squares = 0.0;
     double alive = 0.0;
     const auto sum = [&](std::size_t target, std::size_t slot) {
-      return sums[(at / lane_count * targets.size() + target) * size + slot * lane_count + lane];
+      return sums[(at / lane_count * target_count + target) * size + slot * lane_count + lane];
     };
     for (std::size_t target = 0; target < targets.size(); ++target) {
       squares += sum(target, 0);

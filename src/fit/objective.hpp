@@ -1,7 +1,8 @@
 // The one objective of all identification: NRMSE of the simulated force over the recordings.
 //   cost = sqrt( mean over recordings of NRMSE_r^2 ),  NRMSE_r = RMSE_r / normaliser_r
-// (or pooled over samples). Batches are the only evaluation path: packs of eight candidates, threads over packs and
-// recordings, sums in time order per candidate, so that results do not depend on threads or company.
+// (or pooled over samples). Batches are the only evaluation path: packs of eight candidates, or two of them side by
+// side, threads over packs and recordings, sums in time order per candidate, so that results do not depend on threads or
+// company.
 #pragma once
 
 #include <functional>
@@ -63,12 +64,13 @@ class Objective {
                                         const TakeDerivatives& take) const;
   // Write what evaluate sums up of a pack on a target: weighted sum of squares and samples alive, and with derivatives
   // the gradient and the upper triangle of the Gauss-Newton matrix, each for all lanes.
+  // A wide pack writes for two packs, the second one's sums `next_pack` after the first one's.
+  template <class P>
   void sum_costs(const std::vector<double>& points, std::span<const std::size_t> rows, const Target& target,
-                 double* sums) const;
+                 double* sums, std::size_t next_pack) const;
   void sum_derivatives(const std::vector<double>& points, std::span<const std::size_t> rows, const Target& target,
                        double* sums) const;
   [[nodiscard]] Response evaluate_window(const Request& request) const;
-  [[nodiscard]] std::vector<std::size_t> packing(const std::vector<double>& points) const;
   void check_stopped() const;
 
   Layout layout_;

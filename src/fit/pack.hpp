@@ -13,10 +13,10 @@ namespace hysteron {
 using Rows = std::span<const std::size_t>;
 
 // Lanes of coordinate c: physical values, or their slopes with the unit coordinate. Lane l holds candidate of(l).
-template <class Of>
-Lanes lanes_of(const std::vector<double>& points, Rows rows, const Layout& layout, std::size_t c, bool slope, Of&& of) {
-  Lanes result;
-  for (int lane = 0; lane < lane_count; ++lane) {
+template <class P = Lanes, class Of>
+P lanes_of(const std::vector<double>& points, Rows rows, const Layout& layout, std::size_t c, bool slope, Of&& of) {
+  P result;
+  for (int lane = 0; lane < P::lanes; ++lane) {
     const double u = points[rows[of(static_cast<std::size_t>(lane))] * layout.dimension() + c];
     result.set_lane(lane, slope ? layout.slope(c, u) : layout.physical(c, u));
   }

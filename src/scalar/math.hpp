@@ -13,7 +13,7 @@ namespace hysteron {
 
 template <class T>
 [[gnu::always_inline]] inline T min(const T& a, const T& b) {
-  if constexpr (std::is_same_v<T, Lanes>) {
+  if constexpr (is_pack<T>) {
     return smaller(a, b);
   } else {
     return select(b < a, b, a);
@@ -21,7 +21,7 @@ template <class T>
 }
 template <class T>
 [[gnu::always_inline]] inline T max(const T& a, const T& b) {
-  if constexpr (std::is_same_v<T, Lanes>) {
+  if constexpr (is_pack<T>) {
     return larger(a, b);
   } else {
     return select(a < b, b, a);
@@ -40,8 +40,9 @@ namespace detail {
   const auto k = std::bit_cast<std::uint64_t>(shifted) << 52;
   return std::bit_cast<double>(std::bit_cast<std::uint64_t>(mantissa) + k);
 }
-[[gnu::always_inline]] inline Lanes scale(Lanes mantissa, const Lanes& shifted) {
-  repeat<vectors_per_pack>([&](auto i) __attribute__((always_inline)) {
+template <int Vectors>
+[[gnu::always_inline]] inline Pack<Vectors> scale(Pack<Vectors> mantissa, const Pack<Vectors>& shifted) {
+  repeat<Vectors>([&](auto i) __attribute__((always_inline)) {
     const VectorUnsigned k = reinterpret_cast<VectorUnsigned>(shifted.v[i]) << 52;
     mantissa.v[i] = reinterpret_cast<VectorDouble>(reinterpret_cast<VectorUnsigned>(mantissa.v[i]) + k);
   });
@@ -56,9 +57,10 @@ namespace detail {
   mantissa = std::bit_cast<double>(bits - e);
   exponent = std::bit_cast<double>((static_cast<std::int64_t>(e) >> 52) + 0x4338000000000000LL) - 0x1.8p52;
 }
-[[gnu::always_inline]] inline void split(const Lanes& a, Lanes& mantissa, Lanes& exponent) {
+template <int Vectors>
+[[gnu::always_inline]] inline void split(const Pack<Vectors>& a, Pack<Vectors>& mantissa, Pack<Vectors>& exponent) {
   constexpr std::uint64_t half_root = 0x3fe6a09e667f3bcdULL;
-  repeat<vectors_per_pack>([&](auto i) __attribute__((always_inline)) {
+  repeat<Vectors>([&](auto i) __attribute__((always_inline)) {
     const VectorUnsigned bits = reinterpret_cast<VectorUnsigned>(a.v[i]);
     const VectorUnsigned e = (bits - half_root) & ~0xfffffffffffffULL;
     mantissa.v[i] = reinterpret_cast<VectorDouble>(bits - e);

@@ -228,13 +228,6 @@ void march_segment(const Assembly<T>& system, const Motion& motion, std::size_t 
 }  // namespace
 
 template <class T>
-bool needs_assembly(const CompositeModel& model) {
-  return std::ranges::any_of(model.effects, [](const Part* effect) {
-    return effect->on<T>().yield != nullptr || effect->on<T>().loaded_rate != nullptr;
-  });
-}
-
-template <class T>
 void march_assembly(const CompositeModel& model, const Motion& motion, const T* p, std::size_t stride,
                     std::size_t begin, std::size_t end, T* state, T* out) {
   Assembly<T> system(model, motion);
@@ -271,9 +264,6 @@ void march_assembly(const CompositeModel& model, const Motion& motion, const T* 
   std::copy_n(current.begin(), system.states(), state);
 }
 
-template bool needs_assembly<double>(const CompositeModel&);
-template bool needs_assembly<Lanes>(const CompositeModel&);
-template bool needs_assembly<LaneDual>(const CompositeModel&);
 template void march_assembly<double>(const CompositeModel&, const Motion&, const double*, std::size_t, std::size_t,
                                      std::size_t, double*, double*);
 template void march_assembly<Lanes>(const CompositeModel&, const Motion&, const Lanes*, std::size_t, std::size_t,

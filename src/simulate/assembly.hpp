@@ -19,10 +19,6 @@
 
 namespace hysteron {
 
-// Whether the model needs the march below: it holds a series element or a rate that needs the force.
-template <class T>
-[[nodiscard]] bool needs_assembly(const CompositeModel& model);
-
 // As CompositeModel::march.
 template <class T>
 void march_assembly(const CompositeModel& model, const Motion& motion, const T* p, std::size_t stride,

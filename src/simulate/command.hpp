@@ -25,16 +25,16 @@ struct Command {
       return drive_before(lag);  // recorded (scalar/trace.hpp), not looked up
     } else if constexpr (std::is_same_v<T, double>) {
       return point(lag).value;
-    } else if constexpr (std::is_same_v<T, Lanes>) {
+    } else if constexpr (is_pack<T>) {
       T result;
-      for (int lane = 0; lane < lane_count; ++lane) {
+      for (int lane = 0; lane < T::lanes; ++lane) {
         result.set_lane(lane, point(lag.lane(lane)).value);
       }
       return result;
     } else {
       value_t<T> value;
       value_t<T> slope;
-      for (int lane = 0; lane < lane_count; ++lane) {
+      for (int lane = 0; lane < value_t<T>::lanes; ++lane) {
         const Point there = point(lag.v.lane(lane));
         value.set_lane(lane, there.value);
         slope.set_lane(lane, -there.slope);

@@ -331,6 +331,9 @@ constexpr Part compile() {
     part.on_double = operations<M, double>();
     part.on_lanes = operations<M, Lanes>();
     part.on_dual = operations<M, LaneDual>();
+    if constexpr (wide_lanes_pay && !HasLoadedRate<M>) {
+      part.on_wide_lanes = operations<M, WideLanes>();
+    }
   }
   return part;
 }

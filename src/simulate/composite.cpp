@@ -70,6 +70,10 @@ int CompositeModel::states() const {
   return count;
 }
 
+bool CompositeModel::balances() const {
+  return std::ranges::any_of(effects, [](const Part* effect) { return effect->balances(); });
+}
+
 template <class T>
 void CompositeModel::march(const Motion& motion, const T* p, std::size_t stride, std::size_t begin, std::size_t end,
                            T* state, T* out) const {
@@ -90,13 +94,15 @@ void CompositeModel::march(const Motion& motion, const T* p, std::size_t stride,
     });
     return;
   }
-  if (needs_assembly<T>(*this)) {
-    const bool implicit = motion.implicit_elements && takes_implicit_steps(*this);
-    const auto march_balanced = !motion.load.empty() ? march_under_load<T>
-                                : implicit           ? march_implicit<T>
-                                                     : march_assembly<T>;
-    march_balanced(*this, motion, p, stride, begin, end, state, out);
-    return;
+  if constexpr (!std::is_same_v<T, WideLanes>) {
+    if (balances()) {
+      const bool implicit = motion.implicit_elements && takes_implicit_steps(*this);
+      const auto march_balanced = !motion.load.empty() ? march_under_load<T>
+                                  : implicit           ? march_implicit<T>
+                                                       : march_assembly<T>;
+      march_balanced(*this, motion, p, stride, begin, end, state, out);
+      return;
+    }
   }
   const auto run = [&](const auto& chain) { hysteron::march<T>(chain, motion, p, stride, begin, end, state, out); };
   switch (states()) {
@@ -115,6 +121,8 @@ template void CompositeModel::march<double>(const Motion&, const double*, std::s
                                             double*, double*) const;
 template void CompositeModel::march<Lanes>(const Motion&, const Lanes*, std::size_t, std::size_t, std::size_t, Lanes*,
                                            Lanes*) const;
+template void CompositeModel::march<WideLanes>(const Motion&, const WideLanes*, std::size_t, std::size_t, std::size_t,
+                                               WideLanes*, WideLanes*) const;
 template void CompositeModel::march<LaneDual>(const Motion&, const LaneDual*, std::size_t, std::size_t, std::size_t,
                                               LaneDual*, LaneDual*) const;
 

@@ -38,6 +38,10 @@ struct CompositeModel {
   [[nodiscard]] std::vector<std::string> parameter_names() const;
   [[nodiscard]] std::size_t parameter_count() const;
   [[nodiscard]] int states() const;
+  // Holds a series element or a rate that needs the force: each step of a march solves for the balance of forces.
+  [[nodiscard]] bool balances() const;
+  // Whether march takes WideLanes.
+  [[nodiscard]] bool has_wide_march() const { return wide_lanes_pay && !balances(); }
 
   // As PartOperations::march, over the whole chain.
   template <class T>

@@ -27,9 +27,10 @@ template <class V>
   return select(rounded < a, rounded + V(1.0), rounded);
 }
 [[gnu::always_inline]] inline double largest(double a) { return a; }
-[[gnu::always_inline]] inline double largest(const Lanes& a) {
+template <int Vectors>
+[[gnu::always_inline]] inline double largest(const Pack<Vectors>& a) {
   double result = a.lane(0);
-  for (int i = 1; i < lane_count; ++i) {
+  for (int i = 1; i < Pack<Vectors>::lanes; ++i) {
     result = std::max(result, a.lane(i));
   }
   return result;

@@ -127,6 +127,7 @@ struct Part {
   const Knowledge* knowledge = nullptr;  // of an effect that says something of itself
   PartOperations<double> on_double;
   PartOperations<Lanes> on_lanes;
+  PartOperations<WideLanes> on_wide_lanes;  // where wide_lanes_pay, of parts that do not balance
   PartOperations<LaneDual> on_dual;
   const TracedPart* traced = nullptr;
 
@@ -141,6 +142,8 @@ struct Part {
       return on_double;
     } else if constexpr (std::is_same_v<T, Lanes>) {
       return on_lanes;
+    } else if constexpr (std::is_same_v<T, WideLanes>) {
+      return on_wide_lanes;
     } else {
       return on_dual;
     }

@@ -107,10 +107,13 @@ TEST(EveryEffect, ManyCandidatesGetWhatEachGetsAlone) {
   for (const Part* effect : effect_catalogue()) {
     SCOPED_TRACE(effect->id);
     const Layout layout(make_model("bouc-wen", {std::string(effect->id)}), scale_of({recording}), laws);
-    const Objective objective(layout, {recording}, {});
+    ObjectiveOptions options;
+    options.threads = 2;
+    const Objective objective(layout, {recording}, options);
     const Stream stream = Stream(seed).child(effect->id);
     Request all;
-    const std::size_t count = lane_count + 3;
+    // Two packs side by side, and two of which the second is not full, for each of two threads.
+    const std::size_t count = 3 * lane_count + 3;
     for (std::size_t k = 0; k < count * layout.dimension(); ++k) all.points.push_back(0.1 + 0.8 * stream.uniform(k));
     const Response together = objective.evaluate(all);
     for (std::size_t row = 0; row < count; row += 5) {

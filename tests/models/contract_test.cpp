@@ -206,25 +206,31 @@ TEST_P(Contract, StiffnessIsLinearInTheSpeedOrRisesEverLess) {
   }
 }
 
-TEST_P(Contract, LanesAgreeWithDoubles) {
-  const CompositeModel& model = GetParam().model;
+template <class P>
+void expect_lanes_agree_with_doubles(const CompositeModel& model) {
   const Motion motion = sine(2.0, 0.025, 200.0, 0.3).motion();
-  std::vector<Lanes> p(model.parameter_count());
+  std::vector<P> p(model.parameter_count());
   std::vector<Vector> rows;
-  for (int lane = 0; lane < lane_count; ++lane) {
+  for (int lane = 0; lane < P::lanes; ++lane) {
     rows.push_back(draw(model, static_cast<std::uint64_t>(200 + lane), 0.0, false));
     for (std::size_t j = 0; j < p.size(); ++j) {
       p[j].set_lane(lane, rows.back()[j]);
     }
   }
-  std::vector<Lanes> state(16), force(motion.time.size());
-  model.march<Lanes>(motion, p.data(), 0, 0, motion.time.size(), state.data(), force.data());
-  for (int lane = 0; lane < lane_count; ++lane) {
+  std::vector<P> state(16), force(motion.time.size());
+  model.march<P>(motion, p.data(), 0, 0, motion.time.size(), state.data(), force.data());
+  for (int lane = 0; lane < P::lanes; ++lane) {
     const Vector alone = simulate(model, motion, rows[static_cast<std::size_t>(lane)]);
     for (std::size_t n = 0; n < alone.size(); ++n) {
       ASSERT_EQ(force[n].lane(lane), alone[n]) << "lane " << lane << " sample " << n;
     }
   }
+}
+
+TEST_P(Contract, LanesAgreeWithDoubles) { expect_lanes_agree_with_doubles<Lanes>(GetParam().model); }
+
+TEST_P(Contract, LanesOfTwoPacksSideBySideAgreeWithDoubles) {
+  if (GetParam().model.has_wide_march()) expect_lanes_agree_with_doubles<WideLanes>(GetParam().model);
 }
 
 TEST_P(Contract, DerivativeIsThatOfTheForce) {

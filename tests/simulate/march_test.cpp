@@ -272,7 +272,7 @@ TEST(ModifiedBoucWen, TendsToBoucWenForAStiffSeriesDashpot) {
   EXPECT_LT(before, 2e-3);
 }
 
-// A candidate has the same bits alone, among seven others, as the value of a dual, and marched in pieces.
+// A candidate has the same bits alone, among seven and fifteen others, as the value of a dual, and marched in pieces.
 TEST(Batch, ACandidateDoesNotDependOnItsCompany) {
   for (const double rate : {50.0, 1000.0}) {
     const Motion motion = motion_of(uniform_time(rate, 1.0), multisine(10));
@@ -307,6 +307,19 @@ TEST(Batch, ACandidateDoesNotDependOnItsCompany) {
           model.march<Lanes>(motion, p.data(), 0, begin, std::min(begin + 13, samples), piece_state.data(),
                              pieces.data() + begin);
         }
+        // Beside a pack of others, which has them the other way round.
+        std::vector<WideLanes> wide_p(p.size());
+        for (std::size_t j = 0; j < p.size(); ++j) {
+          for (int k = 0; k < lane_count; ++k) {
+            wide_p[j].set_lane(k, p[j].lane(k));
+            wide_p[j].set_lane(wide_lane_count - 1 - k, p[j].lane(k));
+          }
+        }
+        std::vector<WideLanes> wide_state(max_states);
+        std::vector<WideLanes> wide_force(samples);
+        if (model.has_wide_march()) {
+          model.march<WideLanes>(motion, wide_p.data(), 0, 0, samples, wide_state.data(), wide_force.data());
+        }
         std::vector<LaneDual> dual_state(max_states);
         std::vector<LaneDual> dual_force(samples);
         model.march<LaneDual>(motion, dual_p.data(), 0, 0, samples, dual_state.data(), dual_force.data());
@@ -316,6 +329,11 @@ TEST(Batch, ACandidateDoesNotDependOnItsCompany) {
             const auto bits = std::bit_cast<std::uint64_t>(alone[n]);
             ASSERT_EQ(std::bit_cast<std::uint64_t>(force[n].lane(k)), bits) << part->id << " " << k << " " << n;
             ASSERT_EQ(std::bit_cast<std::uint64_t>(pieces[n].lane(k)), bits) << part->id << " " << k << " " << n;
+            for (const int lane : {k, wide_lane_count - 1 - k}) {
+              if (!model.has_wide_march()) break;
+              ASSERT_EQ(std::bit_cast<std::uint64_t>(wide_force[n].lane(lane)), bits)
+                  << part->id << " " << lane << " " << n;
+            }
             ASSERT_EQ(std::bit_cast<std::uint64_t>(dual_force[n].v.lane(k)), bits) << part->id << " " << k << " " << n;
           }
         }
