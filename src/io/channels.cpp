@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <span>
 #include <utility>
 
 #include "core/error.hpp"
@@ -20,7 +21,11 @@ constexpr std::pair<std::string_view, Quantity> synonyms[] = {
     {"displacement", Quantity::displacement},
     {"disp", Quantity::displacement},
     {"x", Quantity::displacement},
+    {"displ", Quantity::displacement},
     {"position", Quantity::displacement},
+    {"pos", Quantity::displacement},
+    {"travel", Quantity::displacement},
+    {"lvdt", Quantity::displacement},
     {"stroke", Quantity::displacement},
     {"crosshead", Quantity::displacement},
     {"extension", Quantity::displacement},
@@ -39,6 +44,7 @@ constexpr std::pair<std::string_view, Quantity> synonyms[] = {
     {"load", Quantity::force},
     {"load cell", Quantity::force},
     {"current", Quantity::current},
+    {"curr", Quantity::current},
     {"i", Quantity::current},
     {"amps", Quantity::current},
     {"voltage", Quantity::voltage},
@@ -51,12 +57,46 @@ constexpr std::pair<std::string_view, Quantity> synonyms[] = {
     {"base displacement", Quantity::base},
 };
 
+// Words of the languages that many rigs speak; none that is another channel's word in English.
+constexpr std::pair<std::string_view, Quantity> words_elsewhere[] = {
+    {"zeit", Quantity::time},
+    {"temps", Quantity::time},
+    {"tempo", Quantity::time},
+    {"tiempo", Quantity::time},
+    {"weg", Quantity::displacement},
+    {"hub", Quantity::displacement},
+    {"déplacement", Quantity::displacement},
+    {"deplacement", Quantity::displacement},
+    {"spostamento", Quantity::displacement},
+    {"desplazamiento", Quantity::displacement},
+    {"geschwindigkeit", Quantity::velocity},
+    {"vitesse", Quantity::velocity},
+    {"velocità", Quantity::velocity},
+    {"velocita", Quantity::velocity},
+    {"velocidad", Quantity::velocity},
+    {"beschleunigung", Quantity::acceleration},
+    {"accélération", Quantity::acceleration},
+    {"accelerazione", Quantity::acceleration},
+    {"aceleración", Quantity::acceleration},
+    {"aceleracion", Quantity::acceleration},
+    {"kraft", Quantity::force},
+    {"forza", Quantity::force},
+    {"fuerza", Quantity::force},
+    {"strom", Quantity::current},
+    {"courant", Quantity::current},
+    {"corrente", Quantity::current},
+    {"corriente", Quantity::current},
+    {"temperatur", Quantity::temperature},
+    {"température", Quantity::temperature},
+    {"temperatura", Quantity::temperature},
+};
+
 std::string names_of(Quantity quantity) {
   std::string result;
   for (const auto& [name, of] : synonyms) {
     if (of == quantity) result += (result.empty() ? "" : ", ") + std::string(name);
   }
-  return result;
+  return result + " (or its German, French, Italian or Spanish word)";
 }
 
 std::string list_of(const std::vector<Column>& columns) {
@@ -246,8 +286,11 @@ class Assigner {
 
 std::optional<Quantity> quantity_of_name(std::string_view name) {
   const std::string lower = lower_case(trimmed(name));
-  for (const auto& [synonym, quantity] : synonyms) {
-    if (lower == synonym) return quantity;
+  using Words = std::span<const std::pair<std::string_view, Quantity>>;
+  for (const Words words : {Words(synonyms), Words(words_elsewhere)}) {
+    for (const auto& [word, quantity] : words) {
+      if (lower == word) return quantity;
+    }
   }
   return std::nullopt;
 }

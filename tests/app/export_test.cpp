@@ -82,7 +82,7 @@ TEST_F(Exported, WhatIsNoModelIsRefusedWithTheOneThatIs) {
   refused({"compare", "fitted", "data", "--out", "out"}, "expected files that end in .json, as fitted/model.json\n");
   refused({"compare", "fitted/model.json", "fitted/model.json", "--out", "out"}, "models alone are given");
   testing::write(folder_ / "shaker.csv",
-                 "time [s],Kraft [N]\n0,1\n0.1,2\n0.2,3\n0.3,1\n0.4,1\n0.5,2\n0.6,3\n0.7,1\n0.8,2\n");
+                 "time [s],Voima [N]\n0,1\n0.1,2\n0.2,3\n0.3,1\n0.4,1\n0.5,2\n0.6,3\n0.7,1\n0.8,2\n");
   refused({"respond", "fitted/model.json", "shaker.csv", "--mass", "1", "--out", "out"},
           "shaker.csv: no force and no base or displacement column, expected one of them, or --column force=NAME");
 }

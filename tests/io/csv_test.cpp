@@ -71,15 +71,26 @@ TEST(Csv, LinesBeforeTheHeaderAreNotRead) {
   }
 }
 
+TEST(Csv, ChannelsMayBeNamedInOtherLanguages) {
+  for (const char* names : {"Zeit [s];Weg [mm];Kraft [kN]", "temps (s);Déplacement (mm);force (kN)",
+                             "tempo [s];spostamento [mm];forza [kN]", "Tiempo [s];Desplazamiento [mm];Fuerza [kN]"}) {
+    std::string text = std::string(names) + "\n";
+    for (int n = 0; n < 10; ++n) text += std::to_string(n) + ";" + std::to_string(n) + ",5;1,25\n";
+    const Recording recording = parse_csv(text, "a.csv");
+    EXPECT_DOUBLE_EQ(recording.displacement[3], 3.5e-3) << names;
+    EXPECT_DOUBLE_EQ(recording.force[3], 1250.0) << names;
+  }
+}
+
 // Names of another language are told by the row of units below them, and mapped by their names.
 TEST(Csv, NamesNobodyKnowsStandAboveTheirUnits) {
-  const std::string text = "Zeit,Weg,Kraft\ns,mm,kN\n" + ten_rows();
-  EXPECT_EQ(
-      message_of<InputError>([&] { (void)parse_csv(text, "a.csv"); }),
-      "a.csv:2: no time column, expected one named time, t, or --column time=NAME; the columns are 'Zeit', 'Weg', "
-      "'Kraft'");
+  const std::string text = "Aika,Matka,Voima\ns,mm,kN\n" + ten_rows();
+  EXPECT_EQ(message_of<InputError>([&] { (void)parse_csv(text, "a.csv"); }),
+            "a.csv:2: no time column, expected one named time, t (or its German, French, Italian or Spanish word), or "
+            "--column time=NAME; the columns are 'Aika', 'Matka', "
+            "'Voima'");
   ReadOptions options;
-  options.columns = {{"time", "Zeit"}, {"displacement", "Weg"}, {"force", "Kraft"}};
+  options.columns = {{"time", "Aika"}, {"displacement", "Matka"}, {"force", "Voima"}};
   EXPECT_EQ(remarks_of(text, options), "");
   EXPECT_EQ(parse_csv(text, "a.csv", options).force[2], 20e3);
 }
@@ -293,16 +304,22 @@ TEST(Csv, WrongInputsAreOneClearLine) {
       {"time goes back", good + "0.25,1,2\n",
        ":12: time 0.25 s does not increase after 0.9 s, expected strictly increasing times"},
       {"no time", "x,F\n1,2\n",
-       ":1: no time column, expected one named time, t, or --column time=NAME; " + present + "'x', 'F'"},
+       ":1: no time column, expected one named time, t (or its German, French, Italian or Spanish word), or --column "
+       "time=NAME; " +
+           present + "'x', 'F'"},
       {"no displacement", "t,F\n1,2\n",
-       ":1: no displacement column, expected one named displacement, disp, x, position, stroke, crosshead, extension, "
-       "deflection, or --column displacement=NAME; " +
+       ":1: no displacement column, expected one named displacement, disp, x, displ, position, pos, travel, lvdt, "
+       "stroke, crosshead, extension, "
+       "deflection (or its German, French, Italian or Spanish word), or --column displacement=NAME; " +
            present + "'t', 'F'"},
       {"no force", "t [s],x [mm]\n1,2\n",
-       ":1: no force column, expected one named force, f, load, load cell, or --column force=NAME; " + present +
-           "'t [s]', 'x [mm]'"},
+       ":1: no force column, expected one named force, f, load, load cell (or its German, French, Italian or Spanish "
+       "word), or --column force=NAME; " +
+           present + "'t [s]', 'x [mm]'"},
       {"one column", "hello world\n1 2\n",
-       ":1: no time column, expected one named time, t, or --column time=NAME; " + present + "'hello world'"},
+       ":1: no time column, expected one named time, t (or its German, French, Italian or Spanish word), or --column "
+       "time=NAME; " +
+           present + "'hello world'"},
       {"duplicate", "t,x,F [N],load [kN]\n1,2,3,4\n",
        ":1: two columns for force ('F [N]' and 'load [kN]'), expected one, or --column force=NAME to choose"},
       {"same name twice", "t,x,x,F\n1,2,3,4\n",

@@ -143,7 +143,8 @@ TEST_P(MatVersions, OneMatrix) {
             path.string() + ": no column '4' for time, expected one of 'run:1', 'run:2', 'run:3', 'single'");
   EXPECT_EQ(message_of<InputError>([&] { (void)read_mat(path); }),
             path.string() +
-                ": no time column, expected one named time, t, or --column time=NAME; the columns are 'run:1', "
+                ": no time column, expected one named time, t (or its German, French, Italian or Spanish word), or "
+                "--column time=NAME; the columns are 'run:1', "
                 "'run:2', 'run:3', 'single'");
 }
 
