@@ -7,6 +7,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <ctime>
+#include <filesystem>
 #include <optional>
 #include <string_view>
 
@@ -19,6 +20,7 @@
 #include "fit/weighting.hpp"
 #include "io/block_means.hpp"
 #include "io/campaign_file.hpp"
+#include "io/channels.hpp"
 #include "io/conditions.hpp"
 #include "io/file.hpp"
 #include "io/sha256.hpp"
@@ -115,7 +117,20 @@ std::map<std::string, ConditionNumber> numbers_at(const DataOptions& options) {
 
 namespace {
 
+// `--column time=t displacement=x`: the second mapping stands where a file is expected.
+void refuse_mappings_as_files(const std::vector<std::string>& data) {
+  for (const std::string& text : data) {
+    const auto equals = text.find('=');
+    std::error_code code;
+    if (equals != std::string::npos && quantity_of_name(text.substr(0, equals)) &&
+        !std::filesystem::exists(text, code)) {
+      throw InputError("'" + text + "' is no file, expected --column before each mapping: --column '" + text + "'");
+    }
+  }
+}
+
 ReadOptions read_options(const DataOptions& options) {
+  refuse_mappings_as_files(options.data);
   ReadOptions read;
   read.group = options.group;
   read.skip = options.skip;
@@ -180,7 +195,9 @@ void take_common_options(CLI::App& command) {
   const std::string group = "Options of every command, without effect in this one";
   const auto take = [&](const std::string& name, CLI::Validator value, const std::string& meaning) {
     if (command.get_option_no_throw(name) == nullptr) {
-      command.add_option_function<std::string>(name, [](const std::string&) {}, meaning)
+      command
+          .add_option_function<std::string>(
+              name, [](const std::string&) {}, meaning)
           ->check(std::move(value))
           ->group(group);
     }
@@ -189,7 +206,10 @@ void take_common_options(CLI::App& command) {
   take("--threads", whole_number(0, 1024), "no work is shared");
   take("--normalisation", one_of({"max-abs", "range", "std", "mean-abs"}), "no error is measured");
   if (command.get_option_no_throw("--quiet") == nullptr) {
-    command.add_flag_function("--quiet", [](std::int64_t) {}, "no progress is shown")->group(group);
+    command
+        .add_flag_function(
+            "--quiet", [](std::int64_t) {}, "no progress is shown")
+        ->group(group);
   }
 }
 

@@ -217,6 +217,9 @@ Campaign load_campaign(const std::vector<std::string>& data, const ReadOptions& 
     if (is_folder(path)) {
       add_folder(path, campaign, items);
     } else {
+      // What is not there is told before anything is read.
+      std::error_code code;
+      if (!fs::exists(path, code)) (void)InputFile(path);
       items.push_back({path, path.filename().string(), absolute_folder(path.parent_path()), Role::unassigned});
     }
   }

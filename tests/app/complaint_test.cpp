@@ -23,6 +23,8 @@ TEST_F(Complaint, SaysWhatIsExpected) {
   const Typed cases[] = {
       {{"fit", "data"},
        "fit: --out is missing, expected folder for model.json, fit.json, report.html (see hysteron fit --help)"},
+      {{"fit", "data", "--column", "time=t", "displacement=x", "--out", "out"},
+       "'displacement=x' is no file, expected --column before each mapping: --column 'displacement=x'"},
       {{"score"},
        "score: MODEL is missing, expected model.json written by fit or diagnose (see hysteron score --help)"},
       {{"fit", "data", "--out"},
