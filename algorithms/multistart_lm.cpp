@@ -1,8 +1,8 @@
-// Levenberg-Marquardt from many starts at once: `width` descents side by side, random starts uniform in the unit box,
-// the first from the problem's start. A descent that ends is replaced by a new one. Stops when `agreement` descents
-// have ended at the same best cost after at least `starts` descents, or at the budget. See support/descent.hpp for
-// equations and sources; stopping by agreement follows Boender and Rinnooy Kan 1987, doi 10.1007/BF02591684, in spirit:
-// the more descents end in the best optimum, the less likely a better one is unseen.
+// Levenberg-Marquardt from many starts at once: up to `width` descents side by side, random starts uniform in the unit
+// box, the first from the problem's start. A descent that ends is replaced by a new one. Stops when `agreement`
+// descents have ended at the same best cost after at least `starts` descents, or at the budget. See support/descent.hpp
+// for equations and sources; stopping by agreement follows Boender and Rinnooy Kan 1987, doi 10.1007/BF02591684, in
+// spirit: the more descents end in the best optimum, the less likely a better one is unseen.
 //
 // Where the problem allows screening, descents are made on the coarse objective first, until the squared cost falls by
 // less than 1e-2 of itself in two steps, or so little is foretold of the next. One that ends within 10 % of the best
@@ -10,6 +10,10 @@
 // the full objective from where it ended; agreement is then counted among screened costs, within 0.5 %, once every
 // descent taken further has ended. Screening uses at most half of the budget. Without screening agreement is counted
 // among final costs, within 1e-4.
+//
+// Descents side by side share the budget, and one that is cut short has found nothing. So there are no more of them
+// than the budget holds to their end, at `descent_points` each, and screening needs the budget of `width` descents: the
+// smallest budgets are one descent from the problem's start.
 #include <algorithm>
 #include <cmath>
 
@@ -24,7 +28,7 @@ extern const SolverEntry solver_multistart_lm;
 namespace {
 
 constexpr Setting settings[] = {
-    {"width", 4.0, 1.0, 1024.0, "descents under way at once"},
+    {"width", 4.0, 1.0, 1024.0, "descents under way at once, fewer where the budget does not hold them"},
     {"starts", 16.0, 1.0, 1e6, "descents ended before agreement may stop the run"},
     {"tolerance", 1e-7, 1e-16, 0.1,
      "a descent ends when the squared cost falls by less than this share of itself twice"},
@@ -37,10 +41,10 @@ class MultistartLm final : public Solver {
     support::check_problem(problem, solver_multistart_lm);
     starts_ = static_cast<std::size_t>(setting(problem, solver_multistart_lm, "starts"));
     agreement_ = static_cast<std::size_t>(setting(problem, solver_multistart_lm, "agreement"));
-    const auto width = static_cast<std::size_t>(setting(problem, solver_multistart_lm, "width"));
+    width_ = static_cast<std::size_t>(setting(problem, solver_multistart_lm, "width"));
     tolerance_ = setting(problem, solver_multistart_lm, "tolerance");
-    screening_ = problem.screening && affords(2 * screening_rounds * width);
-    for (std::size_t k = 0; k < width; ++k) {
+    screening_ = problem.screening && affords(descent_points * width_);
+    for (std::size_t k = 0; k < at_once(); ++k) {
       descents_.push_back(begin(begun_++));
     }
   }
@@ -91,8 +95,9 @@ class MultistartLm final : public Solver {
         // The rest of the budget on the full objective.
         ended_.clear();
         diverged_ = 0;
-        for (std::size_t k = 0; k < descents_.size(); ++k) {
-          descents_[k] = begin(k == 0 ? 0 : begun_++);
+        descents_.clear();
+        for (std::size_t k = 0; k < at_once(); ++k) {
+          descents_.push_back(begin(k == 0 ? 0 : begun_++));
         }
       }
     }
@@ -103,11 +108,17 @@ class MultistartLm final : public Solver {
   [[nodiscard]] Ends ends() const override { return {ended_, diverged_, screening_, same()}; }
 
  private:
-  static constexpr std::size_t screening_rounds = 8;  // fewer would not end a descent
+  static constexpr std::size_t descent_points = 16;  // fewer seldom end a descent
   static constexpr double screened_tolerance = 5e-3;
 
   [[nodiscard]] double same() const { return screening_ ? screened_tolerance : Ends{}.same; }
   [[nodiscard]] bool affords(std::size_t points) const { return points * (1 + problem_.dimension) <= problem_.budget; }
+  // Descents that the rest of the budget holds to their end.
+  [[nodiscard]] std::size_t at_once() const {
+    const std::size_t points = problem_.budget / (1 + problem_.dimension);
+    const std::size_t left = points > spent_ ? points - spent_ : 0;
+    return std::clamp<std::size_t>(left / descent_points, 1, width_);
+  }
 
   // A descent has ended; a screened one may go on where it ended, and that from the problem's start does.
   void end(const Descent& descent, bool from_start) {
@@ -173,7 +184,8 @@ class MultistartLm final : public Solver {
   std::string reason_;
   bool start_ended_ = false;  // the descent from the problem's start
   std::size_t begun_ = 0;
-  std::size_t spent_ = 0;     // points told
+  std::size_t spent_ = 0;  // points told
+  std::size_t width_ = 0;
   std::size_t diverged_ = 0;  // descents whose start diverged
   std::size_t starts_ = 0;
   std::size_t agreement_ = 0;

@@ -1,0 +1,65 @@
+// What multistart-lm makes of a budget that holds few descents.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstddef>
+
+#include "fit/driver.hpp"
+#include "solver_harness.hpp"
+
+namespace hysteron {
+namespace {
+
+// Rosenbrock's valley, so curved that no descent ends within a few points.
+testing::Residuals curved(const double* u, std::size_t /*dimension*/) {
+  const double x = 4.0 * u[0] - 2.0;
+  const double y = 4.0 * u[1] - 2.0;
+  return {{10.0 * (y - x * x), 1.0 - x, 0.1}, {-80.0 * x, 40.0, -4.0, 0.0, 0.0, 0.0}};
+}
+
+constexpr std::size_t dimension = 2;
+constexpr std::size_t price = 1 + dimension;  // of a point, in evaluations
+constexpr std::size_t held = 16;              // points of a descent
+
+Problem problem_of(std::size_t budget) {
+  Problem problem;
+  problem.dimension = dimension;
+  problem.budget = budget;
+  problem.stream = Stream(3);
+  problem.linear = {false, false};
+  problem.start = {0.2, 0.5};
+  problem.screening = true;
+  return problem;
+}
+
+Request first_of(std::size_t budget) { return find_solver("multistart-lm")->make(problem_of(budget))->ask(); }
+
+TEST(SmallBudget, HasNoMoreDescentsAtOnceThanItHoldsToTheirEnd) {
+  const auto descents = [](std::size_t points) { return first_of(points * price).points.size() / dimension; };
+  EXPECT_EQ(descents(5), 1U);
+  EXPECT_EQ(descents(2 * held - 1), 1U);
+  EXPECT_EQ(descents(2 * held), 2U);
+  EXPECT_EQ(descents(4 * held - 1), 3U);
+  EXPECT_EQ(descents(4 * held), 4U);
+  EXPECT_EQ(descents(400 * held), 4U);
+}
+
+TEST(SmallBudget, ScreensWhereItHoldsAllDescents) {
+  EXPECT_FALSE(first_of((4 * held - 1) * price).screening);
+  EXPECT_TRUE(first_of(4 * held * price).screening);
+}
+
+TEST(SmallBudget, OfOneDescentIsThatFromTheStart) {
+  const auto run = [](const char* id) {
+    return run_solver(*find_solver(id), problem_of(10 * price),
+                      [](const Request& request) { return testing::evaluate(request, dimension, curved); });
+  };
+  const RunResult one = run("lm");
+  ASSERT_EQ(one.stopped, "budget");
+  const RunResult many = run("multistart-lm");
+  EXPECT_EQ(many.best, one.best);
+  EXPECT_EQ(many.cost, one.cost);
+}
+
+}  // namespace
+}  // namespace hysteron
