@@ -5,6 +5,13 @@
 
 namespace hysteron::python {
 
+std::string argument_name(Option option) {
+  if (option == Option::column) return "columns";
+  std::string name(name_of(option));
+  std::ranges::replace(name, '-', '_');
+  return name;
+}
+
 std::string with_arguments(const std::string& message) {
   std::string result;
   const auto in_option = [](char c) { return c == '-' || std::islower(static_cast<unsigned char>(c)) != 0; };

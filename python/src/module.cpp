@@ -3,6 +3,7 @@
 
 #include "arguments.hpp"
 #include "core/error.hpp"
+#include "core/message.hpp"
 #include "recordings.hpp"
 #include "use.hpp"
 #include "work.hpp"
@@ -15,6 +16,8 @@ PYBIND11_MODULE(_hysteron, module) {
   py::register_exception_translator([](std::exception_ptr thrown) {
     try {
       if (thrown) std::rethrow_exception(thrown);
+    } catch (const hysteron::OptionError& error) {
+      PyErr_SetString(input_error.ptr(), error.message().with(hysteron::python::argument_name).c_str());
     } catch (const hysteron::InputError& error) {
       PyErr_SetString(input_error.ptr(), hysteron::python::with_arguments(error.what()).c_str());
     }

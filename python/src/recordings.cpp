@@ -9,6 +9,7 @@
 #include <set>
 #include <span>
 
+#include "arguments.hpp"
 #include "core/error.hpp"
 #include "core/suggest.hpp"
 #include "datasets/dataset.hpp"
@@ -33,7 +34,8 @@ using Remarks = std::vector<std::pair<std::string, std::string>>;
 
 Remarks remarks_of(const std::vector<Remark>& remarks) {
   Remarks result;
-  for (const Remark& remark : remarks) result.emplace_back(remark.file + ": " + remark.text, warning_of(remark));
+  for (const Remark& remark : remarks)
+    result.emplace_back(remark.file + ": " + remark.text.with(argument_name), warning_of(remark));
   return result;
 }
 

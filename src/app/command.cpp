@@ -11,6 +11,7 @@
 #include <optional>
 #include <string_view>
 
+#include "app/option_name.hpp"
 #include "app/values.hpp"
 #include "core/error.hpp"
 #include "core/printable.hpp"
@@ -155,7 +156,7 @@ ReadOptions read_options(const DataOptions& options) {
 
 void tell(const std::vector<Remark>& remarks, std::vector<std::string>* warnings) {
   for (const Remark& remark : once_each(remarks)) {
-    fmt::print(stderr, "warning: {}: {}\n", printable(remark.file), printable(remark.text));
+    fmt::print(stderr, "warning: {}: {}\n", printable(remark.file), printable(remark.text.with(option_name)));
     if (warnings != nullptr) warnings->push_back(warning_of(remark));
   }
 }

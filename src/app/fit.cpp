@@ -9,6 +9,7 @@
 
 #include "app/command.hpp"
 #include "app/laws.hpp"
+#include "app/option_name.hpp"
 #include "app/result.hpp"
 #include "app/values.hpp"
 #include "core/error.hpp"
@@ -107,7 +108,7 @@ void tell(const FitResult& fit, const FitData& data, const FitOptions& options) 
                           remark});
   }
   say(fmt::format("{}\n", table({"parameter", "value", "std error", "unit", "remark"}, table_rows)));
-  if (!result.bounds_met.empty()) say(wrapped(printable(result.bounds_met)) + "\n");
+  if (!result.bounds_met.empty()) say(wrapped(printable(result.bounds_met.with(option_name))) + "\n");
   table_rows.clear();
   for (std::size_t k = 0; k < fit.scores.size(); ++k) {
     table_rows.push_back({campaign.recordings[k].file, format_number(fit.scores[k].nrmse, 4),

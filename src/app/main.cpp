@@ -11,7 +11,9 @@
 #include "app/command.hpp"
 #include "app/complaint.hpp"
 #include "app/mistyped.hpp"
+#include "app/option_name.hpp"
 #include "core/error.hpp"
+#include "core/message.hpp"
 #include "core/printable.hpp"
 #include "mpi/mpi_peers.hpp"
 #include "plugin/plugin.hpp"
@@ -87,6 +89,9 @@ int run(int count, char** arguments) {
     return program.exit(success);
   } catch (const CLI::ParseError& error) {
     complain(app::complaint(program, error));
+    return 2;
+  } catch (const OptionError& error) {
+    complain(error.message().with(app::option_name));
     return 2;
   } catch (const InputError& error) {
     complain(error.what());

@@ -134,7 +134,7 @@ std::string cost_text(const std::optional<double>& cost, int digits) {
 void run(const Options& options) {
   refuse_inputs(options.out, words_of_command(options.objective));
   const std::vector<Coordinate> box = box_of(options.box);
-  refuse_repeats("--solver", options.solvers);
+  refuse_repeats(Option::solver, options.solvers);
   std::vector<const SolverEntry*> entries;
   for (const std::string& id : options.solvers) entries.push_back(&solver_of(id));
   const std::map<std::string, double> settings = settings_of(options.settings);

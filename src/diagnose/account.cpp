@@ -246,7 +246,7 @@ std::string experiment_after(const Diagnosis& diagnosis) {
   }
   const std::string law = better_law(diagnosis.evidence);
   if (verdict.answer == Answer::unattributed && !law.empty() && law != diagnosis.search.augmented.what.model) {
-    return "none yet: diagnose these recordings with --model " + law + " first";
+    return "none yet: diagnose these recordings with the model " + law + " first";
   }
   if (verdict.answer == Answer::unattributed && candidates.empty() && diagnosis.tone) {
     return fmt::format(

@@ -23,7 +23,7 @@ LayoutOptions with_laws(const DiagnoseOptions& options, const Campaign& campaign
     list += (list.empty() ? "" : ",") + fmt::format("{}:{}", name, order);
   }
   if (!list.empty()) {
-    notes.push_back("the drive varies and no laws were given: --by-current " + list + " assumed");
+    notes.push_back("the drive varies and no laws were given: laws in the drive assumed, " + list);
   }
   return layout;
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/message.hpp"
 
 namespace hysteron {
 namespace {
@@ -81,21 +82,22 @@ std::string identifier(std::string_view text) {
   return result;
 }
 
-void refuse_name(const std::string& option, const std::string& name) {
+void refuse_name(Option option, const std::string& name) {
   if (name != identifier(name)) {
-    throw InputError(option + ": '" + name +
-                     "' is not an identifier, expected a letter, then letters, digits and underscores");
+    throw OptionError(option + ": '" + name +
+                      "' is not an identifier, expected a letter, then letters, digits and underscores");
   }
-  const std::string instead = option == "--name" ? "expected another name" : "expected another file or --name NAME";
+  const Message instead =
+      option == Option::name ? Message("expected another name") : "expected another file or " + Option::name + " NAME";
   std::vector<std::string_view> own;
   for (const Words& one : languages) {
     if (std::ranges::find(one.words, name) != one.words.end()) own.push_back(one.language);
   }
   if (!own.empty()) {
-    throw InputError(option + ": '" + name + "' is a word of " + listed(own) + ", " + instead);
+    throw OptionError(option + ": '" + name + "' is a word of " + listed(own) + ", " + instead);
   }
   if (std::ranges::find(used_by_the_code, name) != std::end(used_by_the_code)) {
-    throw InputError(option + ": '" + name + "' is a file or module that exported code uses, " + instead);
+    throw OptionError(option + ": '" + name + "' is a file or module that exported code uses, " + instead);
   }
 }
 

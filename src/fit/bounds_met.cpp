@@ -3,6 +3,8 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <string>
 
 #include "core/number_text.hpp"
 #include "fit/curvature_directions.hpp"
@@ -83,11 +85,12 @@ std::optional<double> cost_beyond_bounds(const Layout& layout, const Response& d
   return std::sqrt(std::clamp(square - gain, 0.0, square));
 }
 
-std::string bounds_text(const Layout& layout, const Response& derivatives, const std::vector<double>& u,
-                        DriveKind drive_kind) {
+Message bounds_text(const Layout& layout, const Response& derivatives, const std::vector<double>& u,
+                    DriveKind drive_kind) {
   std::vector<std::string> limits;
   std::vector<std::string> ends;
-  std::string options;
+  Message wider_box("");
+  std::set<std::string> widened;
   for (const ParameterLaw& law : layout.laws()) {
     const Parameter& card = layout.cards()[law.parameter];
     const std::string& name = layout.names()[law.parameter];
@@ -102,8 +105,8 @@ std::string bounds_text(const Layout& layout, const Response& derivatives, const
         limits.push_back(name + " is " + value + place + ", the " + (upper ? "most" : "least") + " it can be");
       } else {
         ends.push_back(name + " (" + value + place + ")");
-        const std::string option = " --bounds " + name + "=" + wider(card, upper);
-        if (options.find(option) == std::string::npos) options += option;
+        const std::string range = name + "=" + wider(card, upper);
+        if (widened.insert(range).second) wider_box += " " + Option::bounds + " " + range;
       }
     }
   }
@@ -120,7 +123,7 @@ std::string bounds_text(const Layout& layout, const Response& derivatives, const
                   ? ", which costs no error that shows"
                   : ", beyond which the NRMSE would fall by about " + number_text(std::round(100.0 * falls)) + " %";
     }
-    text += "; wider with" + options;
+    return text + "; wider with" + wider_box;
   }
   return text;
 }

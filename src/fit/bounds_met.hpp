@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/message.hpp"
 #include "fit/layout.hpp"
 #include "fit/solver.hpp"
 
@@ -24,7 +25,7 @@ std::optional<double> cost_beyond_bounds(const Layout& layout, const Response& d
 
 // One sentence or two for people: which parameters are at the end of what they can be, which at the end of their search
 // range, what the range costs in the error, and the option that widens it. Empty where no parameter meets an end.
-std::string bounds_text(const Layout& layout, const Response& derivatives, const std::vector<double>& u,
-                        DriveKind drive_kind);
+Message bounds_text(const Layout& layout, const Response& derivatives, const std::vector<double>& u,
+                    DriveKind drive_kind);
 
 }  // namespace hysteron

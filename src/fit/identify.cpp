@@ -109,7 +109,7 @@ void check_integration(Identification& result, const std::vector<double>& best, 
         Objective(result.layout, refer_to(campaign.recordings, result.fitted), tight).evaluate({best, false}).cost[0];
     if (std::fabs(tight_cost - result.cost) > 1e-3 * result.cost) {
       result.warnings.push_back("a four times finer integration moves the NRMSE from " + std::to_string(result.cost) +
-                                " to " + std::to_string(tight_cost) + ": use a smaller --tolerance");
+                                " to " + std::to_string(tight_cost) + ": use a smaller tolerance");
     }
   } catch (const Stopped&) {
     result.warnings.emplace_back("interrupted before the integration was checked");

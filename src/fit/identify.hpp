@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/message.hpp"
 #include "core/recording.hpp"
 #include "fit/correlations.hpp"
 #include "fit/driver.hpp"
@@ -64,7 +65,7 @@ struct Identification {
   std::optional<RunResult> final_run = {};
   std::string final_stage = {};
   std::vector<std::string> warnings = {};
-  std::string bounds_met = {};  // bounds_text of the final point
+  Message bounds_met = "";  // bounds_text of the final point
   // At the final point; absent and empty where an interruption came before them.
   std::optional<Correlations> correlations = {};
   std::vector<ScaledSensitivity> sensitivities = {};

@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "core/frequency.hpp"
+#include "core/message.hpp"
 #include "core/number_text.hpp"
 #include "core/suggest.hpp"
 #include "core/unit_text.hpp"
@@ -51,14 +52,14 @@ std::vector<double> lagrange_coefficients(const std::vector<double>& at, std::si
   return c;
 }
 
-void check_known(const std::vector<std::string>& names, const std::string& name, const std::string& option) {
+void check_known(const std::vector<std::string>& names, const std::string& name, const Message& option) {
   if (std::ranges::find(names, name) == names.end()) {
     std::string list;
     for (const std::string& known : names) {
       list += (list.empty() ? "" : ", ") + known;
     }
-    throw InputError(option + ": the model has no parameter '" + name + "'" + suggestion(name, names) +
-                     ", expected one of " + list);
+    throw OptionError(option + ": the model has no parameter '" + name + "'" + suggestion(name, names) +
+                      ", expected one of " + list);
   }
 }
 
@@ -99,12 +100,12 @@ std::string limits_text(const Parameter& card, double least) {
 }
 
 // `given` is the option with the value. The box is the device's.
-void refuse_impossible(const Parameter& card, const Box& box, double value, const std::string& given) {
+void refuse_impossible(const Parameter& card, const Box& box, double value, const Message& given) {
   const bool divides = card.scale == Scale::logarithmic && !card.limits.zero;
   const double least = divides ? far_below_the_box * box.lower : card.limits.lower;
   if (card.limits.hold(value) && value >= least) return;
-  throw InputError(given + ": " + number_text(value) + " is no " + std::string(card.name) + " (" +
-                   std::string(card.meaning) + "), expected " + limits_text(card, divides ? least : 0.0));
+  throw OptionError(given + ": " + number_text(value) + " is no " + std::string(card.name) + " (" +
+                    std::string(card.meaning) + "), expected " + limits_text(card, divides ? least : 0.0));
 }
 
 }  // namespace
@@ -216,24 +217,25 @@ Layout::Layout(CompositeModel model, const DataScale& scale, const LayoutOptions
       names_(model_.parameter_names()),
       conditions_(scale.conditions) {
   for (const auto& [name, order] : options.by_current) {
-    check_known(names_, name, "--by-current");
+    check_known(names_, name, Option::by_current);
   }
   for (const auto& [name, order] : options.by_frequency) {
-    check_known(names_, name, "--by-frequency");
+    check_known(names_, name, Option::by_frequency);
   }
   for (const auto& [condition, orders] : options.by) {
     for (const auto& [name, order] : orders) {
-      check_known(names_, name, "--by " + condition);
+      check_known(names_, name, Option::by + " " + condition);
     }
     if (std::ranges::find(conditions_, condition, &ConditionRange::name) == conditions_.end()) {
-      throw InputError("--by " + condition + ": the recordings were read without it, expected a column of them");
+      throw OptionError(Option::by + " " + condition +
+                        ": the recordings were read without it, expected a column of them");
     }
   }
   for (const auto& [name, value] : options.fix) {
-    check_known(names_, name, "--fix");
+    check_known(names_, name, Option::fix);
   }
   for (const auto& [name, range] : options.bounds) {
-    check_known(names_, name, "--bounds");
+    check_known(names_, name, Option::bounds);
   }
   const double of_springs = offset_of_springs(cards_, scale);
   for (std::size_t j = 0; j < cards_.size(); ++j) {
@@ -255,7 +257,7 @@ Layout::Layout(CompositeModel model, const DataScale& scale, const LayoutOptions
     }
     const Box of_device = card.box;
     if (const auto own = options.bounds.find(names_[j]); own != options.bounds.end()) {
-      const std::string given = "--bounds " + names_[j];
+      const Message given = Option::bounds + " " + names_[j];
       refuse_impossible(card, of_device, own->second.first, given);
       refuse_impossible(card, of_device, own->second.second, given);
       card.box.lower = own->second.first;
@@ -267,7 +269,7 @@ Layout::Layout(CompositeModel model, const DataScale& scale, const LayoutOptions
       }
     }
     if (const auto fixed = options.fix.find(names_[j]); fixed != options.fix.end()) {
-      refuse_impossible(card, of_device, fixed->second, "--fix " + names_[j]);
+      refuse_impossible(card, of_device, fixed->second, Option::fix + " " + names_[j]);
       card.fixed = true;
       card.initial = fixed->second;
     }
@@ -277,12 +279,12 @@ Layout::Layout(CompositeModel model, const DataScale& scale, const LayoutOptions
     const int drive_order = drive_law == options.by_current.end() ? 0 : drive_law->second;
     const int frequency_order = frequency_law == options.by_frequency.end() ? 0 : frequency_law->second;
     if (drive_order > 0 && !(scale.drive_high > scale.drive_low)) {
-      throw InputError("--by-current " + names_[j] + ":" + std::to_string(drive_order) +
-                       ": the recordings hold only one current or voltage level, expected at least two");
+      throw OptionError(Option::by_current + " " + names_[j] + ":" + std::to_string(drive_order) +
+                        ": the recordings hold only one current or voltage level, expected at least two");
     }
     if (frequency_order > 0 && !(scale.frequency_high > scale.frequency_low)) {
-      throw InputError("--by-frequency " + names_[j] + ":" + std::to_string(frequency_order) +
-                       ": the recordings hold only one frequency, expected at least two");
+      throw OptionError(Option::by_frequency + " " + names_[j] + ":" + std::to_string(frequency_order) +
+                        ": the recordings hold only one frequency, expected at least two");
     }
     std::vector<std::vector<double>> condition_nodes;
     bool follows_condition = false;
@@ -291,15 +293,16 @@ Layout::Layout(CompositeModel model, const DataScale& scale, const LayoutOptions
       const auto own = orders == options.by.end() ? LawOrders::const_iterator{} : orders->second.find(names_[j]);
       const int order = orders == options.by.end() || own == orders->second.end() ? 0 : own->second;
       if (order > 0 && !(condition.high > condition.low)) {
-        throw InputError("--by " + condition.name + "=" + names_[j] + ":" + std::to_string(order) +
-                         ": the recordings hold only one " + condition.name + ", expected at least two");
+        throw OptionError(Option::by + " " + condition.name + "=" + names_[j] + ":" + std::to_string(order) +
+                          ": the recordings hold only one " + condition.name + ", expected at least two");
       }
       follows_condition = follows_condition || order > 0;
       condition_nodes.push_back(nodes(condition.low, condition.high, order));
     }
     if (card.fixed) {
       if (drive_order + frequency_order > 0 || follows_condition) {
-        throw InputError("parameter '" + names_[j] + "' is fixed and cannot follow a law, expected --bounds for it");
+        throw OptionError("parameter '" + names_[j] + "' is fixed and cannot follow a law, expected " + Option::bounds +
+                          " for it");
       }
       continue;
     }

@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "core/mean.hpp"
+#include "core/message.hpp"
 
 namespace hysteron {
 
@@ -34,7 +35,7 @@ Normalisation normalisation_of(const std::string& word) {
   if (word == "mean-abs") {
     return Normalisation::mean_abs;
   }
-  throw InputError("--normalisation: unknown '" + word + "', expected max-abs, range, std or mean-abs");
+  throw OptionError(Option::normalisation + ": unknown '" + word + "', expected max-abs, range, std or mean-abs");
 }
 
 std::string_view word_of(Normalisation normalisation) {

@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "core/frequency.hpp"
+#include "core/message.hpp"
 
 namespace hysteron {
 namespace {
@@ -98,14 +99,14 @@ TwoStage fit_two_stage(const Campaign& campaign, const Layout& layout, const std
   const std::vector<Parameter>& cards = layout.cards();
   for (const ParameterLaw& law : laws) {
     if (std::ranges::any_of(law.condition_nodes, [](const auto& nodes) { return nodes.size() > 1; })) {
-      throw InputError("--stages two: " + layout.names()[law.parameter] +
-                       " follows a condition, expected laws in drive and frequency only");
+      throw OptionError(Option::stages + " two: " + layout.names()[law.parameter] +
+                        " follows a condition, expected laws in drive and frequency only");
     }
     const std::size_t coefficients = law.count();
     if (result.conditions.size() < coefficients) {
-      throw InputError("--stages two: the law of " + layout.names()[law.parameter] + " has " +
-                       std::to_string(coefficients) + " coefficients, the fitted recordings only " +
-                       std::to_string(result.conditions.size()) + " conditions of drive level and frequency");
+      throw OptionError(Option::stages + " two: the law of " + layout.names()[law.parameter] + " has " +
+                        std::to_string(coefficients) + " coefficients, the fitted recordings only " +
+                        std::to_string(result.conditions.size()) + " conditions of drive level and frequency");
     }
   }
   const auto samples_of = [&](const std::vector<std::size_t>& indices) {

@@ -120,17 +120,19 @@ Remark thinning_remark(const std::string& file, std::size_t read, std::size_t k,
   const std::string text = fmt::format("{} samples read, every {} averaged to one: {} kept, {:.3g} ms apart",
                                        counted(read), k, counted(kept), 1e3 * step);
   if (bend <= largest_bend) {
-    return {file, Remark::Kind::thinned, "thinned", text + fmt::format("; --keep-samples {} keeps all", read)};
+    return {file, Remark::Kind::thinned, "thinned",
+            text + "; " + Option::keep_samples + fmt::format(" {} keeps all", read)};
   }
   // What a straight line leaves grows with the square of the block. Blocks are of whole samples.
   const double block = std::floor(static_cast<double>(k) * std::sqrt(largest_bend / bend));
   const std::size_t needed =
       block < 1.0 ? read : static_cast<std::size_t>(std::ceil(static_cast<double>(read) / block));
-  return {
-      file, Remark::Kind::thinned, "thinned too far",
-      text + fmt::format("; the motion is too fast for that, it bends by {:.2g} % of its size within them, expected "
-                         "{} kept of this recording (--keep-samples)",
-                         100.0 * bend, counted(needed))};
+  return {file, Remark::Kind::thinned, "thinned too far",
+          text +
+              fmt::format("; the motion is too fast for that, it bends by {:.2g} % of its size within them, expected "
+                          "{} kept of this recording (",
+                          100.0 * bend, counted(needed)) +
+              Option::keep_samples + ")"};
 }
 
 }  // namespace hysteron

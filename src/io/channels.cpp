@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "core/extent.hpp"
+#include "core/message.hpp"
 #include "io/stillness.hpp"
 #include "io/text.hpp"
 #include "io/velocity.hpp"
@@ -151,7 +152,7 @@ class Assigner {
  private:
   Source& source(Quantity quantity) { return sources_[static_cast<std::size_t>(quantity)]; }
 
-  [[noreturn]] void fail(const std::string& message) const { throw InputError(file_, line_, message); }
+  [[noreturn]] void fail(const Message& message) const { throw OptionError(file_, line_, message); }
 
   // The columns `text` names: those with exactly this text, else without case, else by name or alias.
   [[nodiscard]] std::vector<std::size_t> matches(std::string_view text) const {
@@ -186,8 +187,8 @@ class Assigner {
   void map(const std::string& channel, const std::string& value) {
     const auto quantity = quantity_of_name(channel);
     if (!quantity) {
-      throw InputError("--column " + channel + "=" + value + ": unknown channel " + in_quotes(channel) +
-                       ", expected one of " + list_of_channels());
+      throw OptionError(Option::column + " " + channel + "=" + value + ": unknown channel " + in_quotes(channel) +
+                        ", expected one of " + list_of_channels());
     }
     const std::string name(quantity_name(*quantity));
     const Column wanted = split_column(value);
@@ -218,7 +219,8 @@ class Assigner {
         options_.columns, [&](const auto& entry) { return quantity_of_name(entry.first) == *quantity; });
     if (mapped) return;
     fail("two columns for " + name + " (" + in_quotes(columns_[static_cast<std::size_t>(present.column)].text) +
-         " and " + in_quotes(columns_[i].text) + "), expected one, or --column " + name + "=NAME to choose");
+         " and " + in_quotes(columns_[i].text) + "), expected one, or " + Option::column + " " + name +
+         "=NAME to choose");
   }
 
   // "Total Time", "Axial_Force": a channel that no column names alone is the one column whose last word names it.
@@ -235,8 +237,8 @@ class Assigner {
       const std::string channel(quantity_name(quantity));
       if (found.size() > 1 && quantity != Quantity::current) {
         fail(std::to_string(found.size()) + " columns may be the " + channel + " (" +
-             in_quotes(columns_[found[0]].text) + ", " + in_quotes(columns_[found[1]].text) +
-             "), expected one, or --column " + channel + "=NAME to choose");
+             in_quotes(columns_[found[0]].text) + ", " + in_quotes(columns_[found[1]].text) + "), expected one, or " +
+             Option::column + " " + channel + "=NAME to choose");
       }
       if (found.size() != 1) continue;
       assign(quantity, found.front(), {});
@@ -270,7 +272,7 @@ class Assigner {
   void require(Quantity quantity) {
     if (source(quantity).column >= 0) return;
     const std::string name(quantity_name(quantity));
-    fail("no " + name + " column, expected one named " + names_of(quantity) + ", or --column " + name +
+    fail("no " + name + " column, expected one named " + names_of(quantity) + ", or " + Option::column + " " + name +
          "=NAME; the columns are " + list_of(columns_));
   }
 
@@ -351,10 +353,10 @@ void refuse_two_units(const Column& column, const std::string& name, const std::
     same = same && find_unit(quantity, column.unit) == find_unit(quantity, column.other_unit);
   }
   if (same) return;
-  throw InputError(file, line,
-                   "column " + in_quotes(column.text) + " is given in " + in_quotes(column.unit) + " and in " +
-                       in_quotes(column.other_unit) + ", expected one unit, or --column " + name + "=\"" + column.name +
-                       " [UNIT]\" to choose");
+  throw OptionError(file, line,
+                    "column " + in_quotes(column.text) + " is given in " + in_quotes(column.unit) + " and in " +
+                        in_quotes(column.other_unit) + ", expected one unit, or " + Option::column + " " + name +
+                        "=\"" + column.name + " [UNIT]\" to choose");
 }
 
 Sources assign_columns(const std::vector<Column>& columns, const ReadOptions& options, const std::string& file,

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/message.hpp"
 #include "core/recording.hpp"
 #include "io/units.hpp"
 
@@ -19,8 +20,8 @@ struct Remark {
   enum class Kind { implausible, dialect, thinned };
   std::string file;
   Kind kind;
-  std::string key;   // the same for the same remark on another file
-  std::string text;  // one line
+  std::string key;  // the same for the same remark on another file
+  Message text;     // one line
 };
 
 // One number for a whole recording, in SI, with its unit (empty: not said) and where it is said, for messages.

@@ -8,6 +8,7 @@
 
 #include "core/drive.hpp"
 #include "core/error.hpp"
+#include "core/message.hpp"
 #include "io/text.hpp"
 
 namespace hysteron {
@@ -38,9 +39,9 @@ int column_of(const std::string& name, const std::vector<Column>& columns, const
     }
   }
   if (found.size() > 1) {
-    throw InputError(file, line,
-                     std::to_string(found.size()) + " columns are named " + in_quotes(wanted.name) +
-                         ", expected one, or --column " + name + "=NAME to choose");
+    throw OptionError(file, line,
+                      std::to_string(found.size()) + " columns are named " + in_quotes(wanted.name) +
+                          ", expected one, or " + Option::column + " " + name + "=NAME to choose");
   }
   if (found.empty()) {
     if (mapped != options.columns.end()) {
@@ -133,7 +134,8 @@ std::vector<ConditionSource> assign_conditions(const std::vector<Column>& column
     source.name = name;
     const auto quantity = quantity_of_name(name);
     if (quantity == Quantity::voltage && has(Quantity::voltage) && !has(Quantity::current)) {
-      throw InputError(file, line, "the voltage is the drive of the recording, expected --by-current for laws in it");
+      throw OptionError(
+          file, line, "the voltage is the drive of the recording, expected " + Option::by_current + " for laws in it");
     }
     if (quantity && has(*quantity)) {
       source.channel = quantity;
@@ -156,11 +158,11 @@ std::vector<ConditionSource> assign_conditions(const std::vector<Column>& column
         list += (list.empty() ? "" : ", ") + in_quotes(column.text);
         if (lower_case(column.name).find(name) != std::string::npos) likely = in_quotes(column.name);
       }
-      throw InputError(
-          file, line,
-          "no column " + in_quotes(name) + ", which parameters follow; expected one, --column " + name + "=" + likely +
-              ", or a number for it in campaign.toml (for a model already fitted also by --at); the columns are " +
-              list);
+      throw OptionError(file, line,
+                        "no column " + in_quotes(name) + ", which parameters follow; expected one, " + Option::column +
+                            " " + name + "=" + likely +
+                            ", or a number for it in campaign.toml (for a model already fitted also by " + Option::at +
+                            "); the columns are " + list);
     }
     result.push_back(std::move(source));
   }

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/message.hpp"
 #include "io/block_means.hpp"
 #include "io/clock_time.hpp"
 #include "io/conditions.hpp"
@@ -149,7 +150,7 @@ class CsvReader {
   }
 
  private:
-  [[noreturn]] void fail(int line, const std::string& message) const { throw InputError(file_, line, message); }
+  [[noreturn]] void fail(int line, const Message& message) const { throw OptionError(file_, line, message); }
 
   void check_text() {
     if (text_.starts_with("\xEF\xBB\xBF")) position_ = 3;
@@ -209,7 +210,8 @@ class CsvReader {
     for (int k = 0; k < options_.skip; ++k) {
       const std::size_t end = position_ < text_.size() ? text_.find(line_end_, position_) : std::string_view::npos;
       if (end == std::string_view::npos) {
-        fail(0, "--skip " + std::to_string(options_.skip) + " leaves nothing of the file, expected fewer lines");
+        fail(0,
+             Option::skip + " " + std::to_string(options_.skip) + " leaves nothing of the file, expected fewer lines");
       }
       position_ = end + 1;
       ++line_;

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/message.hpp"
 #include "io/block_means.hpp"
 #include "io/conditions.hpp"
 #include "io/plausible.hpp"
@@ -71,14 +72,14 @@ class RecordingMaker {
   }
 
  private:
-  [[noreturn]] void fail(const std::string& message) const { throw InputError(file_, 0, message); }
+  [[noreturn]] void fail(const Message& message) const { throw OptionError(file_, 0, message); }
 
   void choose_group() {
     if (options_.group.empty()) return;
     const std::string wanted = lower_case(options_.group);
     const auto is_wanted = [&](const MeasuredChannel& channel) { return lower_case(channel.group) == wanted; };
     if (std::ranges::none_of(channels_, is_wanted)) {
-      fail("no group " + in_quotes(options_.group) + " for --group, expected " + list_of_groups());
+      fail("no group " + in_quotes(options_.group) + " for " + Option::group + ", expected " + list_of_groups());
     }
     for (MeasuredChannel& channel : channels_) {
       if (!is_wanted(channel)) channel.values = nullptr;
@@ -128,7 +129,7 @@ class RecordingMaker {
         const auto [at, added] = named.emplace(key, i);
         if (!added) {
           fail("two channels for time (" + in_quotes(channels_[at->second].name) + " and " + in_quotes(channel.name) +
-               "), expected one, or --column time=NAME to choose");
+               "), expected one, or " + Option::column + " time=NAME to choose");
         }
       } else if (quantity_of_last_word(name) == Quantity::time && !by_last_word.emplace(key, i).second) {
         undecided.insert(key);
@@ -201,8 +202,8 @@ class RecordingMaker {
       const std::size_t more = having.size() > most ? having.size() - most : 0;
       if (more > 0) having.resize(most);
       if (more > 0) having.push_back(std::to_string(more) + " more");
-      fail("groups " + joined(having, "and") + " hold a " + name +
-           " each, expected one, or --group NAME to choose a group, or --column " + name + "=GROUP/NAME");
+      fail("groups " + joined(having, "and") + " hold a " + name + " each, expected one, or " + Option::group +
+           " NAME to choose a group, or " + Option::column + " " + name + "=GROUP/NAME");
     }
   }
 
@@ -299,7 +300,8 @@ class RecordingMaker {
     if (values_[time_at].empty()) {
       fail(text_of(base_) +
            " has no times: neither a start and a step nor a channel named time with as many values in its group, "
-           "expected one, or --column time=NAME");
+           "expected one, or " +
+           Option::column + " time=NAME");
     }
     last_ = values_[time_at].size();
     if (last_ < fewest_rows) too_few(last_);

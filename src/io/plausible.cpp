@@ -64,16 +64,16 @@ class Remarks {
     const std::string name(quantity_name(quantity));
     if (source.assumed) {
       const auto units = accepted_units(quantity);
-      tell(name, fmt::format("{} has no unit and was taken in {}: {} is not of a damper's size; give the unit, as in "
-                             "--column {}=\"{} [UNIT]\"",
-                             name, units.substr(0, units.find(',')), what, name, column(source)));
+      tell(name, fmt::format("{} has no unit and was taken in {}: {} is not of a damper's size; give the unit, as in ",
+                             name, units.substr(0, units.find(',')), what) +
+                     Option::column + fmt::format(" {}=\"{} [UNIT]\"", name, column(source)));
     } else {
       tell(name, fmt::format("{} is not of a damper's size: check the unit of column '{}'{}", what, column(source),
                              also.empty() ? "" : " " + also));
     }
   }
 
-  void tell(const std::string& key, const std::string& text) {
+  void tell(const std::string& key, const Message& text) {
     told_ = true;
     options_.remark({file_, Remark::Kind::implausible, key, text});
   }

@@ -95,12 +95,12 @@ void check_diagnosis(const Campaign& campaign, DiagnoseOptions& options) {
   require_one_drive(campaign.recordings);  // effects of the drive are looked for in every campaign
   if (options.model.empty()) options.model = campaign.model.empty() ? "bouc-wen" : campaign.model;
   add_laws_of(campaign, options.layout);
-  refuse_repeats("--laws", options.laws);
+  refuse_repeats(Option::laws, options.laws);
   for (const std::string& law : options.laws) {
     make_model(law, {});
   }
   make_model(options.model, {});
-  refuse_repeats("--effects", options.candidates);
+  refuse_repeats(Option::effects, options.candidates);
   for (const std::string& effect : options.candidates) {
     make_model(options.model, {effect});
   }

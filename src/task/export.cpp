@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "core/error.hpp"
+#include "core/message.hpp"
 #include "export/names.hpp"
 #include "export/targets.hpp"
 #include "io/output.hpp"
@@ -19,11 +20,11 @@ namespace {
 // As `name` says, else as the file that is written, else as the law.
 std::string name_of(const ExportRequest& request, const StoredModel& stored, const std::string& file) {
   if (!request.name.empty()) {
-    refuse_name("--name", request.name);
+    refuse_name(Option::name, request.name);
     return request.name;
   }
   const std::string name = identifier(file.empty() ? stored.model.law->id : file);
-  refuse_name("--out", name);
+  refuse_name(Option::out, name);
   return name;
 }
 
@@ -57,9 +58,9 @@ void refuse_other_file(const std::filesystem::path& out, const ExportTarget& tar
       std::filesystem::is_directory(out)) {
     return;
   }
-  throw InputError("--out " + out.string() + ": " + std::string(target.id) + " is not written as " + ending +
-                   ", expected a folder" +
-                   (target.extension.empty() ? "" : " or a file that ends in " + std::string(target.extension)));
+  throw OptionError(Option::out + " " + out.string() + ": " + std::string(target.id) + " is not written as " + ending +
+                    ", expected a folder" +
+                    (target.extension.empty() ? "" : " or a file that ends in " + std::string(target.extension)));
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "core/message.hpp"
 #include "fit/predict.hpp"
 #include "fit/usable.hpp"
 #include "fit/weighting.hpp"
@@ -237,7 +238,7 @@ json fit_json(const FitResult& fit, const FitData& data, const FitRequest& reque
           {"stages", fit.two_stages ? stages_json(*fit.two_stages, result, campaign) : json(nullptr)},
           {"response", fit.response ? response_json(*fit.response, *request.rig) : json(nullptr)},
           {"warnings", fit.warnings},
-          {"on_bounds", result.bounds_met},
+          {"on_bounds", result.bounds_met.plain()},
           {"provenance", fit.model_file["provenance"]}};
 }
 
@@ -254,13 +255,14 @@ bool on_base(Excites excitation, std::vector<Recording>& responses) {
   const bool force = has([](const Recording& r) -> const std::vector<double>& { return r.force; });
   const bool recorded = excitation == Excites::what_is_recorded;
   if (recorded && base && force) {
-    throw InputError(responses.front().file + ": a force and a base, expected --excitation force or base");
+    throw OptionError(responses.front().file + ": a force and a base, expected " + Option::excitation +
+                      " force or base");
   }
   const bool result = recorded ? base : excitation == Excites::base;
   for (Recording& recording : responses) {
     if (result) recording.force.clear();
     if (excitation == Excites::force && recording.force.empty()) {
-      throw InputError(recording.file + ": no force column, expected one for --excitation force");
+      throw OptionError(recording.file + ": no force column, expected one for " + Option::excitation + " force");
     }
   }
   return result;
@@ -279,7 +281,7 @@ void check_before(const Layout& layout, const FitData& data, const FitRequest& r
     follows_frequency = follows_frequency || law.frequency_nodes.size() > 1;
   }
   require_no_rate(layout.model(), may_act, follows_frequency, data.campaign.recordings,
-                  "--fix PARAMETER=0, a law without it, or recordings with time");
+                  Option::fix + " PARAMETER=0, a law without it, or recordings with time");
 }
 
 }  // namespace
@@ -294,11 +296,12 @@ FitData fit_data(Campaign campaign, FitRequest& request) {
   }
   data.model = request.model.empty() ? data.campaign.model : request.model;
   if (data.model.empty()) {
-    throw InputError("no model: expected --model NAME or a model in campaign.toml, see `hysteron list models`");
+    throw OptionError("no model: expected " + Option::model +
+                      " NAME or a model in campaign.toml, see `hysteron list models`");
   }
   IdentifyOptions& identify_with = request.identify;
-  refuse_repeats("--solver", identify_with.solvers);
-  refuse_repeats("--effects", identify_with.effects);
+  refuse_repeats(Option::solver, identify_with.solvers);
+  refuse_repeats(Option::effects, identify_with.effects);
   LayoutOptions& layout = identify_with.layout;
   add_laws_of(data.campaign, layout);
   if (!layout.by_current.empty()) {
@@ -307,10 +310,11 @@ FitData fit_data(Campaign campaign, FitRequest& request) {
   const CompositeModel model = make_model(data.model, identify_with.effects);
   normaliser(data.campaign.recordings.front(), identify_with.objective.normalisation);
   if (request.two_stages && layout.by_current.empty() && layout.by_frequency.empty()) {
-    throw InputError("--stages two: no parameter has a law, expected --by-current or --by-frequency");
+    throw OptionError(Option::stages + " two: no parameter has a law, expected " + Option::by_current + " or " +
+                      Option::by_frequency);
   }
   if (request.two_stages && request.rig) {
-    throw InputError("--stages two: values of conditions are not fitted to a response, expected one stage");
+    throw OptionError(Option::stages + " two: values of conditions are not fitted to a response, expected one stage");
   }
   check_before(Layout(model, scale_of(data.campaign.recordings), layout), data, request);
   return data;

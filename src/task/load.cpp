@@ -35,7 +35,7 @@ std::vector<Remark> once_each(const std::vector<Remark>& remarks) {
 }
 
 std::string warning_of(const Remark& remark) {
-  return valid_utf8(std::filesystem::path(remark.file).filename().string()) + ": " + remark.text;
+  return valid_utf8(std::filesystem::path(remark.file).filename().string()) + ": " + remark.text.plain();
 }
 
 }  // namespace hysteron

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "core/error.hpp"
+#include "core/message.hpp"
 #include "core/suggest.hpp"
 #include "core/unit_text.hpp"
 #include "io/conditions.hpp"
@@ -415,8 +416,8 @@ void refuse_others(const std::map<std::string, ConditionNumber>& values, const s
     for (const std::string& one : followed) {
       expected += (expected.empty() ? "" : &one == &followed.back() ? " or " : ", ") + one;
     }
-    throw InputError("--at: no parameter of the model follows '" + name + "', expected " +
-                     (expected.empty() ? "no --at, since they follow nothing that it gives" : expected));
+    throw OptionError(Option::at + ": no parameter of the model follows '" + name + "', expected " +
+                      (expected.empty() ? "no " + Option::at + ", since they follow nothing that it gives" : expected));
   }
 }
 
@@ -433,10 +434,10 @@ void reorder(StoredModel& stored, const std::vector<ConditionRange>& to) {
   stored.conditions = to;
 }
 
-void refuse_other_unit(const ConditionRange& condition, const std::string& unit, const std::string& where) {
+void refuse_other_unit(const ConditionRange& condition, const std::string& unit, const Message& where) {
   if (!unit.empty() && !condition.unit.empty() && unit != condition.unit) {
-    throw InputError(where + ": the " + condition.name + " is in '" + unit + "', expected '" + condition.unit +
-                     "' as the model has it");
+    throw OptionError(where + ": the " + condition.name + " is in '" + unit + "', expected '" + condition.unit +
+                      "' as the model has it");
   }
 }
 
@@ -482,10 +483,11 @@ void hold_conditions(StoredModel& stored, const std::map<std::string, ConditionN
   for (const ConditionRange& condition : stored.conditions) {
     const auto found = values.find(condition.name);
     if (found == values.end()) {
-      throw InputError(command + ": parameters follow the " + condition.name + ", expected its value by --at \"" +
-                       condition.name + "=NUMBER" + (condition.unit.empty() ? "" : " " + condition.unit) + "\"");
+      throw OptionError(command + ": parameters follow the " + condition.name + ", expected its value by " +
+                        Option::at + " \"" + condition.name + "=NUMBER" +
+                        (condition.unit.empty() ? "" : " " + condition.unit) + "\"");
     }
-    refuse_other_unit(condition, found->second.unit, "--at");
+    refuse_other_unit(condition, found->second.unit, Option::at);
     at.push_back(found->second.value);
   }
   refuse_others(values, conditions_of({&stored}));  // drive and frequency stay inputs

@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "core/frequency.hpp"
+#include "core/message.hpp"
 #include "core/suggest.hpp"
 #include "fit/predict.hpp"
 #include "fit/start.hpp"
@@ -24,20 +25,22 @@ std::vector<double> given_quantities(const Preset& preset, const std::map<std::s
     if (found == preset.quantities.end()) {
       std::vector<std::string> known;
       for (const PresetQuantity& quantity : preset.quantities) known.emplace_back(quantity.name);
-      throw InputError("--set: '" + name + "' is no quantity of the preset" + suggestion(name, known) +
-                       ", see `hysteron describe " + std::string(preset.id) + "`");
+      throw OptionError(Option::set + ": '" + name + "' is no quantity of the preset" + suggestion(name, known) +
+                        ", see `hysteron describe " + std::string(preset.id) + "`");
     }
     given[static_cast<std::size_t>(found - preset.quantities.begin())] = value;
   }
-  std::string missing;
+  Message missing("");
+  bool complete = true;
   for (std::size_t k = 0; k < given.size(); ++k) {
     if (preset.quantities[k].at == nullptr && std::isnan(given[k])) {
-      missing += " --set " + std::string(preset.quantities[k].name) + "=...";
+      missing += " " + Option::set + " " + std::string(preset.quantities[k].name) + "=...";
+      complete = false;
     }
   }
-  if (!missing.empty()) {
-    throw InputError("preset " + std::string(preset.id) + ": its source does not print every quantity, expected" +
-                     missing);
+  if (!complete) {
+    throw OptionError("preset " + std::string(preset.id) + ": its source does not print every quantity, expected" +
+                      missing);
   }
   return given;
 }
@@ -65,13 +68,13 @@ std::vector<double> force_of_preset(const Preset& preset, const std::map<std::st
     recording.drive.assign(recording.size(), drive);
   } else if (preset.drive != PresetDrive::none && !recording.drive.empty() &&
              (recording.drive_kind == DriveKind::voltage) != (preset.drive == PresetDrive::voltage)) {
-    throw InputError(recording.file + ": records a " +
-                     (recording.drive_kind == DriveKind::voltage ? std::string("voltage") : std::string("current")) +
-                     ", preset " + std::string(preset.id) + " needs the other; give its value with --drive");
+    throw OptionError(recording.file + ": records a " +
+                      (recording.drive_kind == DriveKind::voltage ? std::string("voltage") : std::string("current")) +
+                      ", preset " + std::string(preset.id) + " needs the other; give its value with " + Option::drive);
   }
   if (preset.drive != PresetDrive::none && recording.drive.empty()) {
-    throw InputError(recording.file + ": has no current or voltage, expected one for preset " + std::string(preset.id) +
-                     " or its value with --drive");
+    throw OptionError(recording.file + ": has no current or voltage, expected one for preset " +
+                      std::string(preset.id) + " or its value with " + Option::drive);
   }
   recording.drive = lagged(recording.time, recording.drive, preset.lag);
   const auto outside = std::ranges::count_if(

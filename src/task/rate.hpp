@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/message.hpp"
 #include "core/recording.hpp"
 #include "simulate/composite.hpp"
 
@@ -14,6 +15,6 @@ namespace hysteron {
 // the rate against. Throws InputError where a recording has no time and a parameter with time in its unit may differ
 // from 0 (may_act, one a parameter), or laws follow the frequency. `advice` ends the message.
 void require_no_rate(const CompositeModel& model, const std::vector<bool>& may_act, bool follows_frequency,
-                     const std::vector<Recording>& recordings, const std::string& advice);
+                     const std::vector<Recording>& recordings, const Message& advice);
 
 }  // namespace hysteron

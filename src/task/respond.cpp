@@ -9,6 +9,7 @@
 #include "core/drive.hpp"
 #include "core/error.hpp"
 #include "core/frequency.hpp"
+#include "core/message.hpp"
 #include "respond/one_period.hpp"
 #include "task/guesses.hpp"
 #include "task/remarks.hpp"
@@ -28,17 +29,17 @@ bool moves_base(const Recording& recording, Excites excitation) {
   const bool has_base = !ground_of(recording).empty();
   if (excitation == Excites::what_is_recorded && has_force == has_base) {
     if (has_force) {
-      throw InputError(recording.file +
-                       ": holds a force and a displacement of the base, expected --excitation force or base");
+      throw OptionError(recording.file + ": holds a force and a displacement of the base, expected " +
+                        Option::excitation + " force or base");
     }
-    throw InputError(recording.file + ": no force and no base or displacement column" +
-                     (recording.acceleration.empty() ? "" : " (an acceleration is not enough)") +
-                     ", expected one of them, or --column force=NAME or base=NAME");
+    throw OptionError(recording.file + ": no force and no base or displacement column" +
+                      (recording.acceleration.empty() ? "" : " (an acceleration is not enough)") +
+                      ", expected one of them, or " + Option::column + " force=NAME or base=NAME");
   }
   const bool base = excitation == Excites::what_is_recorded ? has_base : excitation == Excites::base;
   if (base ? !has_base : !has_force) {
-    throw InputError(recording.file + ": no " + (base ? "base or displacement" : "force") +
-                     " column, expected one for --excitation " + word_of(excitation));
+    throw OptionError(recording.file + ": no " + (base ? "base or displacement" : "force") +
+                      " column, expected one for " + Option::excitation + " " + word_of(excitation));
   }
   return base;
 }
@@ -129,8 +130,8 @@ MassResponse response_to(StoredModel stored, const std::string& path, Recording 
   if (std::isnan(request.drive)) check_drive(stored, path, recording);
   const bool base = moves_base(recording, request.excitation);
   if (base && request.interpolation == Interpolation::linear) {
-    throw InputError(
-        "--interpolation linear: straight lines of a base have no acceleration, expected cubic or band-limited");
+    throw OptionError(Option::interpolation +
+                      " linear: straight lines of a base have no acceleration, expected cubic or band-limited");
   }
   if (request.periods > 0) close_period(recording, base, remarks);
   Recording as_motion = recording;

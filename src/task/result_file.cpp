@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/error.hpp"
+#include "core/message.hpp"
 #include "io/file.hpp"
 #include "io/format.hpp"
 #include "io/mat5_writer.hpp"
@@ -31,8 +32,8 @@ void refuse_inputs(const std::string& out, const std::vector<std::string>& input
     const bool among = folder && std::filesystem::equivalent(target.parent_path(), input, code) &&
                        (read_by_ending(ending_of(out)) || target.filename() == "campaign.toml");
     if (among || (!folder && std::filesystem::equivalent(target, input, code))) {
-      throw InputError("--out " + out + ": " + (folder ? "is among the recordings of " + input : "is read") +
-                       " and would be replaced, expected another file");
+      throw OptionError(Option::out + " " + out + ": " + (folder ? "is among the recordings of " + input : "is read") +
+                        " and would be replaced, expected another file");
     }
   }
 }
@@ -44,8 +45,8 @@ void refuse_foreign(const std::filesystem::path& folder, const std::map<std::str
     if (!std::filesystem::is_regular_file(path, code)) continue;
     const std::string there = read_file(path);
     if (there == text || there.find("hysteron") != std::string::npos) continue;
-    throw InputError("--out " + folder.string() + ": " + name +
-                     " is there and was not written by hysteron, expected another folder");
+    throw OptionError(Option::out + " " + folder.string() + ": " + name +
+                      " is there and was not written by hysteron, expected another folder");
   }
 }
 
@@ -53,7 +54,7 @@ void check_table(const std::string& out, const std::vector<std::string>& inputs)
   const std::string ending = ending_of(out);
   const bool written = ending == ".csv" || ending == ".txt" || ending == ".mat";
   if (!written && read_by_ending(ending)) {
-    throw InputError("--out " + out + ": tables are not written as " + ending + ", expected .csv or .mat");
+    throw OptionError(Option::out + " " + out + ": tables are not written as " + ending + ", expected .csv or .mat");
   }
   refuse_inputs(out, inputs);
 }

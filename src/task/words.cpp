@@ -3,13 +3,14 @@
 #include <set>
 
 #include "core/error.hpp"
+#include "core/message.hpp"
 
 namespace hysteron {
 
-void refuse_repeats(const std::string& option, const std::vector<std::string>& words) {
+void refuse_repeats(const Message& option, const std::vector<std::string>& words) {
   std::set<std::string> seen;
   for (const std::string& word : words) {
-    if (!seen.insert(word).second) throw InputError(option + ": '" + word + "' is given twice, expected each once");
+    if (!seen.insert(word).second) throw OptionError(option + ": '" + word + "' is given twice, expected each once");
   }
 }
 

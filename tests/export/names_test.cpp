@@ -8,7 +8,7 @@
 namespace hysteron {
 namespace {
 
-std::string refusal_of(const std::string& name, const std::string& option = "--name") {
+std::string refusal_of(const std::string& name, Option option = Option::name) {
   try {
     refuse_name(option, name);
   } catch (const InputError& error) {
@@ -28,10 +28,10 @@ TEST(ExportNames, AreIdentifiers) {
 }
 
 TEST(ExportNames, AreNoWordsOfTheLanguages) {
-  EXPECT_EQ(refusal_of("class"), "--name: 'class' is a word of C++, Python and Modelica, expected another name");
-  EXPECT_EQ(refusal_of("lambda"), "--name: 'lambda' is a word of Python, expected another name");
-  EXPECT_EQ(refusal_of("int"), "--name: 'int' is a word of C and C++, expected another name");
-  EXPECT_EQ(refusal_of("model", "--out"), "--out: 'model' is a word of Modelica, expected another file or --name NAME");
+  EXPECT_EQ(refusal_of("class"), "name: 'class' is a word of C++, Python and Modelica, expected another name");
+  EXPECT_EQ(refusal_of("lambda"), "name: 'lambda' is a word of Python, expected another name");
+  EXPECT_EQ(refusal_of("int"), "name: 'int' is a word of C and C++, expected another name");
+  EXPECT_EQ(refusal_of("model", Option::out), "out: 'model' is a word of Modelica, expected another file or name NAME");
   // The module itself imports it, and the FMU has a source file of its own by that name.
   for (const char* name : {"math", "sys", "fmu"}) {
     EXPECT_NE(refusal_of(name).find("is a file or module that exported code uses"), std::string::npos) << name;

@@ -71,8 +71,8 @@ TEST(BlockMeans, AllChannelsAreCentredOnTheirTime) {
   ASSERT_EQ(r.unused.size(), 1U);
   EXPECT_DOUBLE_EQ(r.unused[0].mean, 5.0);
   ASSERT_EQ(told.remarks.size(), 1U);
-  EXPECT_EQ(told.remarks[0].text,
-            "20,000 samples read, every 10 averaged to one: 2,000 kept, 10 ms apart; --keep-samples 20000 keeps all");
+  EXPECT_EQ(told.remarks[0].text.plain(),
+            "20,000 samples read, every 10 averaged to one: 2,000 kept, 10 ms apart; keep samples 20000 keeps all");
 }
 
 TEST(BlockMeans, NoiseFallsByTheRootAndAStepStaysWithinOneSample) {
@@ -91,15 +91,17 @@ TEST(BlockMeans, AMotionTooFastForThemIsTold) {
   Told told(2000);
   (void)parse_csv(sine(20000, 1e-3, 7.0), "a.csv", told.options);
   ASSERT_EQ(told.remarks.size(), 1U);
-  EXPECT_NE(told.remarks[0].text.find("the motion is too fast for that"), std::string::npos) << told.remarks[0].text;
+  EXPECT_NE(told.remarks[0].text.plain().find("the motion is too fast for that"), std::string::npos)
+      << told.remarks[0].text.plain();
   // What it asks for is enough.
-  const std::string& text = told.remarks[0].text;
+  const std::string text = told.remarks[0].text.plain();
   const std::size_t at = text.find("expected ") + 9;
   std::string number = text.substr(at, text.find(' ', at) - at);
   std::erase(number, ',');
   Told more(std::stoul(number));
   (void)parse_csv(sine(20000, 1e-3, 7.0), "a.csv", more.options);
-  for (const Remark& remark : more.remarks) EXPECT_EQ(remark.text.find("too fast"), std::string::npos) << remark.text;
+  for (const Remark& remark : more.remarks)
+    EXPECT_EQ(remark.text.plain().find("too fast"), std::string::npos) << remark.text.plain();
 }
 
 TEST(BlockMeans, ShortRecordingsKeepAllTheirSamples) {

@@ -60,7 +60,7 @@ TEST(Conditions, TwoUnitsOfOneColumnAreRefused) {
   std::string text = with_column("valve [bar]", [](int) { return std::string("1"); });
   text.insert(text.find('\n') + 1, "s,mm,N,kPa\n");
   EXPECT_EQ(message_of<InputError>([&] { (void)parse_csv(text, "a.csv", following({"valve"})); }),
-            "a.csv:2: column 'valve [bar]' is given in 'bar' and in 'kPa', expected one unit, or --column "
+            "a.csv:2: column 'valve [bar]' is given in 'bar' and in 'kPa', expected one unit, or column "
             "valve=\"valve [UNIT]\" to choose");
   EXPECT_EQ(parse_csv(text, "a.csv").size(), 20U) << "nothing follows it";
 }
@@ -108,7 +108,7 @@ TEST(Conditions, WhatIsMissingOrTwiceIsRefusedInOneLine) {
   EXPECT_NE(reads(plain(), following({"pressure"})).find("r.csv:1: no column 'pressure', which parameters follow"),
             std::string::npos);
   const std::string oil = with_column("Oil pressure [bar]", [](int) { return std::string("1"); });
-  EXPECT_NE(reads(oil, following({"pressure"})).find("--column pressure='Oil pressure'"), std::string::npos)
+  EXPECT_NE(reads(oil, following({"pressure"})).find("column pressure='Oil pressure'"), std::string::npos)
       << "a column that is likely meant is offered";
   ReadOptions both = following({"pressure"});
   both.numbers["pressure"] = {1.0, "Pa", "campaign.toml", 7};
@@ -119,7 +119,7 @@ TEST(Conditions, WhatIsMissingOrTwiceIsRefusedInOneLine) {
   EXPECT_EQ(reads(words, following({"pressure"})),
             "r.csv:5: pressure 'high' is not a number, expected a finite number");
   const std::string voltage = with_column("voltage [V]", [](int) { return std::string("1"); });
-  EXPECT_NE(reads(voltage, following({"voltage"})).find("expected --by-current"), std::string::npos);
+  EXPECT_NE(reads(voltage, following({"voltage"})).find("expected by current"), std::string::npos);
 }
 
 TEST(Conditions, ACampaignGivesNumbersAndLaws) {

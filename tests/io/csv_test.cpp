@@ -34,7 +34,7 @@ TEST(Csv, ReadsNamesAndUnits) {
 std::string remarks_of(const std::string& text, ReadOptions options = {}) {
   std::string said;
   options.remark = [&](const Remark& remark) {
-    if (remark.kind == Remark::Kind::dialect) said += remark.text + "\n";
+    if (remark.kind == Remark::Kind::dialect) said += remark.text.plain() + "\n";
   };
   EXPECT_EQ(parse_csv(text, "a.csv", options).size(), 10U);
   return said;
@@ -57,7 +57,7 @@ TEST(Csv, ExportsOfRigsAreReadAsTheyAre) {
   EXPECT_EQ(message_of<InputError>(
                 [&] { (void)parse_csv("time,command position,actual position,force\n1,2,3,4\n", "a.csv"); }),
             "a.csv:1: 2 columns may be the displacement ('command position', 'actual position'), expected one, or "
-            "--column displacement=NAME to choose");
+            "column displacement=NAME to choose");
 }
 
 TEST(Csv, LinesBeforeTheHeaderAreNotRead) {
@@ -87,7 +87,7 @@ TEST(Csv, NamesNobodyKnowsStandAboveTheirUnits) {
   const std::string text = "Aika,Matka,Voima\ns,mm,kN\n" + ten_rows();
   EXPECT_EQ(message_of<InputError>([&] { (void)parse_csv(text, "a.csv"); }),
             "a.csv:2: no time column, expected one named time, t (or its German, French, Italian or Spanish word), or "
-            "--column time=NAME; the columns are 'Aika', 'Matka', "
+            "column time=NAME; the columns are 'Aika', 'Matka', "
             "'Voima'");
   ReadOptions options;
   options.columns = {{"time", "Aika"}, {"displacement", "Matka"}, {"force", "Voima"}};
@@ -101,7 +101,7 @@ TEST(Csv, LinesAreSkippedWhereThatIsAsked) {
   EXPECT_EQ(remarks_of("x,t,F\n1,2,3\n" + header + ten_rows(), options), "");
   options.skip = 50;
   EXPECT_EQ(message_of<InputError>([&] { (void)parse_csv(header + ten_rows(), "a.csv", options); }),
-            "a.csv: --skip 50 leaves nothing of the file, expected fewer lines");
+            "a.csv: skip 50 leaves nothing of the file, expected fewer lines");
 }
 
 TEST(Csv, ColumnsThatAreNoChannelAreKeptAsTheirMean) {
@@ -175,7 +175,7 @@ TEST(Csv, DecimalsThatMayBeThousandsAreTold) {
     std::string lines;
     ReadOptions options;
     options.remark = [&](const Remark& remark) {
-      if (remark.kind == Remark::Kind::dialect) lines += remark.text + "\n";
+      if (remark.kind == Remark::Kind::dialect) lines += remark.text.plain() + "\n";
     };
     (void)parse_csv(text, "a.csv", options);
     return lines;
@@ -304,31 +304,31 @@ TEST(Csv, WrongInputsAreOneClearLine) {
       {"time goes back", good + "0.25,1,2\n",
        ":12: time 0.25 s does not increase after 0.9 s, expected strictly increasing times"},
       {"no time", "x,F\n1,2\n",
-       ":1: no time column, expected one named time, t (or its German, French, Italian or Spanish word), or --column "
+       ":1: no time column, expected one named time, t (or its German, French, Italian or Spanish word), or column "
        "time=NAME; " +
            present + "'x', 'F'"},
       {"no displacement", "t,F\n1,2\n",
        ":1: no displacement column, expected one named displacement, disp, x, displ, position, pos, travel, lvdt, "
        "stroke, crosshead, extension, "
-       "deflection (or its German, French, Italian or Spanish word), or --column displacement=NAME; " +
+       "deflection (or its German, French, Italian or Spanish word), or column displacement=NAME; " +
            present + "'t', 'F'"},
       {"no force", "t [s],x [mm]\n1,2\n",
        ":1: no force column, expected one named force, f, load, load cell (or its German, French, Italian or Spanish "
-       "word), or --column force=NAME; " +
+       "word), or column force=NAME; " +
            present + "'t [s]', 'x [mm]'"},
       {"one column", "hello world\n1 2\n",
-       ":1: no time column, expected one named time, t (or its German, French, Italian or Spanish word), or --column "
+       ":1: no time column, expected one named time, t (or its German, French, Italian or Spanish word), or column "
        "time=NAME; " +
            present + "'hello world'"},
       {"duplicate", "t,x,F [N],load [kN]\n1,2,3,4\n",
-       ":1: two columns for force ('F [N]' and 'load [kN]'), expected one, or --column force=NAME to choose"},
+       ":1: two columns for force ('F [N]' and 'load [kN]'), expected one, or column force=NAME to choose"},
       {"same name twice", "t,x,x,F\n1,2,3,4\n",
-       ":1: two columns for displacement ('x' and 'x'), expected one, or --column displacement=NAME to choose"},
+       ":1: two columns for displacement ('x' and 'x'), expected one, or column displacement=NAME to choose"},
       {"unknown unit", "t,x,F [stone]\n1,2,3\n", ":1: unknown unit 'stone' of force" + unit_list},
       {"unit of another quantity", "t,x,F [mm]\n1,2,3\n", ":1: unknown unit 'mm' of force" + unit_list},
       {"empty unit row", "t,x,F\ns,mm,stone\n1,2,3\n", ":2: unknown unit 'stone' of force" + unit_list},
       {"units that contradict", "t [s],x [mm],F [N]\ns,mm,kN\n1,2,3\n",
-       ":2: column 'F [N]' is given in 'N' and in 'kN', expected one unit, or --column force=\"F [UNIT]\" to choose"},
+       ":2: column 'F [N]' is given in 'N' and in 'kN', expected one unit, or column force=\"F [UNIT]\" to choose"},
       {"text instead of units", "t,x,F\nfoo,bar,baz\n1,2,3\n", ":2: time 'foo' is not a number" + number_end},
       {"mapped column missing", good,
        ":1: no column 'CH9' for force, expected one of 'time [s]', 'displacement [mm]', 'force [N]'",
@@ -347,12 +347,11 @@ TEST(Csv, WrongInputsAreOneClearLine) {
     EXPECT_EQ(message_of<InputError>([&] { (void)parse_csv(c.text, "a.csv", c.options); }), "a.csv" + c.message)
         << c.what;
   }
-  EXPECT_EQ(
-      message_of<InputError>([&] {
-        (void)parse_csv(good, "a.csv", mapped({{"torque", "CH1"}}));
-      }),
-      "--column torque=CH1: unknown channel 'torque', expected one of time, displacement, velocity, acceleration, "
-      "force, current, voltage, temperature, base");
+  EXPECT_EQ(message_of<InputError>([&] {
+              (void)parse_csv(good, "a.csv", mapped({{"torque", "CH1"}}));
+            }),
+            "column torque=CH1: unknown channel 'torque', expected one of time, displacement, velocity, acceleration, "
+            "force, current, voltage, temperature, base");
 }
 
 // No prefix of a good file and no single damaged byte may do anything but succeed or throw InputError.

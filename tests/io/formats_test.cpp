@@ -112,7 +112,7 @@ TEST(Formats, MappingsAndGroupsReachChannels) {
               "r: no column 'CH9' for force, expected one of 'disp [mm]', 'CH1', 'Pressure [bar]'");
     wrong = options;
     wrong.group = "nothing";
-    EXPECT_NE(refusal(format, bytes, wrong).find("no group 'nothing' for --group, expected "), std::string::npos);
+    EXPECT_NE(refusal(format, bytes, wrong).find("no group 'nothing' for group, expected "), std::string::npos);
   }
   options.group = "test";
   EXPECT_EQ(read("TDMS", tdms::file_of(table), options).force[0], 20e3);
@@ -241,7 +241,7 @@ struct Told {
   std::vector<std::string> lines;
   ReadOptions options;
   Told() {
-    options.remark = [this](const Remark& remark) { lines.push_back(remark.text); };
+    options.remark = [this](const Remark& remark) { lines.push_back(remark.text.plain()); };
   }
 };
 
@@ -401,13 +401,13 @@ TEST(Tdms, ATimeChannelServesItsGroup) {
                    6e-3);
   EXPECT_EQ(
       refusal("TDMS", file(object("/'G'/'Time [s]'", index(f64, 20), {property("unit_string", "ms")}), bytes_of(ms))),
-      "r: column 'Time [s]' is given in 'ms' and in 's', expected one unit, or --column time=\"Time [UNIT]\" to "
+      "r: column 'Time [s]' is given in 'ms' and in 's', expected one unit, or column time=\"Time [UNIT]\" to "
       "choose");
   EXPECT_EQ(read("TDMS", file(object("/'G'/'Time'", index(time_type, 20), {}), stamps)).time[3], 1.5);
   EXPECT_EQ(
       refusal("TDMS", file(object("/'G'/'Clock'", index(f64, 20), {}), bytes_of(ms))),
       "r: 'F' has no times: neither a start and a step nor a channel named time with as many values in its group, "
-      "expected one, or --column time=NAME");
+      "expected one, or column time=NAME");
   ReadOptions mapped;
   mapped.columns = {{"time", "Clock [ms]"}};
   EXPECT_DOUBLE_EQ(read("TDMS", file(object("/'G'/'Clock'", index(f64, 20), {}), bytes_of(ms)), mapped).time[3], 6e-3);
@@ -474,10 +474,9 @@ TEST(Tdms, TwoGroupsWithAForceAskForOne) {
     }
   }
   const std::string bytes = segment(metadata | new_list | numbers, objects(all), data);
-  EXPECT_EQ(
-      refusal("TDMS", bytes),
-      "r: groups 'A' and 'B' hold a displacement each, expected one, or --group NAME to choose a group, or --column "
-      "displacement=GROUP/NAME");
+  EXPECT_EQ(refusal("TDMS", bytes),
+            "r: groups 'A' and 'B' hold a displacement each, expected one, or group NAME to choose a group, or column "
+            "displacement=GROUP/NAME");
   ReadOptions options;
   options.group = "B";
   EXPECT_EQ(read("TDMS", bytes, options).force[0], 2.0);
@@ -917,13 +916,13 @@ TEST(Xlsx, SheetsAreChosenByGroup) {
                                                    {"Run 1", head + rows_of_numbers(20)},
                                                    {"Run 2", head + rows_of_numbers(30)}}));
   EXPECT_EQ(refusal("xlsx", bytes),
-            "r: 2 sheets hold recordings ('Run 1', 'Run 2'), expected one, or --group NAME to choose a sheet");
+            "r: 2 sheets hold recordings ('Run 1', 'Run 2'), expected one, or group NAME to choose a sheet");
   ReadOptions options;
   options.group = "run 2";
   EXPECT_EQ(read("xlsx", bytes, options).size(), 30U);
   options.group = "Run 3";
   EXPECT_EQ(refusal("xlsx", bytes, options),
-            "r: no sheet 'Run 3' for --group, expected one of 'Notes', 'Run 1', 'Run 2'");
+            "r: no sheet 'Run 3' for group, expected one of 'Notes', 'Run 1', 'Run 2'");
   options.group = "Notes";
   EXPECT_EQ(refusal("xlsx", bytes, options),
             "r: sheet 'Notes' has no row of names above rows of numbers, expected one");

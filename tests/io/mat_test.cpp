@@ -109,7 +109,7 @@ TEST_P(MatVersions, ManySamplesAreAveraged) {
   std::vector<std::string> said;
   ReadOptions options;
   options.keep_samples = 2000;
-  options.remark = [&](const Remark& remark) { said.push_back(remark.text); };
+  options.remark = [&](const Remark& remark) { said.push_back(remark.text.plain()); };
   const auto r = load_recording(path, options);
   ASSERT_EQ(r.size(), 2000U);
   EXPECT_NEAR(r.time[10], 3.1, 1e-12);
@@ -117,7 +117,7 @@ TEST_P(MatVersions, ManySamplesAreAveraged) {
   EXPECT_NEAR(r.force[10], 62.0, 1e-12);
   ASSERT_FALSE(said.empty());
   EXPECT_EQ(said[0],
-            "6,000 samples read, every 3 averaged to one: 2,000 kept, 300 ms apart; --keep-samples 6000 keeps all");
+            "6,000 samples read, every 3 averaged to one: 2,000 kept, 300 ms apart; keep samples 6000 keeps all");
 }
 
 TEST_P(MatVersions, OneMatrix) {
@@ -144,7 +144,7 @@ TEST_P(MatVersions, OneMatrix) {
   EXPECT_EQ(message_of<InputError>([&] { (void)read_mat(path); }),
             path.string() +
                 ": no time column, expected one named time, t (or its German, French, Italian or Spanish word), or "
-                "--column time=NAME; the columns are 'run:1', "
+                "column time=NAME; the columns are 'run:1', "
                 "'run:2', 'run:3', 'single'");
 }
 
@@ -197,7 +197,7 @@ TEST_P(MatVersions, UnitsOfOtherNamesAreNotDroppedWithoutAWord) {
     said.clear();
     ReadOptions options;
     options.remark = [&](const Remark& remark) {
-      if (remark.kind == Remark::Kind::dialect) said.push_back(remark.text);
+      if (remark.kind == Remark::Kind::dialect) said.push_back(remark.text.plain());
     };
     return read_mat(path, options);
   };

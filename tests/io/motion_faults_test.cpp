@@ -36,7 +36,7 @@ std::vector<std::string> remarks(
   }
   std::vector<std::string> said;
   ReadOptions options;
-  options.remark = [&](const Remark& remark) { said.push_back(remark.text); };
+  options.remark = [&](const Remark& remark) { said.push_back(remark.text.plain()); };
   (void)parse_csv(text.str(), "a.csv", options);
   return said;
 }

@@ -28,7 +28,7 @@ std::vector<std::string> remarks(const std::string& header, double x_unit, doubl
   }
   std::vector<std::string> result;
   ReadOptions options;
-  options.remark = [&](const Remark& remark) { result.push_back(remark.text); };
+  options.remark = [&](const Remark& remark) { result.push_back(remark.text.plain()); };
   (void)parse_csv(text, "a.csv", options);
   return result;
 }
@@ -74,7 +74,7 @@ TEST(Plausible, ASpringHasNoWrongSign) {
     }
     std::vector<std::string> said;
     ReadOptions options;
-    options.remark = [&](const Remark& remark) { said.push_back(remark.text); };
+    options.remark = [&](const Remark& remark) { said.push_back(remark.text.plain()); };
     (void)parse_csv(text, "a.csv", options);
     EXPECT_TRUE(said.empty()) << said[0];
   }
@@ -83,7 +83,7 @@ TEST(Plausible, ASpringHasNoWrongSign) {
 TEST(Plausible, AGapInTime) {
   std::vector<std::string> said;
   ReadOptions options;
-  options.remark = [&](const Remark& remark) { said.push_back(remark.text); };
+  options.remark = [&](const Remark& remark) { said.push_back(remark.text.plain()); };
   const auto read = [&](double gap) {
     std::string text = "time [s],displacement [mm],force [N]\n";
     for (int n = 0; n < 400; ++n) {
@@ -110,7 +110,7 @@ std::vector<std::string> remarks_on(const std::function<double(int sample, doubl
   }
   std::vector<std::string> said;
   ReadOptions options;
-  options.remark = [&](const Remark& remark) { said.push_back(remark.text); };
+  options.remark = [&](const Remark& remark) { said.push_back(remark.text.plain()); };
   (void)parse_csv(text, "a.csv", options);
   return said;
 }
@@ -160,7 +160,7 @@ std::vector<std::string> remarks_on_both(const std::function<double(int sample, 
   }
   std::vector<std::string> said;
   ReadOptions options;
-  options.remark = [&](const Remark& remark) { said.push_back(remark.text); };
+  options.remark = [&](const Remark& remark) { said.push_back(remark.text.plain()); };
   (void)parse_csv(text, "a.csv", options);
   return said;
 }

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/message.hpp"
 #include "io/bytes.hpp"
 #include "io/csv.hpp"
 #include "io/format.hpp"
@@ -439,7 +440,7 @@ class WorkbookReader {
       const auto wanted = std::ranges::find_if(
           names_, [&](const std::string& name) { return lower_case(name) == lower_case(options_.group); });
       if (wanted == names_.end()) {
-        fail("no sheet " + in_quotes(options_.group) + " for --group, expected one of " + list(names_));
+        fail("no sheet " + in_quotes(options_.group) + " for " + Option::group + ", expected one of " + list(names_));
       }
       const Sheet sheet = read_sheet(static_cast<std::size_t>(wanted - names_.begin()));
       const auto table = table_of(sheet, skip());
@@ -466,13 +467,13 @@ class WorkbookReader {
     }
     if (with_tables.size() > 1) {
       fail(std::to_string(with_tables.size()) + " sheets hold recordings (" + list(with_tables) +
-           "), expected one, or --group NAME to choose a sheet");
+           "), expected one, or " + Option::group + " NAME to choose a sheet");
     }
     return read_table(*chosen, *table);
   }
 
  private:
-  [[noreturn]] void fail(const std::string& message) const { throw InputError(file_, 0, message); }
+  [[noreturn]] void fail(const Message& message) const { throw OptionError(file_, 0, message); }
 
   [[nodiscard]] std::uint32_t skip() const { return static_cast<std::uint32_t>(std::max(options_.skip, 0)); }
 
