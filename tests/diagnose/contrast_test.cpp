@@ -196,6 +196,18 @@ TEST(Contrast, DirectionsAndEndsOfTheStrokeHaveTheirOwnValues) {
                ContrastKind::middle_loss, 0.15, 0.1);
 }
 
+TEST(Contrast, ASpringThatIsWeakInTheMiddleIsNoLossOfForceThere) {
+  for (const double play : {0.002, 0.006}) {
+    const auto found = scene_of([play](const Recording& r, const auto&, std::size_t n) {
+                         const double x = r.displacement[n];
+                         return 2e4 * std::copysign(std::max(std::fabs(x) - play, 0.0), x);
+                       }).found();
+    const Contrast* middle = find(found, ContrastKind::middle_loss);
+    ASSERT_NE(middle, nullptr);
+    EXPECT_LT(std::fabs(middle->z), 3.0) << play;
+  }
+}
+
 TEST(Contrast, ADelayIsMeasuredInSecondsAndIsNoPlay) {
   for (const double delay : {5e-3, -2e-3}) {
     Scene scene;

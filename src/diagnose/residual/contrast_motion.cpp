@@ -157,14 +157,19 @@ void add_motion_contrasts(std::span<const Track> tracks, std::size_t placebos, s
   }
   contrast(Kind::stroke_end, at_ends, base + Columns{x2, a, sided});
 
+  // Of both directions: a spring that bends there, whatever its shape, is a force of the place alone.
   Columns in_middle;
+  Columns of_place = {x2, x3};
   for (const double middle : middles) {
-    in_middle.push_back(add([=](const Track& t, std::size_t n) {
+    const auto near = [=](const Track& t, std::size_t n) {
       const double from = (t.x[n] - centre) / (middle * half);
-      return -t.simulated[n] * std::exp(-from * from);
-    }));
+      return std::exp(-from * from);
+    };
+    in_middle.push_back(add([=](const Track& t, std::size_t n) { return -t.simulated[n] * near(t, n); }));
+    of_place.push_back(add([=](const Track& t, std::size_t n) { return near(t, n); }));
+    of_place.push_back(add([=](const Track& t, std::size_t n) { return (t.x[n] - centre) * near(t, n); }));
   }
-  contrast(Kind::middle_loss, in_middle, base + Columns{vv, a, sign, stretch});
+  contrast(Kind::middle_loss, in_middle, base + Columns{vv, a, sign, stretch} + of_place);
 
   Columns second;
   for (const double yield : yields) {
