@@ -265,7 +265,7 @@ for budget, part, analysis in results:
     if worse:
         lines.append("Worse than random search by more than 1 % in the median:")
         lines.append("")
-        for name in sorted(worse, key=lambda n: -len(worse[n])):
+        for name in sorted(worse, key=lambda n: (-len(worse[n]), n)):
             where = worse[name]
             text = "; ".join(where[:6]) + (f"; and {len(where) - 6} more" if len(where) > 6 else "")
             lines.append(f"- {name}, {len(where)} of {len(analysis['problems'])}: {text}")
