@@ -2,8 +2,8 @@
 //
 //   hysteron_kernels [--rounds 15] [--page results/kernels.md]
 //
-// Everything is timed in turn, once a round, by processor time; figures are medians over the
-// rounds, ratios medians of the ratios within a round.
+// Everything is timed in turn, once a round, by processor time; figures are medians over the rounds, ratios medians of
+// the ratios within a round.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>

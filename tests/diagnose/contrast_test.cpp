@@ -196,16 +196,24 @@ TEST(Contrast, DirectionsAndEndsOfTheStrokeHaveTheirOwnValues) {
                ContrastKind::middle_loss, 0.15, 0.1);
 }
 
+// A dashpot on a spring with free travel, for which the model has a linear spring.
 TEST(Contrast, ASpringThatIsWeakInTheMiddleIsNoLossOfForceThere) {
-  for (const double play : {0.002, 0.006}) {
-    const auto found = scene_of([play](const Recording& r, const auto&, std::size_t n) {
-                         const double x = r.displacement[n];
-                         return 2e4 * std::copysign(std::max(std::fabs(x) - play, 0.0), x);
-                       }).found();
-    const Contrast* middle = find(found, ContrastKind::middle_loss);
-    ASSERT_NE(middle, nullptr);
-    EXPECT_LT(std::fabs(middle->z), 3.0) << play;
+  Scene scene;
+  for (const Sine& one : usual) {
+    const Recording recording = sine(one);
+    std::vector<double> simulated;
+    std::vector<double> missing;
+    for (std::size_t n = 0; n < recording.size(); ++n) {
+      const double x = recording.displacement[n];
+      const double spring = 6e4 * std::copysign(std::max(std::fabs(x) - 0.003, 0.0), x);
+      simulated.push_back(4e4 * x + 200.0 * recording.velocity[n]);
+      missing.push_back(spring - 4e4 * x);
+    }
+    add(scene, recording, simulated, missing, {});
   }
+  const std::vector<Contrast> found = scene.found();
+  const Contrast* middle = find(found, ContrastKind::middle_loss);  // absent where the place tells all of it
+  EXPECT_TRUE(middle == nullptr || std::fabs(middle->z) < 2.0);
 }
 
 TEST(Contrast, ADelayIsMeasuredInSecondsAndIsNoPlay) {

@@ -324,13 +324,14 @@ TEST(Batch, ACandidateDoesNotDependOnItsCompany) {
         std::vector<LaneDual> dual_force(samples);
         model.march<LaneDual>(motion, dual_p.data(), 0, 0, samples, dual_state.data(), dual_force.data());
         for (int k = 0; k < lane_count; ++k) {
+          const std::vector<int> wide_lanes =
+              model.has_wide_march() ? std::vector<int>{k, wide_lane_count - 1 - k} : std::vector<int>{};
           const Vector alone = simulate(model, motion, candidates[static_cast<std::size_t>(k)]);
           for (std::size_t n = 0; n < samples; ++n) {
             const auto bits = std::bit_cast<std::uint64_t>(alone[n]);
             ASSERT_EQ(std::bit_cast<std::uint64_t>(force[n].lane(k)), bits) << part->id << " " << k << " " << n;
             ASSERT_EQ(std::bit_cast<std::uint64_t>(pieces[n].lane(k)), bits) << part->id << " " << k << " " << n;
-            for (const int lane : {k, wide_lane_count - 1 - k}) {
-              if (!model.has_wide_march()) break;
+            for (const int lane : wide_lanes) {
               ASSERT_EQ(std::bit_cast<std::uint64_t>(wide_force[n].lane(lane)), bits)
                   << part->id << " " << lane << " " << n;
             }
