@@ -79,6 +79,13 @@ Study base(const ReproduceOptions& options, const std::string& title, const std:
   return study;
 }
 
+void say_of_descents(const Plan& plan, std::string_view about, Reproduction& result) {
+  result.not_remade.push_back(
+      fmt::format("Each condition is identified by multistart-lm with {} evaluations, not PSO: the figure asks about {}, "
+                  "not about solvers.",
+                  plan.study.budgets.front(), about));
+}
+
 void say_of_data(const Plan& plan, Reproduction& result) {
   if (on_twin(plan)) {
     result.not_remade.push_back(

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "study/reproduce.hpp"
@@ -23,5 +24,7 @@ inline constexpr const char* full_model = "modified-bouc-wen+offset-force";
 [[nodiscard]] std::array<double, 8> paper_parameters(const RunRecord& run);
 // What is and is not as published in everything that is made on the twin or on recordings given, whatever the solver.
 void say_of_data(const Plan& plan, Reproduction& result);
+// That a figure whose subject (`about`) is no solver is not made by the paper's.
+void say_of_descents(const Plan& plan, std::string_view about, Reproduction& result);
 
 }  // namespace hysteron::reproduce::pso

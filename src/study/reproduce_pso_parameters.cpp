@@ -108,10 +108,7 @@ Reproduction pso_figure_11_result(const Plan& plan, const std::vector<RunRecord>
   result.not_remade.push_back(
       "The paper draws surfaces; here every frequency is a curve. Values beyond three times the "
       "range of the polynomial are drawn on its edge.");
-  result.not_remade.push_back(
-      fmt::format("Each condition is identified by multistart-lm with {} evaluations, not PSO: the figure asks about "
-                  "parameters, not about solvers.",
-                  plan.study.budgets.front()));
+  pso::say_of_descents(plan, "parameters", result);
   pso::say_of_data(plan, result);
   return result;
 }

@@ -357,10 +357,7 @@ Reproduction pso_figure_9_result(const Plan& plan, const std::vector<RunRecord>&
       "machine; "
       "the work beside the errors is what does not.");
   result.not_remade.push_back("The columns \"all at once\" are not of the paper.");
-  result.not_remade.push_back(
-      fmt::format("Each condition is identified by multistart-lm with {} evaluations, not PSO: the figure asks about "
-                  "polynomials, not about solvers.",
-                  plan.study.budgets.front()));
+  pso::say_of_descents(plan, "polynomials", result);
   pso::say_of_data(plan, result);
   return result;
 }
