@@ -118,15 +118,6 @@ std::string list_of_channels() {
   return result;
 }
 
-// A bare `v` may be a voltage and a bare `a` a current: the unit tells.
-std::optional<Quantity> quantity_of_column(const Column& column) {
-  const auto quantity = quantity_of_name(column.name);
-  if (!quantity || column.unit.empty()) return quantity;
-  if (lower_case(column.name) == "v" && find_unit(Quantity::voltage, column.unit)) return Quantity::voltage;
-  if (lower_case(column.name) == "a" && find_unit(Quantity::current, column.unit)) return Quantity::current;
-  return quantity;
-}
-
 class Assigner {
  public:
   Assigner(const std::vector<Column>& columns, const ReadOptions& options, const std::string& file, int line)
@@ -314,7 +305,7 @@ void split_at_mark(Column& column) {
     if (cut == std::string_view::npos) continue;
     const std::string_view name = trimmed(text.substr(0, cut));
     const std::string_view unit = trimmed(text.substr(cut + mark.size()));
-    std::optional<Quantity> quantity = quantity_of_name(name);
+    std::optional<Quantity> quantity = quantity_of_column({{}, std::string(name), std::string(unit), {}});
     if (!quantity) quantity = quantity_of_last_word(name);
     // With blanks around the stroke, as standards write it, the name may be that of any channel.
     if (quantity ? find_unit(*quantity, unit).has_value() : mark == " / " && is_any_unit(unit)) {
@@ -323,6 +314,15 @@ void split_at_mark(Column& column) {
       return;
     }
   }
+std::optional<Quantity> quantity_of_column(const Column& column) {
+  const auto quantity = quantity_of_name(column.name);
+  if (!quantity || column.unit.empty()) return quantity;
+  if (lower_case(column.name) == "v" && find_unit(Quantity::voltage, column.unit)) return Quantity::voltage;
+  if (lower_case(column.name) == "a" && find_unit(Quantity::current, column.unit)) return Quantity::current;
+  if (*quantity == Quantity::time && find_unit(Quantity::temperature, column.unit)) return Quantity::temperature;
+  return quantity;
+}
+
 }
 
 }  // namespace

@@ -80,6 +80,9 @@ inline constexpr double shortest_step = 1e-30;  // s
 // The channel a column name stands for, by its usual synonyms and without case.
 [[nodiscard]] std::optional<Quantity> quantity_of_name(std::string_view name);
 
+// That of a column, where the unit tells as well: a bare `v` may be a voltage, `a` a current, `t` a temperature.
+[[nodiscard]] std::optional<Quantity> quantity_of_column(const Column& column);
+
 // The channel that the last word of "Total Time" or "Axial_Force" names; nothing for a single word or letter.
 [[nodiscard]] std::optional<Quantity> quantity_of_last_word(std::string_view name);
 

@@ -124,14 +124,14 @@ class RecordingMaker {
       const MeasuredChannel& channel = channels_[i];
       if (!chosen(channel) || channel.times) continue;
       const Key key(channel.group, channel.count);
-      const std::string name = split_column(channel.name).name;
-      if (quantity_of_name(name) == Quantity::time) {
+      const Column column = column_of(channel);
+      if (quantity_of_column(column) == Quantity::time) {
         const auto [at, added] = named.emplace(key, i);
         if (!added) {
           fail("two channels for time (" + in_quotes(channels_[at->second].name) + " and " + in_quotes(channel.name) +
                "), expected one, or " + Option::column + " time=NAME to choose");
         }
-      } else if (quantity_of_last_word(name) == Quantity::time && !by_last_word.emplace(key, i).second) {
+      } else if (quantity_of_last_word(column.name) == Quantity::time && !by_last_word.emplace(key, i).second) {
         undecided.insert(key);
       }
     }
@@ -163,7 +163,7 @@ class RecordingMaker {
     for (std::size_t i = 0; i < channels_.size(); ++i) {
       if (!chosen(channels_[i]) || holds_times.contains(i)) continue;
       Column column = column_of(channels_[i]);
-      if (!time_is_mapped() && quantity_of_name(column.name) == Quantity::time) continue;
+      if (!time_is_mapped() && quantity_of_column(column) == Quantity::time) continue;
       column.alias = channels_[i].group + "/" + column.name;
       if (of_columns.size() > 1 && !channels_[i].group.empty()) column.text = channels_[i].group + "/" + column.text;
       columns_.push_back(std::move(column));
@@ -192,7 +192,7 @@ class RecordingMaker {
       std::vector<std::string> having;
       for (std::size_t k = 0; k < columns_.size(); ++k) {
         const std::string& group = channels_[channel_of_[k]].group;
-        if (quantity_of_name(columns_[k].name) == quantity && (having.empty() || having.back() != in_quotes(group))) {
+        if (quantity_of_column(columns_[k]) == quantity && (having.empty() || having.back() != in_quotes(group))) {
           having.push_back(in_quotes(group));
         }
       }

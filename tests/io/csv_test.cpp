@@ -246,6 +246,23 @@ TEST(Csv, MappedColumns) {
   EXPECT_DOUBLE_EQ(s.force[0], 3000.0);
 }
 
+TEST(Csv, UnitTellsTemperatureFromTime) {
+  std::string rows;
+  for (int i = 0; i < 10; ++i) rows += std::to_string(i) + ",1,2,30\n";
+  const auto temperature = [&](const std::string& name) {
+    const auto r = parse_csv("Time [s],Stroke [mm],Force [kN]," + name + "\n" + rows, "a.csv");
+    EXPECT_EQ(r.time[1], 1.0) << name;
+    return r.temperature.empty() ? std::nan("") : r.temperature[1];
+  };
+  for (const std::string name : {"T [\u00B0C]", "T [degC]", "T_degC", "t [C]"})
+    EXPECT_EQ(temperature(name), 30.0) << name;
+  EXPECT_NEAR(temperature("t [K]"), -243.15, 1e-9);
+  const auto r = parse_csv("t,x,F,T\ns,mm,N,degC\n" + rows, "a.csv");
+  EXPECT_EQ(r.temperature.at(1), 30.0);
+  EXPECT_EQ(message_of<InputError>([&] { (void)parse_csv("time [s],x,F,t [ms]\n" + rows, "a.csv"); }),
+            "a.csv:1: two columns for time ('time [s]' and 't [ms]'), expected one, or column time=NAME to choose");
+}
+
 TEST(Csv, ForceMayBeLeftOutForSimulation) {
   std::string text = "t,x\n";
   for (int i = 0; i < 10; ++i) text += std::to_string(i) + ",1\n";

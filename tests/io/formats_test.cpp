@@ -82,6 +82,17 @@ TEST(Formats, ARecordingIsTheSameInEveryFormat) {
   }
 }
 
+TEST(Formats, AUnitOfTemperatureIsNoTime) {
+  FileTable table = damper();
+  table.channels[2] = {"T", "degC", std::vector<double>(table.rows(), 30.0)};
+  const TemporaryFolder folder;
+  for (const auto& [name, bytes] : files_of(table)) {
+    const Recording r = load_recording(folder.write(name, bytes));
+    EXPECT_EQ(r.temperature, table.channels[2].values) << name;
+    EXPECT_EQ(r.time.at(1), table.step) << name;
+  }
+}
+
 TEST(Formats, BytesTellTheFormatWhateverTheName) {
   const TemporaryFolder folder;
   const Recording expected = load_recording(folder.write("r.csv", csv_of(damper())));
