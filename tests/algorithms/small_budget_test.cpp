@@ -49,6 +49,28 @@ TEST(SmallBudget, ScreensWhereItHoldsAllDescents) {
   EXPECT_TRUE(first_of(4 * held * price).screening);
 }
 
+// A coordinate that the residual hardly depends on at the start asks for a step across the whole box.
+testing::Residuals flat_at_first(const double* u, std::size_t /*dimension*/) {
+  return {{u[0] * u[0] * u[0] - 0.5, u[1] - 0.5}, {3.0 * u[0] * u[0], 0.0, 0.0, 1.0}};
+}
+
+TEST(SmallBudget, IsNotSpentOnStepsAcrossTheBox) {
+  Problem problem = problem_of(30 * price);
+  problem.start = {0.05, 0.5};
+  std::vector<double> asked;
+  run_solver(*find_solver("lm"), problem, [&](const Request& request) {
+    asked.push_back(request.points.front());
+    return testing::evaluate(request, dimension, flat_at_first);
+  });
+  ASSERT_GT(asked.size(), 4U);
+  double longest = 0.0;
+  for (std::size_t k = 1; k < asked.size(); ++k) {
+    longest = std::max(longest, std::fabs(asked[k] - asked[k - 1]));
+  }
+  EXPECT_LE(longest, 0.25 + 1e-12);
+  EXPECT_GT(longest, 0.2) << "no step would have been longer";
+}
+
 TEST(SmallBudget, OfOneDescentIsThatFromTheStart) {
   const auto run = [](const char* id) {
     return run_solver(*find_solver(id), problem_of(10 * price),
