@@ -63,6 +63,8 @@ def claims_of(answer, diagnosis):
         for effect in diagnosis.get(key, []):
             members = {effect["id"], *effect.get("indistinguishable_from", [])}
             suggested = key == "suggestions" or effect.get("grade") == "suggested"
+            if len(members) > 1 and any(row["set"] == sorted(members) for row in result):
+                continue  # a set has a row for each of its members; it is stated once
             result.append({"id": effect["id"], "set": sorted(members), "right": bool(members & causes),
                            "suggested": suggested, "confidence": effect.get("confidence"),
                            "name": not suggested and ("grade" in effect or asserted)})

@@ -75,7 +75,11 @@ Claims claims_of(const json& diagnosis, const Names& accepted) {
       }
     }
     if (claim.name && !claim.right) claims.wrong.insert(claim.id);
-    claims.all.push_back(std::move(claim));
+    // A set has a row for each of its members; it is stated once.
+    const bool stated = std::ranges::any_of(claims.all, [&](const Claim& before) {
+      return claim.set.size() > 1 && before.set == claim.set && before.grade == claim.grade;
+    });
+    if (!stated) claims.all.push_back(std::move(claim));
   };
   for (const json& effect : diagnosis.at("effects")) add(effect, false);
   for (const json& effect : diagnosis.value("suggestions", json::array())) add(effect, true);

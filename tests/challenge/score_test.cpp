@@ -122,6 +122,16 @@ TEST(Score, SuggestionsAreNoNames) {
   EXPECT_EQ(outcome(truth, with_set({"self-heating"})), "wrong");
 }
 
+TEST(Score, ASetIsOneStatementThoughItHasARowForEachMember) {
+  const json set = json::array({graded("inertia", "supported", 0.9, {"sensor-delay", "compliance"}),
+                                graded("sensor-delay", "supported", 0.9, {"inertia", "compliance"}),
+                                graded("asymmetry", "supported", 0.8)});
+  const json row = score_campaign(answer("plain", {"inertia"}), diagnosis_2("missing-physics", set, json::array()));
+  ASSERT_EQ(row.at("answer").size(), 2U);
+  EXPECT_EQ(row.at("answer")[0].at("set").size(), 3U);
+  EXPECT_EQ(row.at("answer")[1].at("id"), "asymmetry");
+}
+
 TEST(Score, BesideForeignCausesOneNameIsEnough) {
   const json truth = answer("beside", {"inertia", "end-stop", "foreign:cogging"});
   const auto said = [&](const json& effects) {
