@@ -7,6 +7,7 @@
 #include "core/squared.hpp"
 #include "diagnose/residual/conditions.hpp"
 #include "diagnose/search/relatives.hpp"
+#include "diagnose/search/valleys.hpp"
 #include "fit/driver.hpp"
 #include "fit/identify.hpp"
 #include "fit/parallel.hpp"
@@ -439,7 +440,7 @@ Fit Workbench::from_starts(const Hypothesis& what, const Starts& given, int roun
   if (!starts.sizes.empty()) {
     starts.points = eased(given);
   }
-  starts.points.resize(std::min(starts.points.size(), most));
+  starts.points = in_several_valleys(std::move(starts.points), starts.layout->linear(), most);
   const bool balances =
       std::ranges::any_of(what.effects, [](const std::string& id) { return find_effect(id)->balances(); });
   if (!balances || starts.points.size() < 2) {
