@@ -51,13 +51,58 @@ double drive_noise(const std::vector<double>& drive) {
   return robust_deviation(fourth_differences(drive));
 }
 
+namespace {
+
+// What the drive has to move by not to be constant.
+double least_move(const std::vector<double>& drive) {
+  const auto [low, high] = std::ranges::minmax(drive);
+  return std::max(least_variation * std::max(std::fabs(low), std::fabs(high)), least_over_noise * drive_noise(drive));
+}
+
+}  // namespace
+
 bool varies(const std::vector<double>& drive) {
   if (drive.empty()) {
     return false;
   }
   const auto [low, high] = std::ranges::minmax(drive);
-  return high - low >
-         std::max(least_variation * std::max(std::fabs(low), std::fabs(high)), least_over_noise * drive_noise(drive));
+  return high - low > least_move(drive);
+}
+
+double turned_by(const std::vector<double>& values) {
+  if (values.empty()) {
+    return 0.0;
+  }
+  double low = values.front();
+  double high = values.front();
+  double rise = 0.0;
+  double fall = 0.0;
+  for (const double value : values) {
+    low = std::min(low, value);
+    high = std::max(high, value);
+    rise = std::max(rise, value - low);
+    fall = std::max(fall, high - value);
+  }
+  return std::min(rise, fall);
+}
+
+bool returns(const std::vector<double>& drive) { return !drive.empty() && turned_by(drive) > least_move(drive); }
+
+std::size_t count_levels(std::vector<double> values) {
+  if (values.empty()) {
+    return 0;
+  }
+  std::ranges::sort(values);
+  const double width = least_variation * std::max(std::fabs(values.front()), std::fabs(values.back()));
+  std::size_t count = 1;
+  double level = values.front();
+  for (const double value : values) {
+    if (value - level > width) {
+      ++count;
+      level = value;
+    }
+  }
+  return count;
 }
 
 std::vector<double> quiet_drive(const std::vector<double>& drive) {

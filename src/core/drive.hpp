@@ -1,6 +1,7 @@
 // The drive channel without the noise of its measurement: what the device saw is smoother than what was recorded.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 namespace hysteron {
@@ -15,6 +16,17 @@ double drive_noise(const std::vector<double>& drive);
 
 // Whether it moves by more than 2 % of its largest size, and by more than its noise does.
 bool varies(const std::vector<double>& drive);
+
+// The smaller of how far the values rise and how far they fall, between any two of them in their order: 0 where they
+// only rise, or only fall.
+double turned_by(const std::vector<double>& values);
+
+// Whether it rises and falls, each as varies() asks.
+bool returns(const std::vector<double>& drive);
+
+// How many values a device was driven at: such as differ by less than 2 % of the largest size are one, since nobody sets
+// a current more exactly. 0 for none.
+std::size_t count_levels(std::vector<double> values);
 
 // Its mean where it does not vary; else each sample is that of a parabola through up to 17 around it, as far as
 // its neighbours to both sides lie on a line with it within their noise, so that steps, ramps and curves stay.

@@ -1,7 +1,6 @@
 #include "diagnose/options.hpp"
 
-#include <cmath>
-#include <set>
+#include "diagnose/signal/drive_levels.hpp"
 
 namespace hysteron {
 
@@ -16,15 +15,9 @@ std::vector<std::string> alternative_laws() {
 }
 
 std::map<std::string, int> base_laws(const std::string& model, const std::vector<Recording>& recordings) {
-  std::set<long> levels;
-  for (const Recording& recording : recordings) {
-    for (const double drive : recording.drive) {
-      levels.insert(std::lround(1e3 * drive));
-    }
-  }
   std::map<std::string, int> result;
   const Part* part = find_model(model);
-  if (levels.size() < 2 || part == nullptr) {
+  if (drive_levels(recordings) < 2 || part == nullptr) {
     return result;
   }
   for (const Parameter& parameter : part->parameters) {

@@ -28,6 +28,7 @@ enum class Acts {
 enum class Need {
   drive,               // a current or voltage
   changing_drive,      // one that changes within a recording
+  returning_drive,     // one that both rises and falls within a recording
   three_drive_levels,  // three levels of it, in one recording or several
   velocity,            // a velocity that was measured
   lagging_velocity     // one that lags or leads the slope of the displacement

@@ -31,6 +31,8 @@ std::string_view words_of(Need need) {
       return "a recorded current or voltage";
     case Need::changing_drive:
       return "a current or voltage that changes within a recording";
+    case Need::returning_drive:
+      return "a current or voltage that rises and falls within a recording";
     case Need::three_drive_levels:
       return "three levels of current or voltage";
     case Need::velocity:

@@ -95,5 +95,15 @@ TEST(Drive, NoiseDoesNotFlattenWhatIsCurved) {
   EXPECT_NEAR(product / squares, 1.0, 3e-3);
 }
 
+TEST(Levels, AreWhatDiffersByMoreThanASettingDoes) {
+  EXPECT_EQ(count_levels({}), 0U);
+  EXPECT_EQ(count_levels({0.0, 0.0}), 1U);
+  EXPECT_EQ(count_levels({1.0, 1.002, 1.004, 1.001}), 1U);
+  EXPECT_EQ(count_levels({0.5, 0.0, 1.0, 0.5}), 3U);
+  // In any unit, and of either sign.
+  EXPECT_EQ(count_levels({0.5e-3, 0.0, 1.0e-3, 0.5e-3}), 3U);
+  EXPECT_EQ(count_levels({-2000.0, 0.0, 2000.0}), 3U);
+}
+
 }  // namespace
 }  // namespace hysteron

@@ -120,6 +120,16 @@ TEST(Cards, YieldForceAndDampingsOfEveryLawFollowADriveThatVaries) {
   EXPECT_EQ(laws.size(), yield_forces.size());
 }
 
+TEST(Cards, ASettingThatScattersIsNoDriveThatVaries) {
+  std::vector<Recording> recordings;
+  for (const double drive : {1.0, 1.002, 1.004, 1.001}) {
+    recordings.emplace_back().drive = {drive};
+  }
+  EXPECT_TRUE(base_laws("bingham", recordings).empty());
+  recordings.emplace_back().drive = {0.5};
+  EXPECT_FALSE(base_laws("bingham", recordings).empty());
+}
+
 TEST(Cards, AYieldForceTakesOverTheLawOfOneThatAnotherLawLacks) {
   const Workbench bench = bench_with({{"of_another_law", 2}});
   for (const std::string& law : ids_of(model_catalogue())) {
@@ -478,6 +488,11 @@ TEST(Cards, InputsNeeded) {
   Recording steps = low;
   steps.drive = {0.5, 1.0};
   EXPECT_EQ(unmet(Need::changing_drive, {low, steps}), std::nullopt);
+  EXPECT_EQ(excluded_by_inputs("coil-lag", {steps}), std::nullopt);
+  EXPECT_EQ(excluded_by_inputs("magnetic-remanence", {low, steps}),
+            "the current does not both rise and fall in any recording");
+  steps.drive = {0.5, 1.0, 0.7};
+  EXPECT_EQ(excluded_by_inputs("magnetic-remanence", {low, steps}), std::nullopt);
   EXPECT_EQ(excluded_by_inputs("coil-lag", {undriven}), "no current or voltage was recorded");
   EXPECT_EQ(excluded_by_inputs("coil-lag", {low, high}), "the current is constant in every recording");
   EXPECT_EQ(excluded_by_inputs("velocity-lag", {low}),

@@ -11,6 +11,7 @@
 #include <numbers>
 #include <set>
 
+#include "core/drive.hpp"
 #include "core/random.hpp"
 #include "simulate/part.hpp"
 
@@ -425,6 +426,26 @@ TEST(Contrast, TheDriveIsSeenLaterOrRemembered) {
   expect_value(remembered, ContrastKind::drive_memory, 0.3, 0.2);
   const Contrast* lag = find(remembered, ContrastKind::drive_lag);
   EXPECT_TRUE(lag == nullptr || std::fabs(lag->value) < 2e-3);
+}
+
+// The clamp of the current drifts while the current stays: it goes up and never comes down, so that nothing tells what
+// would remain then.
+TEST(Contrast, AClampThatDriftsRemembersNothing) {
+  Scene scene;
+  double level = 0.0;
+  for (const Sine& one : usual) {
+    Recording recording = sine(one);
+    level = level < 0.9 ? level + 0.5 : 0.0;
+    for (std::size_t n = 0; n < recording.size(); ++n) {
+      recording.drive[n] = level + 0.02 * recording.time[n];
+    }
+    const std::vector<double> force = base_force(recording, recording.drive);
+    std::vector<double> extra = base_force(recording, std::vector<double>(recording.size(), level));
+    std::ranges::transform(extra, force, extra.begin(), std::minus<>());
+    add(scene, recording, force, extra, {});
+  }
+  ASSERT_TRUE(varies(scene.recordings.front().drive));
+  EXPECT_EQ(find(scene.found(), ContrastKind::drive_memory), nullptr);
 }
 
 TEST(Contrast, ADelayOfTheForceIsNoLagOfTheDrive) {

@@ -21,7 +21,8 @@ TEST(Worded, NoCardAdvisesOnCurrentsWithoutADrive) {
   for (const Part* effect : effect_catalogue()) {
     const Knowledge& known = knowledge_of(effect->id);
     const bool needs_drive = std::ranges::any_of(known.needs, [](Need need) {
-      return need == Need::drive || need == Need::changing_drive || need == Need::three_drive_levels;
+      return need == Need::drive || need == Need::changing_drive || need == Need::returning_drive ||
+             need == Need::three_drive_levels;
     });
     if (needs_drive) {
       continue;

@@ -157,7 +157,11 @@ void add_drive_contrasts(std::span<const Track> tracks, std::size_t placebos, st
   const Panel::Column shifted =
       add([&](const Track& t, std::size_t n) { return slope * shape(t, n) * (delayed[number(t)][n] - t.drive[n]); });
   contrast(ContrastKind::drive_lag, lag, base, {stays, later, shifted});
-  contrast(ContrastKind::drive_memory, stays, base, {lag, later, shifted});
+  // A play tells the way down from the way up where the drive goes both by its half width: of a drive that only rises,
+  // or trembles about one value, what stays behind is less drive, and no memory.
+  if (std::ranges::any_of(tracks, [&](const Track& t) { return turned_by(t.drive) > half_play * range; })) {
+    contrast(ContrastKind::drive_memory, stays, base, {lag, later, shifted});
+  }
 }
 
 }  // namespace hysteron::contrast

@@ -4,27 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
+#include "core/drive.hpp"
 #include "diagnose/search/relatives.hpp"
 #include "diagnose/search/wording.hpp"
+#include "diagnose/signal/drive_levels.hpp"
 #include "io/channel_lag.hpp"
 
 namespace hysteron {
-namespace {
-
-std::size_t drive_levels(const std::vector<Recording>& recordings) {
-  std::set<long> levels;
-  for (const Recording& recording : recordings) {
-    for (const double drive : recording.drive) {
-      levels.insert(std::lround(100.0 * drive));
-    }
-  }
-  return levels.size();
-}
-
-}  // namespace
-
 std::optional<std::string> unmet(Need need, const std::vector<Recording>& recordings) {
   switch (need) {
     case Need::drive:
@@ -35,6 +22,11 @@ std::optional<std::string> unmet(Need need, const std::vector<Recording>& record
     case Need::changing_drive:
       if (std::ranges::none_of(recordings, drive_varies)) {
         return worded("the current is constant in every recording", drive_kind_of(recordings));
+      }
+      break;
+    case Need::returning_drive:
+      if (std::ranges::none_of(recordings, [](const Recording& r) { return returns(r.drive); })) {
+        return worded("the current does not both rise and fall in any recording", drive_kind_of(recordings));
       }
       break;
     case Need::three_drive_levels:

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "diagnose/residual/misfit.hpp"
 #include "diagnose/search/relatives.hpp"
+#include "diagnose/signal/drive_levels.hpp"
 #include "fit/parallel.hpp"
 
 namespace hysteron {
@@ -35,17 +35,11 @@ constexpr int most_order = 3;
 
 // The highest order of a law in the drive that the recordings can tell.
 int highest_order(const std::vector<Recording>& recordings) {
-  std::set<long> levels;
-  bool varies = false;
-  for (const Recording& recording : recordings) {
-    if (recording.drive.empty()) {
-      return 0;
-    }
-    const auto [low, high] = std::ranges::minmax(recording.drive);
-    varies = varies || drive_varies(recording);
-    levels.insert(std::lround(1e3 * 0.5 * (low + high)));
+  if (std::ranges::any_of(recordings, [](const Recording& recording) { return recording.drive.empty(); })) {
+    return 0;
   }
-  return varies ? most_order : static_cast<int>(levels.size()) - 1;
+  return std::ranges::any_of(recordings, drive_varies) ? most_order
+                                                       : static_cast<int>(drive_levels(recordings)) - 1;
 }
 
 // Which of the scored, best first, are refitted: the best, what comes near it, and kin of the very best, which the
