@@ -37,7 +37,7 @@ Fit moved(Fit fit, const std::vector<std::size_t>& coordinates, double by) {
 
 Eigen::MatrixXd imitable(const Workbench& bench, const Fit& fit, const Eigen::VectorXd& at) {
   Eigen::MatrixXd slopes(at.size(), static_cast<Eigen::Index>(fit.dimension()));
-  parallel_for(fit.dimension(), 0, [&](std::size_t c) {
+  parallel_for(fit.dimension(), bench.options().threads, [&](std::size_t c) {
     const double by = fit.point[c] > 0.5 ? -nudge : nudge;
     slopes.col(static_cast<Eigen::Index>(c)) = (stacked(bench, moved(fit, {c}, by)) - at) / by;
   });
