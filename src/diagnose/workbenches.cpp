@@ -46,7 +46,9 @@ Workbenches workbenches_of(const Campaign& campaign, const Split& split, const D
                      Workbench(scale, std::move(some), layout, coarse, options.seed, options.stopped),
                      Workbench(scale, {thinned(campaign.recordings, fine_samples), {}, {}, false}, layout, coarse,
                                options.seed, options.stopped)};
-  result.quick.take_noise_and_motions_of(result.whole);
+  for (Workbench* bench : {&result.quick, &result.fine, &result.every}) {
+    bench->take_noise_and_motions_of(result.whole);
+  }
   if (options.checkpoint != nullptr) {
     for (Workbench* bench : {&result.whole, &result.quick, &result.fine, &result.every}) {
       bench->keep_in(*options.checkpoint);

@@ -265,7 +265,7 @@ double gain_alone_of(const Found& found, const Search& search) {
   double gain = found.alone;
   for (const Tried& tried : search.first_stage) {
     // An effect that a richer law in the drive shows was tried as such a law.
-    if (!found.of_law && (found.by_law ? tried.part.is_law() : tried.part == found.part)) {
+    if (!found.of_law && (found.by_law ? tried.part == law_extension({*found.by_law}) : tried.part == found.part)) {
       gain = std::max(gain, tried.gain);
     }
   }
