@@ -18,7 +18,8 @@ struct Base {
   Fit fit;
 };
 
-Base base_of() {
+// `apart`: how far the last of them lies from the others.
+Base base_of(double apart = 0.0) {
   LayoutOptions made;
   made.fix = {{"alpha", 600.0}, {"c0", 1500.0}, {"k0", 2000.0}, {"f0", 20.0},
               {"x_y", 8e-4},    {"share", 0.6}, {"n", 1.5}};
@@ -26,6 +27,9 @@ Base base_of() {
   Split split;
   for (const double frequency : {0.7, 1.3, 2.6}) {
     Recording recording = testing::motion("r.csv", {{0.01, frequency}}, 4.0 / frequency, 600, 0.2 / frequency);
+    if (frequency > 2.0) {
+      std::ranges::for_each(recording.displacement, [&](double& x) { x += apart; });
+    }
     testing::set_force(recording, layout, layout.terms(layout.initial()), {}, 0.01, Stream(3).child(split.fit.size()));
     testing::set_drive(recording, 1.0);
     split.fit.push_back(recording);
@@ -59,6 +63,16 @@ TEST(DetectionLimits, FollowFromForces) {
     ASSERT_NE(row, rows.end()) << id;
     EXPECT_FALSE(row->detection_limit.empty()) << id << ": " << row->reason;
   }
+}
+
+// The middle of all strokes, around which a weak range is looked for, is a place where no rod was.
+TEST(DetectionLimits, SayThatNoRecordingComesWhereAnEffectIsLookedFor) {
+  const Base base = base_of(0.1);
+  const std::vector<Unobservable> rows =
+      detection_limits(base.bench, base.fit, misfit_of(base.bench, base.fit), {"pinching"});
+  ASSERT_EQ(rows.size(), 1U);
+  EXPECT_TRUE(rows.front().reason.starts_with("no recording comes where it is looked for, x_p from 0.0"))
+      << rows.front().reason;
 }
 
 // Samples so far apart that friction which turns over in its initial length cannot be simulated from one to the next.

@@ -56,6 +56,20 @@ std::vector<Probe> probes_of(const Workbench& bench, const Fit& neutral, const s
   return result;
 }
 
+// Where the effect is looked for: the range of its first place, of one that has a place.
+std::optional<std::string> range_of_place(const Fit& neutral, const std::string& effect) {
+  const std::vector<Coordinate>& coordinates = neutral.layout->coordinates();
+  for (std::size_t c = 0; c < coordinates.size(); ++c) {
+    const std::size_t parameter = coordinates[c].parameter;
+    const std::string& name = neutral.layout->names()[parameter];
+    if (name.starts_with(effect + ".") && neutral.layout->cards()[parameter].place != 0) {
+      return fmt::format("{} from {:.2g} to {:.2g} m", name.substr(name.find('.') + 1),
+                         neutral.layout->physical(c, 0.0), neutral.layout->physical(c, 1.0));
+    }
+  }
+  return std::nullopt;
+}
+
 std::string value_at(const Fit& neutral, const std::vector<std::size_t>& coordinates, double size) {
   const std::size_t c = coordinates.front();
   const std::size_t parameter = neutral.layout->coordinates()[c].parameter;
@@ -91,8 +105,11 @@ Unobservable limit_of(const Workbench& bench, const Fit& fit, const Misfit& misf
     return result;
   }
   if (std::ranges::max(probes, {}, &Probe::change).change < least_change) {
-    // The sizes grow.
-    result.reason = "it changes no force on these motions, up to " + value_at(neutral, coordinates, probes.back().size);
+    // The sizes grow. The middle of all motions, around which a place is looked for, may be where no rod was.
+    const std::optional<std::string> place = range_of_place(neutral, effect);
+    result.reason =
+        place ? "no recording comes where it is looked for, " + *place
+              : "it changes no force on these motions, up to " + value_at(neutral, coordinates, probes.back().size);
   } else if (last.left < imitated * last.change) {
     result.reason = "the other parameters imitate all but a thousandth of it on these recordings";
   } else {
