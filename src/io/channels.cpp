@@ -288,6 +288,15 @@ std::optional<Quantity> quantity_of_name(std::string_view name) {
   return std::nullopt;
 }
 
+std::optional<Quantity> quantity_of_column(const Column& column) {
+  const auto quantity = quantity_of_name(column.name);
+  if (!quantity || column.unit.empty()) return quantity;
+  if (lower_case(column.name) == "v" && find_unit(Quantity::voltage, column.unit)) return Quantity::voltage;
+  if (lower_case(column.name) == "a" && find_unit(Quantity::current, column.unit)) return Quantity::current;
+  if (*quantity == Quantity::time && find_unit(Quantity::temperature, column.unit)) return Quantity::temperature;
+  return quantity;
+}
+
 std::optional<Quantity> quantity_of_last_word(std::string_view name) {
   const std::size_t cut = name.find_last_of(" _-.");
   const std::string_view last = cut == std::string_view::npos ? std::string_view{} : name.substr(cut + 1);
@@ -314,15 +323,6 @@ void split_at_mark(Column& column) {
       return;
     }
   }
-std::optional<Quantity> quantity_of_column(const Column& column) {
-  const auto quantity = quantity_of_name(column.name);
-  if (!quantity || column.unit.empty()) return quantity;
-  if (lower_case(column.name) == "v" && find_unit(Quantity::voltage, column.unit)) return Quantity::voltage;
-  if (lower_case(column.name) == "a" && find_unit(Quantity::current, column.unit)) return Quantity::current;
-  if (*quantity == Quantity::time && find_unit(Quantity::temperature, column.unit)) return Quantity::temperature;
-  return quantity;
-}
-
 }
 
 }  // namespace

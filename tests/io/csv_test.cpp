@@ -234,18 +234,6 @@ TEST(Csv, UnitTellsVoltageFromVelocity) {
   EXPECT_FALSE(r.velocity_measured);
 }
 
-TEST(Csv, MappedColumns) {
-  const std::string text = "t,CH1 [lbf],CH2 (raw)\n" + ten_rows();
-  const auto r = parse_csv(text, "a.csv", mapped({{"force", "CH1 [kgf]"}, {"disp", "ch2 (raw) [mm]"}}));
-  EXPECT_DOUBLE_EQ(r.force[3], 9 * 9.80665);
-  EXPECT_DOUBLE_EQ(r.displacement[3], 0.03);
-  // Without a unit in the mapping the header's holds; a mapping wins over a synonym.
-  const auto s =
-      parse_csv("t,x,F [N],F2 [kN]\n0,1,2,3\n1,1,2,3\n2,1,2,3\n3,1,2,3\n4,1,2,3\n5,1,2,3\n6,1,2,3\n7,1,2,3\n", "a.csv",
-                mapped({{"force", "F2"}}));
-  EXPECT_DOUBLE_EQ(s.force[0], 3000.0);
-}
-
 TEST(Csv, UnitTellsTemperatureFromTime) {
   std::string rows;
   for (int i = 0; i < 10; ++i) rows += std::to_string(i) + ",1,2,30\n";
