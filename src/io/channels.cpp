@@ -134,9 +134,10 @@ class Assigner {
     for (std::size_t i = 0; i < columns_.size(); ++i) match(i);
     match_last_words();
     refuse_shared();
-    if (options_.time_required && !options_.without_time) require(Quantity::time);
-    if (options_.displacement_required) require(Quantity::displacement);
-    if (options_.force_required) require(Quantity::force);
+    for (std::size_t i = 0; i < columns_.size(); ++i) doubt_unit(i);
+    for (const Quantity quantity : {Quantity::time, Quantity::displacement, Quantity::force}) {
+      if (is_required(quantity)) require(quantity);
+    }
     return sources_;
   }
 
@@ -258,6 +259,31 @@ class Assigner {
              std::string(quantity_name(static_cast<Quantity>(k))) + ", expected one channel per column");
       }
     }
+  }
+
+  [[nodiscard]] bool is_required(Quantity quantity) const {
+    return quantity == Quantity::time           ? options_.time_required && !options_.without_time
+           : quantity == Quantity::displacement ? options_.displacement_required
+                                                : quantity == Quantity::force && options_.force_required;
+  }
+
+  // "force_kn": what stands behind the name of a channel that no column is taken for is nearly a unit of it.
+  void doubt_unit(std::size_t i) {
+    const std::string_view text = columns_[i].name;
+    const std::size_t cut = text.find_last_of("/_");
+    if (taken_[i] || !columns_[i].unit.empty() || cut == std::string_view::npos) return;
+    auto quantity = quantity_of_name(text.substr(0, cut));
+    if (!quantity) quantity = quantity_of_last_word(trimmed(text.substr(0, cut)));
+    const std::string_view unit = trimmed(text.substr(cut + 1));
+    if (!quantity || source(*quantity).column >= 0) return;
+    const std::vector<std::string> similar = similar_units(*quantity, unit);
+    if (similar.empty()) return;
+    if (is_required(*quantity)) (void)parse_unit(*quantity, unit, file_, line_);
+    if (!options_.remark) return;
+    const std::string channel(quantity_name(*quantity));
+    options_.remark({file_, Remark::Kind::dialect, "unit of " + channel,
+                     in_quotes(columns_[i].text) + " is not read as the " + channel + ": " + in_quotes(unit) +
+                         " is no unit, " + similar.front() + " is"});
   }
 
   void require(Quantity quantity) {

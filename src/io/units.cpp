@@ -1,5 +1,6 @@
 #include "io/units.hpp"
 
+#include <algorithm>
 #include <array>
 #include <span>
 #include <utility>
@@ -73,12 +74,12 @@ constexpr BaseUnit pressure_units[] = {{"Pa", 1.0, true},
                                        {"atm", 101325.0, false}};
 constexpr BaseUnit gravity_units[] = {{"g", standard_gravity, false}, {"mg", 1e-3 * standard_gravity, false}};
 
-// Both code points of the micro sign occur in files.
+// Both code points of the micro sign occur in files, and the byte of it in texts of Windows (Latin-1).
 constexpr std::pair<std::string_view, double> prefixes[] = {
-    {"da", 1e1},  {"\xC2\xB5", 1e-6}, {"\xCE\xBC", 1e-6}, {"q", 1e-30}, {"r", 1e-27}, {"y", 1e-24}, {"z", 1e-21},
-    {"a", 1e-18}, {"f", 1e-15},       {"p", 1e-12},       {"n", 1e-9},  {"u", 1e-6},  {"m", 1e-3},  {"c", 1e-2},
-    {"d", 1e-1},  {"h", 1e2},         {"k", 1e3},         {"M", 1e6},   {"G", 1e9},   {"T", 1e12},  {"P", 1e15},
-    {"E", 1e18},  {"Z", 1e21},        {"Y", 1e24},        {"R", 1e27},  {"Q", 1e30},
+    {"da", 1e1},  {"\xC2\xB5", 1e-6}, {"\xCE\xBC", 1e-6}, {"\xB5", 1e-6}, {"q", 1e-30}, {"r", 1e-27}, {"y", 1e-24},
+    {"z", 1e-21}, {"a", 1e-18},       {"f", 1e-15},       {"p", 1e-12},   {"n", 1e-9},  {"u", 1e-6},  {"m", 1e-3},
+    {"c", 1e-2},  {"d", 1e-1},        {"h", 1e2},         {"k", 1e3},     {"M", 1e6},   {"G", 1e9},   {"T", 1e12},
+    {"P", 1e15},  {"E", 1e18},        {"Z", 1e21},        {"Y", 1e24},    {"R", 1e27},  {"Q", 1e30},
 };
 
 std::optional<double> find_factor(std::span<const BaseUnit> units, std::string_view text) {
@@ -114,27 +115,50 @@ std::optional<double> find_velocity(std::string_view text) {
 // "m/s^2" in its usual spellings, or multiples of standard gravity.
 std::optional<double> find_acceleration(std::string_view text) {
   if (const auto gravity = find_factor(gravity_units, text)) return gravity;
-  for (const std::string_view tail : {"/s^2", "/s2", "/s\xC2\xB2", "/s/s", "/s**2", "/sec^2"}) {
+  for (const std::string_view tail : {"/s^2", "/s2", "/s\xC2\xB2", "/s\xB2", "/s/s", "/s**2", "/sec^2"}) {
     if (text.ends_with(tail)) return find_factor(length_units, text.substr(0, text.size() - tail.size()));
   }
   return std::nullopt;
 }
 
+// "degC", a degree sign in UTF-8 or Latin-1 before the letter, or the letter alone.
 std::optional<UnitConversion> find_temperature(std::string_view text) {
-  for (const std::string_view name : {"degC",
-                                      "\xC2\xB0"
-                                      "C",
-                                      "C", "celsius"}) {
-    if (text == name) return UnitConversion{};
-  }
   if (text == "K") return UnitConversion{1.0, -273.15};
-  for (const std::string_view name : {"degF",
-                                      "\xC2\xB0"
-                                      "F",
-                                      "F", "fahrenheit"}) {
-    if (text == name) return UnitConversion{5.0 / 9.0, -160.0 / 9.0};
+  std::string_view letter = text;
+  for (const std::string_view degree : {"deg", "\xC2\xB0", "\xB0"}) {
+    if (text.starts_with(degree)) letter = text.substr(degree.size());
   }
+  if (letter == "C" || text == "celsius") return UnitConversion{};
+  if (letter == "F" || text == "fahrenheit") return UnitConversion{5.0 / 9.0, -160.0 / 9.0};
   return std::nullopt;
+}
+
+std::span<const BaseUnit> units_of(Quantity quantity) {
+  switch (quantity) {
+    case Quantity::time:
+      return time_units;
+    case Quantity::displacement:
+    case Quantity::base:
+      return length_units;
+    case Quantity::force:
+      return force_units;
+    case Quantity::current:
+      return current_units;
+    case Quantity::voltage:
+      return voltage_units;
+    case Quantity::velocity:
+    case Quantity::acceleration:
+    case Quantity::temperature:
+      break;
+  }
+  return {};
+}
+
+// Without case and what stands between letters.
+std::string folded(std::string_view text) {
+  std::string result = lower_case(text);
+  std::erase_if(result, [](char c) { return std::string_view(" ./_-^").find(c) != std::string_view::npos; });
+  return result;
 }
 
 std::optional<UnitConversion> plain(std::optional<double> factor) {
@@ -187,6 +211,20 @@ std::optional<UnitConversion> find_unit(Quantity quantity, std::string_view text
   return std::nullopt;
 }
 
+std::vector<std::string> similar_units(Quantity quantity, std::string_view text) {
+  std::vector<std::string> similar;
+  const auto take = [&](std::string_view unit) {
+    if (folded(unit) == folded(text) && std::ranges::find(similar, unit) == similar.end()) similar.emplace_back(unit);
+  };
+  for (std::string_view rest = accepted_units(quantity); !rest.empty();) {
+    const std::size_t end = std::min(rest.find(", "), rest.size());
+    take(rest.substr(0, end));
+    rest.remove_prefix(std::min(end + 2, rest.size()));
+  }
+  for (const BaseUnit& unit : units_of(quantity)) take(unit.symbol);
+  return similar;
+}
+
 bool is_any_unit(std::string_view text) {
   for (int i = 0; i < quantity_count; ++i) {
     if (find_unit(static_cast<Quantity>(i), text)) return true;
@@ -200,8 +238,11 @@ std::optional<UnitConversion> find_pressure(std::string_view text) {
 
 UnitConversion parse_unit(Quantity quantity, std::string_view text, const std::string& file, int line) {
   if (const auto unit = find_unit(quantity, text)) return *unit;
+  std::string meant;
+  for (const std::string& unit : similar_units(quantity, text)) meant += (meant.empty() ? "" : " or ") + unit;
   const std::string message = "unknown unit " + in_quotes(text) + " of " + std::string(quantity_name(quantity)) +
-                              ", expected one of " + std::string(accepted_units(quantity));
+                              (meant.empty() ? "" : " (did you mean " + meant + "?)") + ", expected one of " +
+                              std::string(accepted_units(quantity));
   if (file.empty()) throw InputError(message);
   throw InputError(file, line, message);
 }

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace hysteron {
 
@@ -30,13 +31,17 @@ struct UnitConversion {
 // The conversion of `text` (case matters: mN is not MN), or nothing when it is not a unit of the quantity.
 [[nodiscard]] std::optional<UnitConversion> find_unit(Quantity quantity, std::string_view text);
 
+// Units of the quantity that the text is but for case and what stands between letters: kN of "KN", m/s of "ms". They
+// may differ by nine orders of magnitude, MN and mN of "mn", and are offered, not taken.
+[[nodiscard]] std::vector<std::string> similar_units(Quantity quantity, std::string_view text);
+
 // Whether the text is a unit of any quantity.
 [[nodiscard]] bool is_any_unit(std::string_view text);
 
 // To Pa, of a unit of pressure: Pa and bar with SI prefixes, psi, ksi, atm.
 [[nodiscard]] std::optional<UnitConversion> find_pressure(std::string_view text);
 
-// As find_unit; an unknown unit is an InputError at file:line that names it and the accepted ones.
+// As find_unit; an unknown unit is an InputError at file:line that names it, similar ones and the accepted ones.
 [[nodiscard]] UnitConversion parse_unit(Quantity quantity, std::string_view text, const std::string& file = {},
                                         int line = 0);
 

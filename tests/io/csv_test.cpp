@@ -251,6 +251,27 @@ TEST(Csv, UnitTellsTemperatureFromTime) {
             "a.csv:1: two columns for time ('time [s]' and 't [ms]'), expected one, or column time=NAME to choose");
 }
 
+TEST(Csv, MappedColumns) {
+  const std::string text = "t,CH1 [lbf],CH2 (raw)\n" + ten_rows();
+  const auto r = parse_csv(text, "a.csv", mapped({{"force", "CH1 [kgf]"}, {"disp", "ch2 (raw) [mm]"}}));
+  EXPECT_DOUBLE_EQ(r.force[3], 9 * 9.80665);
+  EXPECT_DOUBLE_EQ(r.displacement[3], 0.03);
+  // Without a unit in the mapping the header's holds; a mapping wins over a synonym.
+  const auto s =
+      parse_csv("t,x,F [N],F2 [kN]\n0,1,2,3\n1,1,2,3\n2,1,2,3\n3,1,2,3\n4,1,2,3\n5,1,2,3\n6,1,2,3\n7,1,2,3\n", "a.csv",
+                mapped({{"force", "F2"}}));
+  EXPECT_DOUBLE_EQ(s.force[0], 3000.0);
+}
+
+TEST(Csv, AUnitInTheNameThatIsNearlyOneIsTold) {
+  EXPECT_EQ(message_of<InputError>([] { (void)parse_csv("time_s,disp_mm,force_kn\n" + ten_rows(), "a.csv"); }),
+            "a.csv:1: unknown unit 'kn' of force (did you mean kN?), expected one of N, kN, MN, daN, mN, lbf, lb, kip, "
+            "kgf");
+  std::string text = "time_s,disp_mm,force_kN,current_ma\n";
+  for (int i = 0; i < 10; ++i) text += std::to_string(i) + ",1,2,3\n";
+  EXPECT_EQ(remarks_of(text), "'current_ma' is not read as the current: 'ma' is no unit, mA is\n");
+}
+
 TEST(Csv, ForceMayBeLeftOutForSimulation) {
   std::string text = "t,x\n";
   for (int i = 0; i < 10; ++i) text += std::to_string(i) + ",1\n";

@@ -57,6 +57,16 @@ TEST(Units, ConvertToSiAndBack) {
        "\xC2\xB0"
        "C",
        20.0, 20.0},
+      {Quantity::temperature,
+       "\xB0"
+       "C",
+       20.0, 20.0},
+      {Quantity::temperature,
+       "\xB0"
+       "F",
+       68.0, 20.0},
+      {Quantity::displacement, "\xB5m", 3.0, 3e-6},
+      {Quantity::acceleration, "m/s\xB2", 1.0, 1.0},
       {Quantity::temperature, "K", 293.15, 20.0},
       {Quantity::temperature, "degF", 68.0, 20.0},
   };
@@ -66,6 +76,21 @@ TEST(Units, ConvertToSiAndBack) {
     EXPECT_NEAR(unit->to_si(c.value), c.inside, 1e-13 * std::abs(c.inside)) << c.text;
     EXPECT_NEAR(unit->from_si(unit->to_si(c.value)), c.value, 1e-12 * std::abs(c.value)) << c.text;
   }
+}
+
+TEST(Units, SimilarOnesAreOffered) {
+  const auto of = [](Quantity quantity, const char* text) {
+    return testing::message_of<InputError>([&] { (void)parse_unit(quantity, text, "a.csv", 1); });
+  };
+  const std::string forces = ", expected one of N, kN, MN, daN, mN, lbf, lb, kip, kgf";
+  EXPECT_EQ(of(Quantity::force, "KN"), "a.csv:1: unknown unit 'KN' of force (did you mean kN?)" + forces);
+  EXPECT_EQ(of(Quantity::force, "kn"), "a.csv:1: unknown unit 'kn' of force (did you mean kN?)" + forces);
+  EXPECT_EQ(of(Quantity::force, "mn"), "a.csv:1: unknown unit 'mn' of force (did you mean MN or mN?)" + forces);
+  EXPECT_EQ(of(Quantity::force, "N/mm"), "a.csv:1: unknown unit 'N/mm' of force" + forces);
+  EXPECT_EQ(of(Quantity::displacement, "MM"),
+            "a.csv:1: unknown unit 'MM' of displacement (did you mean mm?), expected one of m, mm, cm, um, in, ft");
+  EXPECT_EQ(similar_units(Quantity::velocity, "MM/S"), std::vector<std::string>{"mm/s"});
+  EXPECT_EQ(similar_units(Quantity::temperature, "deg C"), std::vector<std::string>{"degC"});
 }
 
 TEST(Units, RefuseWhatIsNoUnitOfTheQuantity) {
