@@ -921,6 +921,79 @@ TEST(Xlsx, WrongCellsAreToldByTheirRow) {
             "r: the workbook is not read: a cell with text '7', which is not there, expected an .xlsx file");
 }
 
+// A workbook of one sheet with formats of cells: 0 General, 1 a built-in date, then one of each code.
+std::string workbook_with_formats(const std::string& sheet, const std::vector<std::string>& codes) {
+  auto parts = workbook_parts({{"A", sheet}});
+  const std::string target = "http://schemas.openxmlformats.org/officeDocument/2006/relationships/styles";
+  std::string& relations = parts.back().second;
+  relations.insert(relations.find("</Relationships>"),
+                   "<Relationship Id=\"rIdS\" Type=\"" + target + "\" Target=\"styles.xml\"/>");
+  std::string formats;
+  std::string styles = "<xf numFmtId=\"0\"/><xf numFmtId=\"22\"/>";
+  for (std::size_t k = 0; k < codes.size(); ++k) {
+    const std::string id = std::to_string(164 + k);
+    formats += "<numFmt numFmtId=\"" + id + "\" formatCode=\"" + codes[k] + "\"/>";
+    styles += "<xf numFmtId=\"" + id + "\"/>";
+  }
+  parts.emplace_back("xl/styles.xml", "<styleSheet><numFmts>" + formats +
+                                          "</numFmts><cellStyleXfs><xf numFmtId=\"14\"/>"
+                                          "</cellStyleXfs><cellXfs>" +
+                                          styles + "</cellXfs></styleSheet>");
+  return zip_of(parts);
+}
+
+// 10 mm at 2 Hz, 100 samples a second from 27 November 2026, 12:00 on, in cells of a style for each column.
+std::string dated_sheet(const std::string& header, int time_style, int force_style = 0) {
+  const auto styled = [](double value, int style) {
+    return "<c s=\"" + std::to_string(style) + "\"><v>" + digits_of(value) + "</v></c>";
+  };
+  std::string sheet = header;
+  for (int k = 0; k < 100; ++k) {
+    const double phase = 0.04 * std::numbers::pi * k;
+    sheet += row({styled(46353.5 + 0.01 * k / 86400.0, time_style), cell(10.0 * std::sin(phase)),
+                  styled(500.0 * std::cos(phase), force_style)});
+  }
+  return sheet;
+}
+
+TEST(Xlsx, DatesAreReadInSecondsSinceTheFirst) {
+  const std::string head = row({cell("Time"), cell("disp [mm]"), cell("force [N]")});
+  const std::vector<std::string> dates = {"hh:mm:ss.000", "[$-409]d/mmm/yy h:mm", "[h]:mm:ss", "yyyy\\-mm\\-dd;@",
+                                          "[ss].00"};
+  for (std::size_t style = 1; style < 2 + dates.size(); ++style) {
+    Told told;
+    const Recording r =
+        read("xlsx", workbook_with_formats(dated_sheet(head, static_cast<int>(style)), dates), told.options);
+    ASSERT_EQ(r.size(), 100U);
+    EXPECT_EQ(r.time[0], 0.0);
+    EXPECT_NEAR(r.time[99], 0.99, 1e-6);
+    ASSERT_EQ(told.lines.size(), 1U) << told.lines.back();
+    EXPECT_EQ(told.lines[0],
+              "the times of column 'Time' are dates or times of day: they are read in seconds since the first");
+  }
+  // Numbers, whatever letters their formats hold.
+  for (const std::string code :
+       {"0.00", "0.000 s", "0.0&quot; days&quot;", "[Red]0.00", "General&quot; s&quot;", "\\s0"}) {
+    const Recording r = read("xlsx", workbook_with_formats(dated_sheet(head, 2), {code}));
+    EXPECT_EQ(r.time[0], 46353.5) << code;
+  }
+}
+
+TEST(Xlsx, DatesInAColumnWithAUnit) {
+  const auto heads = [](const std::string& time) { return row({cell(time), cell("disp [mm]"), cell("force [N]")}); };
+  for (const std::string time : {"Time [s]", "Time [hh:mm:ss]", "Test time"}) {
+    EXPECT_NEAR(read("xlsx", workbook_with_formats(dated_sheet(heads(time), 1), {})).time[99], 0.99, 1e-6) << time;
+  }
+  const std::string units =
+      row({cell("Time"), cell("disp"), cell("force")}) + row({cell("h:m:s"), cell("mm"), cell("N")});
+  EXPECT_NEAR(read("xlsx", workbook_with_formats(dated_sheet(units, 1), {})).time[99], 0.99, 1e-6);
+  EXPECT_EQ(refusal("xlsx", workbook_with_formats(dated_sheet(heads("Time [ms]"), 1), {})),
+            "r:1: the times of column 'Time [ms]' are dates and their unit is 'ms', expected numbers, or dates without "
+            "a unit");
+  EXPECT_EQ(refusal("xlsx", workbook_with_formats(dated_sheet(heads("Time"), 0, 1), {})),
+            "r:2: the force in column 'force [N]' is formatted as a date, expected a number");
+}
+
 TEST(Xlsx, SheetsAreChosenByGroup) {
   const std::string head = row({cell("time"), cell("disp"), cell("force")});
   const std::string bytes = zip_of(workbook_parts({{"Notes", row({cell("what"), cell("who")})},

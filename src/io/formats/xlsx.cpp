@@ -7,8 +7,11 @@
 #include <zip.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
+#include <cmath>
 #include <cstring>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -143,6 +146,7 @@ struct Cell {
   enum class Kind : std::uint8_t { number, text, error };
   std::uint32_t column = 0;
   Kind kind = Kind::number;
+  bool date = false;  // a number of days, by its format
   std::uint32_t length = 0;
   std::size_t at = 0;  // in Sheet::letters
 };
@@ -161,6 +165,11 @@ struct Sheet {
 
   [[nodiscard]] std::string_view text(const Cell& cell) const {
     return std::string_view(letters).substr(cell.at, cell.length);
+  }
+  void write(Cell& cell, std::string_view text) {
+    cell.at = letters.size();
+    cell.length = static_cast<std::uint32_t>(text.size());
+    letters += text;
   }
   [[nodiscard]] std::span<const Cell> cells_of(const SheetRow& row) const {
     return std::span(cells).subspan(row.first, row.count);
@@ -183,6 +192,18 @@ std::optional<std::uint32_t> whole(std::string_view text) {
   const auto read = std::from_chars(text.data(), text.data() + text.size(), value);
   if (read.ec != std::errc() || read.ptr != text.data() + text.size()) return std::nullopt;
   return value;
+}
+
+std::optional<double> number_of(std::string_view text) {
+  double value = 0.0;
+  const auto read = std::from_chars(text.data(), text.data() + text.size(), value);
+  const bool whole_text = read.ec == std::errc() && read.ptr == text.data() + text.size();
+  return whole_text && std::isfinite(value) ? std::optional(value) : std::nullopt;
+}
+
+std::string shortest(double value) {
+  std::array<char, 32> digits{};
+  return {digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr};
 }
 
 // Texts that cells name by number.
@@ -209,9 +230,67 @@ std::vector<std::string> shared_texts(Archive& archive, const std::string& path)
   return texts;
 }
 
+// "[h]", "[mm]": hours, minutes or seconds that go on beyond a day.
+bool is_elapsed(std::string_view bracket) {
+  const std::string lower = lower_case(bracket);
+  return !lower.empty() && std::string_view("hms").find(lower.front()) != std::string_view::npos &&
+         lower.find_first_not_of(lower.front()) == std::string::npos;
+}
+
+// Whether a format shows a number of days as a date or a time: a letter of one stands before the first digit, outside
+// of quotes and brackets. "0.00 s" is a number with a unit.
+bool shows_a_date(std::string_view code) {
+  for (std::size_t k = 0; k < code.size(); ++k) {
+    const char c = code[k];
+    if (c == ';' || c == '0' || c == '#' || c == '?') return false;
+    if (c == '\\' || c == '_' || c == '*') {  // the next character stands for itself, or for a blank
+      ++k;
+    } else if (c == '"' || c == '[') {
+      const std::size_t end = std::min(code.find(c == '"' ? '"' : ']', k + 1), code.size());
+      if (c == '[' && is_elapsed(code.substr(k + 1, end - k - 1))) return true;
+      k = end;
+    } else if (lower_case(code.substr(k, 7)) == "general") {
+      return false;
+    } else if (std::string_view("ydhmsYDHMS").find(c) != std::string_view::npos) {
+      return true;
+    }
+  }
+  return false;
+}
+
+// Formats that have a number and no code (ECMA-376, 18.8.30): dates and times of every language.
+bool is_built_in_date(std::uint32_t format) {
+  return (format >= 14 && format <= 22) || (format >= 27 && format <= 36) || (format >= 45 && format <= 47) ||
+         (format >= 50 && format <= 58);
+}
+
+// Of every style of cells, whether it shows a date.
+std::vector<bool> date_styles(Archive& archive, const std::string& path) {
+  constexpr std::size_t most_styles = 65'536;
+  std::vector<std::pair<std::uint32_t, bool>> formats;  // those with a code
+  std::vector<bool> styles;
+  bool of_cells = false;
+  XmlEvents events;
+  events.begin = [&](std::string_view name, const XmlAttributes& attributes) {
+    of_cells = of_cells || name == "cellXfs";
+    const std::optional<std::uint32_t> format = whole(attribute(attributes, "numFmtId"));
+    if (name == "numFmt" && format && formats.size() < most_styles) {
+      formats.emplace_back(*format, shows_a_date(attribute(attributes, "formatCode")));
+    }
+    if (name != "xf" || !of_cells) return;
+    if (styles.size() == most_styles) throw Damage("it has more than 65536 styles");
+    const auto coded = std::ranges::find(formats, format.value_or(0), &std::pair<std::uint32_t, bool>::first);
+    styles.push_back(coded != formats.end() ? coded->second : format && is_built_in_date(*format));
+  };
+  events.end = [&](std::string_view name) { of_cells = of_cells && name != "cellXfs"; };
+  archive.read(path, std::move(events));
+  return styles;
+}
+
 class SheetParser {
  public:
-  SheetParser(Sheet& sheet, const std::vector<std::string>& texts) : sheet_(sheet), texts_(texts) {}
+  SheetParser(Sheet& sheet, const std::vector<std::string>& texts, const std::vector<bool>& dates)
+      : sheet_(sheet), texts_(texts), dates_(dates) {}
 
   [[nodiscard]] XmlEvents events() {
     XmlEvents events;
@@ -239,6 +318,8 @@ class SheetParser {
       column_ = *column;
       next_column_ = *column + 1;
       type_ = attribute(attributes, "t");
+      const std::optional<std::uint32_t> style = whole(attribute(attributes, "s"));
+      date_ = style && *style < dates_.size() && dates_[*style];
       value_.clear();
       in_cell_ = true;
     }
@@ -274,18 +355,21 @@ class SheetParser {
     text = trimmed(text);
     if (text.empty()) return;
     if (sheet_.letters.size() + text.size() > largest_part) throw Damage("more text than 2 GiB");
-    sheet_.cells.push_back({column_, kind, static_cast<std::uint32_t>(text.size()), sheet_.letters.size()});
+    sheet_.cells.push_back({column_, kind, date_ && kind == Cell::Kind::number, static_cast<std::uint32_t>(text.size()),
+                            sheet_.letters.size()});
     sheet_.letters += text;
     ++sheet_.rows.back().count;
   }
 
   Sheet& sheet_;
   const std::vector<std::string>& texts_;
+  const std::vector<bool>& dates_;
   std::uint32_t next_row_ = 1;
   std::uint32_t next_column_ = 0;
   std::uint32_t column_ = 0;
   std::string type_;
   std::string value_;
+  bool date_ = false;
   bool in_cell_ = false;
   bool in_value_ = false;
   int phonetic_ = 0;
@@ -442,7 +526,7 @@ class WorkbookReader {
       if (wanted == names_.end()) {
         fail("no sheet " + in_quotes(options_.group) + " for " + Option::group + ", expected one of " + list(names_));
       }
-      const Sheet sheet = read_sheet(static_cast<std::size_t>(wanted - names_.begin()));
+      Sheet sheet = read_sheet(static_cast<std::size_t>(wanted - names_.begin()));
       const auto table = table_of(sheet, skip());
       if (!table) fail("sheet " + in_quotes(sheet.name) + " has no row of names above rows of numbers, expected one");
       return read_table(sheet, *table);
@@ -493,6 +577,7 @@ class WorkbookReader {
     const std::vector<Relation> relations = relations_of(archive_, workbook);
     for (const Relation& relation : relations) {
       if (relation.type.ends_with("/sharedStrings")) texts_ = shared_texts(archive_, relation.target);
+      if (relation.type.ends_with("/styles")) dates_ = date_styles(archive_, relation.target);
     }
     XmlEvents events;
     events.begin = [&](std::string_view element, const XmlAttributes& attributes) {
@@ -516,12 +601,118 @@ class WorkbookReader {
   [[nodiscard]] Sheet read_sheet(std::size_t k) {
     Sheet sheet;
     sheet.name = names_[k];
-    SheetParser parser(sheet, texts_);
+    SheetParser parser(sheet, texts_, dates_);
     archive_.read(paths_[k], parser.events());
     return sheet;
   }
 
-  [[nodiscard]] Recording read_table(const Sheet& sheet, const Table& table) const {
+  [[noreturn]] void fail_at(std::uint32_t row, const Message& message) const {
+    throw OptionError(file_, static_cast<int>(row), message);
+  }
+
+  // Dates of a time column become seconds since its first; dates of any other channel are refused.
+  void read_dates(Sheet& sheet, const Table& table) const {
+    std::vector<Column> columns;
+    for (const std::uint32_t at : table.columns) {
+      const Cell* name = cell_of(sheet, sheet.rows[table.header], at);
+      columns.push_back(split_column(name == nullptr ? std::string_view{} : sheet.text(*name)));
+    }
+    const std::map<std::uint32_t, std::uint32_t> dates = first_dates(sheet, table);
+    for (std::size_t k = 0; k < columns.size(); ++k) {
+      const auto date = dates.find(table.columns[k]);
+      const std::optional<Quantity> quantity = date == dates.end() ? std::nullopt : channel_of(columns, k);
+      if (!quantity) continue;
+      if (*quantity != Quantity::time) {
+        fail_at(date->second, "the " + std::string(quantity_name(*quantity)) + " in column " +
+                                  in_quotes(columns[k].text) + " is formatted as a date, expected a number");
+      }
+      dates_to_seconds(sheet, table, columns[k], table.columns[k]);
+    }
+  }
+
+  static const Cell* cell_of(const Sheet& sheet, const SheetRow& row, std::uint32_t column) {
+    const std::span<const Cell> cells = sheet.cells_of(row);
+    const auto found = std::ranges::find(cells, column, &Cell::column);
+    return found == cells.end() ? nullptr : &*found;
+  }
+
+  // Of columns that hold dates, the row of the first.
+  static std::map<std::uint32_t, std::uint32_t> first_dates(const Sheet& sheet, const Table& table) {
+    std::map<std::uint32_t, std::uint32_t> rows;
+    for (std::size_t r = table.header + 1; r < sheet.rows.size(); ++r) {
+      for (const Cell& cell : sheet.cells_of(sheet.rows[r])) {
+        if (cell.date) rows.emplace(cell.column, sheet.rows[r].number);
+      }
+    }
+    return rows;
+  }
+
+  // The channel of a column: by a mapping, its name, or, where no column has such a name, its last word.
+  [[nodiscard]] std::optional<Quantity> channel_of(const std::vector<Column>& columns, std::size_t k) const {
+    const Column& column = columns[k];
+    const auto mapped = std::ranges::find_if(options_.columns, [&](const auto& entry) {
+      return trimmed(entry.second) == column.text ||
+             lower_case(split_column(entry.second).name) == lower_case(column.name);
+    });
+    if (mapped != options_.columns.end()) return quantity_of_name(mapped->first);
+    const auto is_mapped = [&](std::optional<Quantity> quantity) {
+      return std::ranges::any_of(options_.columns,
+                                 [&](const auto& entry) { return quantity_of_name(entry.first) == quantity; });
+    };
+    std::optional<Quantity> quantity = quantity_of_column(column);
+    if (!quantity) {
+      quantity = quantity_of_last_word(column.name);
+      if (std::ranges::any_of(columns, [&](const Column& other) { return quantity_of_name(other.name) == quantity; })) {
+        return std::nullopt;
+      }
+    }
+    return is_mapped(quantity) ? std::nullopt : quantity;
+  }
+
+  void dates_to_seconds(Sheet& sheet, const Table& table, const Column& column, std::uint32_t at) const {
+    constexpr double seconds_a_day = 86400.0;
+    std::optional<double> first;
+    std::uint32_t before = 0;  // the last row with a date
+    for (std::size_t r = table.header; r < sheet.rows.size(); ++r) {
+      const Cell* found = cell_of(sheet, sheet.rows[r], at);
+      if (found == nullptr) continue;
+      Cell& cell = sheet.cells[static_cast<std::size_t>(found - sheet.cells.data())];
+      const std::uint32_t row = sheet.rows[r].number;
+      if (r == table.header) {
+        refuse_other_unit(column.unit, column, row);
+        sheet.write(cell, column.name + " [s]");
+      } else if (cell.kind == Cell::Kind::text && !first) {
+        // A row of units: what shows a date is said to be in "hh:mm:ss" as well.
+        refuse_other_unit(without_brackets(sheet.text(cell)), column, row);
+        sheet.write(cell, "s");
+      } else if (cell.kind == Cell::Kind::number) {
+        if (!cell.date && before + 1 != row) continue;  // below the table, or a serial number above the dates
+        if (!cell.date) {
+          fail_at(row, "time " + in_quotes(sheet.text(cell)) + " is no date among dates, expected one format");
+        }
+        const std::optional<double> days = number_of(sheet.text(cell));
+        if (!days) continue;  // refused as text that is no number
+        if (!first) first = days;
+        before = row;
+        sheet.write(cell, shortest((*days - *first) * seconds_a_day));
+      }
+    }
+    if (options_.remark) {
+      options_.remark({file_, Remark::Kind::dialect, "dates",
+                       "the times of column " + in_quotes(column.text) +
+                           " are dates or times of day: they are read in seconds since the first"});
+    }
+  }
+
+  void refuse_other_unit(std::string_view unit, const Column& column, std::uint32_t row) const {
+    const auto known = find_unit(Quantity::time, unit);
+    if (!known || *known == UnitConversion{}) return;
+    fail_at(row, "the times of column " + in_quotes(column.text) + " are dates and their unit is " + in_quotes(unit) +
+                     ", expected numbers, or dates without a unit");
+  }
+
+  [[nodiscard]] Recording read_table(Sheet& sheet, const Table& table) const {
+    read_dates(sheet, table);
     const std::uint32_t row = sheet.rows[table.header].number;
     if (options_.remark && table.header > 0 && row > skip() + 1) {
       options_.remark({file_, Remark::Kind::dialect, "header",
@@ -539,6 +730,7 @@ class WorkbookReader {
   const std::string& file_;
   const ReadOptions& options_;
   std::vector<std::string> texts_;
+  std::vector<bool> dates_;         // of the styles of cells, whether they show a date
   std::vector<std::string> names_;  // of the sheets
   std::vector<std::string> paths_;
 };
