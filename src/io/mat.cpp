@@ -110,7 +110,7 @@ class MatReader {
       if (std::ranges::any_of(variables_, [&](const auto& one) { return lower_case(one.name) == name; })) continue;
       const auto quantity = quantity_of_name(name);
       const auto meant = std::ranges::find_if(columns_, [&](const Column& column) {
-        return quantity && column.unit.empty() && quantity_of_name(column.name) == quantity;
+        return quantity && column.unit.empty() && quantity_of_column(column) == quantity;
       });
       if (meant != columns_.end()) {
         fail("there is a unit of " + in_quotes(name) + ", " + in_quotes(unit) + ", and none of " +
@@ -136,20 +136,47 @@ class MatReader {
       const std::size_t columns = variable.columns;
       if (!is_matrix(variable)) {
         const auto unit = units.find(lower_case(variable.name));
-        add(variable.name, {}, unit == units.end() ? std::string{} : unit->second, {i, 0, rows * columns});
+        add(vector_column(variable.name, unit == units.end() ? std::string{} : unit->second), {i, 0, rows * columns});
         continue;
       }
       for (std::size_t k = 0; k < columns; ++k) {
         const std::string number = std::to_string(k + 1);
-        add(variable.name + ":" + number, one_matrix ? number : std::string{}, {}, {i, k * rows, rows});
+        const std::string name = variable.name + ":" + number;
+        add({name, name, {}, one_matrix ? number : std::string{}}, {i, k * rows, rows});
       }
     }
+    refuse_structs_alone();
     if (columns_.empty()) fail("no numeric variables, expected one vector per channel or a matrix");
     doubt_units(units);
   }
 
-  void add(std::string name, std::string alias, std::string unit, Slice slice) {
-    columns_.push_back({name, name, std::move(unit), std::move(alias)});
+  // "Force_kN" names its unit as a header of CSV does; `unit` is that of the struct of units.
+  static Column vector_column(const std::string& name, const std::string& unit) {
+    Column column = split_column(name);
+    if (!unit.empty()) column.other_unit = std::exchange(column.unit, unit);
+    return column;
+  }
+
+  // Where nothing else can be a channel, the channels are fields of a struct.
+  void refuse_structs_alone() const {
+    const auto is_struct = [](const MatVariable& variable) {
+      return variable.kind == MatVariable::Kind::texts && lower_case(variable.name) != "unit" &&
+             lower_case(variable.name) != "units";
+    };
+    const auto found = std::ranges::find_if(variables_, is_struct);
+    const bool may_be_read = std::ranges::any_of(columns_, [](const Column& column) {
+      return !column.alias.empty() || quantity_of_column(column) || quantity_of_last_word(column.name);
+    });
+    if (found == variables_.end() || may_be_read || !options_.columns.empty()) return;
+    fail(
+        "variable " + in_quotes(found->name) +
+        " is a struct, whose fields are not read, expected them as variables, as MATLAB saves them by save('FILE.mat', "
+        "'-struct', '" +
+        found->name + "')");
+  }
+
+  void add(Column column, Slice slice) {
+    columns_.push_back(std::move(column));
     slices_.push_back(slice);
   }
 

@@ -165,8 +165,9 @@ void read_object(hid_t group, const std::string& name, MatVariable& variable, st
   const H5I_type_t what = H5Iget_type(object);
   if (what == H5I_DATASET) {
     read_dataset(object, variable, file_size);
-  } else if (what == H5I_GROUP && with_fields && (lower_case(name) == "units" || lower_case(name) == "unit")) {
+  } else if (what == H5I_GROUP && with_fields) {
     variable.kind = MatVariable::Kind::texts;
+    if (lower_case(name) != "units" && lower_case(name) != "unit") return;
     for (const std::string& field_name : names_in(object)) {
       MatVariable field;
       read_object(object, field_name, field, file_size, false);

@@ -23,7 +23,8 @@ struct MatVariable {
   std::size_t columns = 0;
   std::vector<double> values;  // rows x columns, by columns
   std::string text;            // of a char array, UTF-8
-  std::vector<Field> fields;   // of a struct (`texts`): its texts, nothing where a field is not text
+  // Of a struct (`texts`): its texts, nothing where a field is not text. Of level 7.3 only those of units.
+  std::vector<Field> fields;
 };
 
 // What is wrong with the file, without its name.

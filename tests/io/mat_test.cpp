@@ -493,6 +493,48 @@ TEST(Mat, VariablesThatAreNoChannelAreKeptAsTheirMean) {
   EXPECT_DOUBLE_EQ(r.unused[1].mean, 38.5);
 }
 
+TEST(Mat, NamesMayEndInTheirUnit) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "a.mat";
+  const std::vector<double> numbers = {0, 1, 2, 3, 4, 5, 6, 7};
+  const auto write = [&](const std::vector<std::pair<const char*, std::string>>& units) {
+    MatWriter mat(path, MAT_FT_MAT5);
+    for (const char* name : {"Time_s", "Displacement_mm", "Force_kN", "Current_mA"}) mat.column(name, numbers);
+    if (!units.empty()) mat.units(units);
+  };
+  write({});
+  const auto r = load_recording(path);
+  EXPECT_DOUBLE_EQ(r.time[3], 3.0);
+  EXPECT_DOUBLE_EQ(r.displacement[3], 3e-3);
+  EXPECT_DOUBLE_EQ(r.force[3], 3e3);
+  EXPECT_DOUBLE_EQ(r.drive.at(3), 3e-3);
+  write({{"Force_kN", "kN"}});
+  EXPECT_DOUBLE_EQ(load_recording(path).force[3], 3e3);
+  write({{"Force_kN", "N"}});
+  EXPECT_EQ(message_of<InputError>([&] { (void)load_recording(path); }),
+            path.string() +
+                ": column 'Force_kN' is given in 'N' and in 'kN', expected one unit, or column "
+                "force=\"Force [UNIT]\" to choose");
+}
+
+TEST(Mat, AStructIsToldWhereNothingElseIsAChannel) {
+  const TemporaryFolder folder;
+  for (const mat_ft version : {MAT_FT_MAT5, MAT_FT_MAT73}) {
+    for (const bool rate : {false, true}) {
+      const auto path = folder.path() / ("a" + std::to_string(static_cast<int>(version)) + (rate ? "r" : "") + ".mat");
+      {
+        MatWriter mat(path, version);
+        mat.units({{"t", "1"}, {"x", "2"}}, "run");
+        if (rate) mat.column("fs", {1000.0});
+      }
+      EXPECT_EQ(message_of<InputError>([&] { (void)load_recording(path); }),
+                path.string() +
+                    ": variable 'run' is a struct, whose fields are not read, expected them as variables, "
+                    "as MATLAB saves them by save('FILE.mat', '-struct', 'run')");
+    }
+  }
+}
+
 TEST(Mat, NotAMatFile) {
   const TemporaryFolder folder;
   const auto path = folder.write("a.mat", "hello\n");
