@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/extent.hpp"
+#include "core/squared.hpp"
 
 namespace hysteron {
 namespace {
@@ -20,8 +21,17 @@ constexpr std::size_t least_runs = 2;
 constexpr double near_the_end = 0.02;
 constexpr double steps_before = 2.5;
 constexpr double crowded = 4.0;
-// Fewer values than these are steps of a converter, and a friction stays within one of them.
+// Fewer values than these may be steps of a converter, and a friction stays within one of them ...
 constexpr std::size_t least_values = 150;
+// ... unless there is noise between the ends of more than a step, which would not let it: so many fifth differences
+// are no smaller than the fourth ones tell, as those of a signal are, and there are so many values. A friction that
+// approaches its yield force has many more samples near the ends than in between, a signal that is cut off has not.
+constexpr std::size_t fewest_noisy_values = 30;
+constexpr std::size_t fewest_differences = 16;
+constexpr double white = 0.85;
+constexpr double noise_in_steps = 0.7;  // rounding alone is 0.3 of a step, up to 0.4 where few samples tell it
+constexpr double edge = 0.05;           // of the span, at either end
+constexpr double denser = 3.0;
 
 // A stretch of zeros counts from this share of the samples on, and from so many: a play without noise has shorter ones.
 constexpr double least_silent = 0.1;
@@ -59,6 +69,60 @@ std::vector<double> thinned(const std::vector<double>& values) {
   return some;
 }
 
+// Mean squares of differences between neighbours, of an order, over those of white noise of variance 1.
+class Differences {
+ public:
+  Differences(std::size_t order, double of_noise) : order_(order), of_noise_(of_noise) {}
+  void add(std::vector<double> run) {
+    for (std::size_t k = 0; k < order_ && !run.empty(); ++k) {
+      for (std::size_t n = 0; n + 1 < run.size(); ++n) run[n] = run[n + 1] - run[n];
+      run.pop_back();
+    }
+    for (const double difference : run) sum_ += squared(difference);
+    count_ += run.size();
+  }
+  [[nodiscard]] std::size_t count() const { return count_; }
+  [[nodiscard]] double noise() const { return std::sqrt(sum_ / (of_noise_ * static_cast<double>(count_))); }
+
+ private:
+  std::size_t order_;
+  double of_noise_;  // the sum of squares of the binomial coefficients
+  double sum_ = 0.0;
+  std::size_t count_ = 0;
+};
+
+// Whether the channel is noisy between its ends, by more than the smallest step between two of its values (sorted).
+bool is_noisy_inside(const std::vector<double>& values, const std::vector<double>& sorted) {
+  const double low = sorted.front();
+  const double high = sorted.back();
+  Differences fourth(4, 70.0);
+  Differences fifth(5, 252.0);
+  std::size_t near_ends = 0;
+  std::size_t between = 0;
+  std::vector<double> run;
+  const auto close_run = [&] {
+    if (run.size() > 5) {
+      fourth.add(run);
+      fifth.add(run);
+    }
+    run.clear();
+  };
+  for (const double value : values) {
+    if (value == low || value == high) {
+      close_run();
+      continue;
+    }
+    run.push_back(value);
+    (std::min(value - low, high - value) < edge * (high - low) ? near_ends : between) += 1;
+  }
+  close_run();
+  double step = high - low;
+  for (std::size_t k = 1; k < sorted.size(); ++k) step = std::min(step, sorted[k] - sorted[k - 1]);
+  return sorted.size() >= fewest_noisy_values && fifth.count() >= fewest_differences &&
+         fifth.noise() >= white * fourth.noise() && fifth.noise() >= noise_in_steps * step &&
+         (1.0 - 2.0 * edge) * static_cast<double>(near_ends) <= denser * 2.0 * edge * static_cast<double>(between);
+}
+
 // `sign` 1: the largest value, -1: the smallest.
 std::optional<FlatEnd> flat_end(const std::vector<double>& values, double span, double sign) {
   double end = sign * values.front();
@@ -90,10 +154,9 @@ std::optional<FlatEnd> flat_end_of(const std::vector<double>& values) {
   if (values.empty()) return std::nullopt;
   std::vector<double> some = thinned(values);
   std::ranges::sort(some);
-  if (static_cast<std::size_t>(std::unique(some.begin(), some.end()) - some.begin()) < least_values)
-    return std::nullopt;
+  some.erase(std::unique(some.begin(), some.end()), some.end());
   const auto [low, high] = std::ranges::minmax(values);
-  if (!(high > low)) return std::nullopt;
+  if (!(high > low) || (some.size() < least_values && !is_noisy_inside(values, some))) return std::nullopt;
   const std::optional<FlatEnd> above = flat_end(values, high - low, 1.0);
   const std::optional<FlatEnd> below = flat_end(values, high - low, -1.0);
   return above && (!below || above->share >= below->share) ? above : below;

@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "core/random.hpp"
+#include "io/channel_faults.hpp"
 #include "io/csv.hpp"
 
 namespace hysteron {
@@ -136,6 +138,64 @@ TEST(Plausible, AForceThatSaturates) {
              "the force stays at exactly 600 N, an end of its range, for 21 % of the samples");
   expect_one(remarks_on([](int, double force) { return std::max(force, -600.0); }),
              "the force stays at exactly -600 N");
+}
+
+// Samples of a force of the phase, 200 a period, some noise on them, as a converter of `step` gives them.
+std::vector<double> sampled(int samples, const std::function<double(double phase)>& force, double noise, double step) {
+  const Stream stream(5);
+  std::vector<double> values;
+  for (int n = 0; n < samples; ++n) {
+    const double value =
+        force(0.01 * std::numbers::pi * n + 0.3) + noise * stream.normal(static_cast<std::uint64_t>(n));
+    values.push_back(step * std::round(value / step));
+  }
+  return values;
+}
+
+TEST(Plausible, AForceThatIsCutFarBelowItsPeak) {
+  const auto damper = [](double phase) { return 620.0 * std::tanh(3.0 * std::cos(phase)); };
+  for (const int samples : {600, 1000, 2000, 6000}) {
+    for (const double step : {1e-6, 1.0, 5.0}) {
+      std::vector<double> force = sampled(samples, damper, 6.0, step);
+      EXPECT_FALSE(flat_end_of(force).has_value()) << samples << " " << step;
+      for (double& value : force) value = std::clamp(value, -400.0, 400.0);
+      EXPECT_TRUE(flat_end_of(force).has_value()) << samples << " " << step;
+    }
+  }
+}
+
+// A force that is proportional to the motion since a reversal and rests at the yield force then.
+TEST(Plausible, AFrictionAtRestAtItsYieldForceIsNoSaturation) {
+  for (const int samples : {400, 600, 1000}) {
+    for (const double stiffness : {1000.0, 2000.0, 8000.0, 40000.0}) {
+      for (const double step : {1e-9, 0.01, 1.0, 10.0}) {
+        double force = 0.0;
+        double before = 0.0;
+        const auto friction = [&](double phase) {
+          const double x = std::sin(phase);
+          force = std::clamp(force + stiffness * (x - before), -400.0, 400.0);
+          before = x;
+          return force;
+        };
+        EXPECT_FALSE(flat_end_of(sampled(samples, friction, 0.0, step)).has_value())
+            << samples << " " << stiffness << " " << step;
+      }
+    }
+  }
+}
+
+TEST(Plausible, AFewStepsOfAConverterAreNoSaturation) {
+  for (const int samples : {400, 1000, 2000, 6000}) {
+    for (const double step : {10.0, 40.0, 100.0}) {
+      for (const double sharpness : {0.1, 20.0, 200.0}) {
+        const auto force = [&](double phase) {
+          return 620.0 * std::tanh(sharpness * std::cos(phase)) / std::tanh(sharpness);
+        };
+        EXPECT_FALSE(flat_end_of(sampled(samples, force, 2.0, step)).has_value())
+            << samples << " " << step << " " << sharpness;
+      }
+    }
+  }
 }
 
 TEST(Plausible, AForceThatWasOff) {
