@@ -366,7 +366,14 @@ class CsvReader {
     decimal_comma_ = delimiter_ != ',' || has_quotes_;
     std::vector<std::string_view> fields;
     std::string_view line;
+    int separators_alone = 0;  // the line of the first row of these
     while (next_line(line)) {
+      // Below a table a spreadsheet leaves rows of empty cells.
+      if (is_separators(line)) {
+        if (separators_alone == 0) separators_alone = line_;
+        continue;
+      }
+      if (separators_alone > 0) fail(separators_alone, "an empty row among the numbers, expected a finite number each");
       if (has_quotes_) {
         split(line, delimiter_, fields);
       } else {
@@ -410,6 +417,11 @@ class CsvReader {
                      name + " " + in_quotes(doubt->text) + " of line " + std::to_string(doubt->line) +
                          " is read with three decimals, as all numbers with a mark: where that stands between "
                          "thousands, export them without"});
+  }
+
+  [[nodiscard]] bool is_separators(std::string_view line) const {
+    const char* const end = line.data() + line.size();
+    return std::all_of(line.data(), end, [&](char c) { return c == delimiter_ || c == ' ' || c == '\t' || c == '"'; });
   }
 
   void split_plain(std::string_view line, std::vector<std::string_view>& fields) const {

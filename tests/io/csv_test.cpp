@@ -214,6 +214,18 @@ TEST(Csv, LastRowNeedsNoLineEndAndLoneCarriageReturnsAreLineEnds) {
   EXPECT_EQ(parse_csv(text, "a.csv").size(), 10U);
 }
 
+// As a spreadsheet writes what was once below the table.
+TEST(Csv, RowsOfSeparatorsEndTheTable) {
+  for (const std::string tail : {",,\n,,\n", ",,", " , ,\n\n,,,\n", "\"\",\"\",\"\"\n"}) {
+    EXPECT_EQ(parse_csv(header + ten_rows() + tail, "a.csv").size(), 10U) << tail;
+  }
+  EXPECT_EQ(parse_csv("t;x;F\n" + ten_rows(';') + ";;\n;;\n", "a.csv").size(), 10U);
+  EXPECT_EQ(message_of<InputError>([] { (void)parse_csv(header + ten_rows() + ",,\n,,\n1,2,3\n", "a.csv"); }),
+            "a.csv:12: an empty row among the numbers, expected a finite number each");
+  EXPECT_EQ(message_of<InputError>([] { (void)parse_csv(header + ten_rows() + ",2,\n", "a.csv"); }),
+            "a.csv:12: time is empty, expected a finite number");
+}
+
 TEST(Csv, CurrentGoesBeforeVoltageAndOtherColumnsMayHoldText) {
   std::string text = "t,x,F,u [mV],i [mA],note,temp [K],v [mm/s],acc [g]\n";
   for (int i = 0; i < 10; ++i) text += std::to_string(i) + ",1,2,3000,500,hello,293.15,7,1\n";
