@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <iterator>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -108,6 +109,40 @@ bool explains(const Suspect& suspect, double factor, const Figures& figures,
   return true;
 }
 
+// The drive of the recordings of one kind. Apart from the other figures, because dampers are driven over decades, and
+// one that is switched off has any small value.
+std::vector<double> drives_of(const std::vector<Recording>& recordings, DriveKind kind) {
+  std::vector<double> drives;
+  for (const Recording& recording : recordings) {
+    drives.push_back(recording.drive_kind == kind ? peak_of(recording.drive) : 0.0);
+  }
+  return drives;
+}
+
+// The range of those near their median; nothing where these are not most of them.
+std::optional<Range> range_of_most(const std::vector<double>& values) {
+  std::vector<double> known;
+  std::ranges::copy_if(values, std::back_inserter(known), [](double value) { return value > 0.0; });
+  if (known.empty()) return std::nullopt;
+  const double median = hysteron::median_of(known);
+  const std::size_t count = known.size();
+  std::erase_if(known, [&](double value) { return !Range{median, median}.holds(value, far); });
+  if (known.size() < fewest_alike || 2 * known.size() <= count) return std::nullopt;
+  const auto [low, high] = std::ranges::minmax(known);
+  return Range{low, high};
+}
+
+// Noise about zero, of a drive that is off, has no unit that is wrong.
+bool is_off(const std::vector<double>& drive, const Range& others) {
+  const auto [low, high] = std::ranges::minmax(drive);
+  return low < 0.0 && high > 0.0 && peak_of(drive) < others.low;
+}
+
+bool has_another_unit(double value, const Range& others) {
+  return value > 0.0 && !others.holds(value, far) &&
+         (others.holds(value * thousand, near) || others.holds(value / thousand, near));
+}
+
 std::string text_of(const Suspect& suspect, double value, const Range& others) {
   const auto number = [&](double figure) { return fmt::format("{:.3g}", suspect.factor * figure); };
   const std::string low = number(others.low);
@@ -118,12 +153,28 @@ std::string text_of(const Suspect& suspect, double value, const Range& others) {
       suspect.channel);
 }
 
+void tell_of_drives(const std::vector<Recording>& recordings, std::vector<Remark>& remarks) {
+  for (const DriveKind kind : {DriveKind::current, DriveKind::voltage}) {
+    const std::vector<double> drives = drives_of(recordings, kind);
+    const std::optional<Range> most = range_of_most(drives);
+    if (!most) continue;
+    const std::string_view channel = kind == DriveKind::current ? "current" : "voltage";
+    const Suspect suspect{channel, {}, {}, channel, 1.0, kind == DriveKind::current ? "A" : "V"};
+    for (std::size_t k = 0; k < drives.size(); ++k) {
+      if (!has_another_unit(drives[k], *most) || is_off(recordings[k].drive, *most)) continue;
+      remarks.push_back({recordings[k].file, Remark::Kind::implausible, "unit of " + std::string(channel),
+                         text_of(suspect, drives[k], *most)});
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<Remark> remarks_beside_others(const std::vector<Recording>& recordings) {
   std::vector<Figures> all;
   for (const Recording& recording : recordings) all.push_back(figures_of(recording));
   std::vector<Remark> remarks;
+  tell_of_drives(recordings, remarks);
   const auto ranges = ranges_of_most(all);
   if (!ranges) return remarks;
   for (std::size_t k = 0; k < all.size(); ++k) {

@@ -8,7 +8,7 @@
 
 namespace hysteron {
 
-// Remarks of recordings of which one channel (displacement, time or force), a thousand times as large or as small, has
+// Remarks of recordings of which one channel (displacement, time, force or drive), a thousand times as large or as small, has
 // the figures of most others, and as it is has not: metres among millimetres, microseconds among milliseconds.
 std::vector<Remark> remarks_beside_others(const std::vector<Recording>& recordings);
 

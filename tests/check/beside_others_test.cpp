@@ -1,0 +1,82 @@
+#include "check/beside_others.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+namespace hysteron {
+namespace {
+
+// Four periods of 10 mm at 1 Hz, driven by `drive` at every sample.
+Recording recording(const std::string& file, const std::vector<double>& drive, DriveKind kind = DriveKind::current,
+                    double force_unit = 1.0) {
+  Recording result;
+  result.file = file;
+  for (std::size_t n = 0; n < 400; ++n) {
+    const double phase = 0.02 * std::numbers::pi * static_cast<double>(n);
+    result.time.push_back(0.01 * static_cast<double>(n));
+    result.displacement.push_back(0.01 * std::sin(phase));
+    result.velocity.push_back(0.02 * std::numbers::pi * std::cos(phase));
+    result.force.push_back(900.0 * std::cos(phase) / force_unit);
+    result.drive.push_back(drive[n % drive.size()]);
+  }
+  result.drive_kind = kind;
+  return result;
+}
+
+std::vector<std::string> said_of(const std::vector<Recording>& recordings) {
+  std::vector<std::string> lines;
+  for (const Remark& remark : remarks_beside_others(recordings))
+    lines.push_back(remark.file + ": " + remark.text.plain());
+  return lines;
+}
+
+// Recordings at 0, 0.5, 1 and 2, and one of the drive given.
+std::vector<std::string> said_of_drive(const std::vector<double>& drive, DriveKind kind = DriveKind::current) {
+  return said_of({recording("a", {0.0}, kind), recording("b", {0.5}, kind), recording("c", {1.0}, kind),
+                  recording("d", {2.0}, kind), recording("e", drive, kind)});
+}
+
+using Lines = std::vector<std::string>;
+
+TEST(BesideOthers, ACurrentInMilliamperesThatIsHeadedAsAmperes) {
+  EXPECT_EQ(said_of_drive({500.0}),
+            Lines{"e: a current of 500 A, and 0.5 to 2 A in the other recordings, a factor of a thousand: check the "
+                  "unit of the current"});
+  EXPECT_EQ(said_of_drive({0.0, 0.0015}),
+            Lines{"e: a current of 0.0015 A, and 0.5 to 2 A in the other recordings, a factor of a thousand: check "
+                  "the unit of the current"});
+  EXPECT_EQ(said_of_drive({2000.0}, DriveKind::voltage),
+            Lines{"e: a voltage of 2e+03 V, and 0.5 to 2 V in the other recordings, a factor of a thousand: check the "
+                  "unit of the voltage"});
+}
+
+TEST(BesideOthers, DrivesThatDifferAreWhatTheyAre) {
+  for (const double drive : {0.0, 0.01, 0.1, 5.0, 30.0}) EXPECT_EQ(said_of_drive({drive}), Lines{}) << drive;
+  EXPECT_EQ(said_of_drive({-0.001, 0.0012}), Lines{}) << "noise of a drive that is off";
+  // Over decades, and of two kinds.
+  EXPECT_EQ(said_of({recording("a", {0.001}), recording("b", {0.03}), recording("c", {1.0}), recording("d", {30.0})}),
+            Lines{});
+  EXPECT_EQ(said_of({recording("a", {1.0}), recording("b", {1.0}), recording("c", {1.0}),
+                     recording("d", {1000.0}, DriveKind::voltage)}),
+            Lines{});
+  EXPECT_EQ(said_of({recording("a", {1.0}), recording("b", {1000.0})}), Lines{}) << "of two neither is most";
+}
+
+TEST(BesideOthers, TheDriveDoesNotJudgeTheOtherChannels) {
+  const Lines force = {
+      "d: a force of 0.9 N, and 900 N in the other recordings, a factor of a thousand: check the unit "
+      "of the force"};
+  for (const double drive : {0.0, 1e-4, 1.0, 30.0}) {
+    EXPECT_EQ(said_of({recording("a", {1.0}), recording("b", {2.0}), recording("c", {0.5}),
+                       recording("d", {drive}, DriveKind::current, 1e3)}),
+              force)
+        << drive;
+  }
+}
+
+}  // namespace
+}  // namespace hysteron
