@@ -165,16 +165,17 @@ class Model:
 
 
 class Response:
-    """Motion of a mass: time, displacement, velocity and acceleration relative to the base, force of the model, where
-    there are such `current` or `voltage`, `base` and `absolute_displacement` (else None): arrays in SI units."""
+    """Motion of a mass: time, displacement, velocity and acceleration relative to the base, `damper_force` of the model,
+    where there are such `force` on the mass, `current` or `voltage`, `base` and `absolute_displacement` (else None):
+    arrays in SI units."""
 
     def __init__(self, names, columns, csv):
         self._csv = csv
         self.channels = {name.split(" [")[0].replace(" ", "_"): column for name, column in zip(names, columns)}
 
     def __getattr__(self, name):
-        if name in ("time", "displacement", "velocity", "acceleration", "force", "current", "voltage", "base",
-                    "absolute_displacement"):
+        if name in ("time", "displacement", "velocity", "acceleration", "force", "damper_force", "current", "voltage",
+                    "base", "absolute_displacement"):
             return self.channels.get(name)
         raise AttributeError(f"'Response' object has no attribute '{name}'")
 

@@ -110,8 +110,8 @@ void add_respond(CLI::App& program) {
   command
       ->add_option(
           "--out", options->out,
-          "file to write, CSV, or MAT by its ending .mat: motion relative to the base, force of the model; -: standard "
-          "output")
+          "file to write, CSV, or MAT by its ending .mat: motion relative to the base, force on the mass or base, "
+          "force of the model; -: standard output")
       ->required();
   command->footer(
       "Examples:\n"

@@ -134,6 +134,7 @@ ModelComparison compare_models(const std::vector<ComparedModel>& given, const st
   for (Compared& model : models) {
     append(remarks, guesses_of(model.stored, model.label, recordings));
     append(remarks, beyond_fitted(model.stored, model.label, recordings));
+    refuse_excitation(model.stored, model.label, recordings, remarks);
     std::vector<std::size_t> seen;
     std::vector<std::size_t> unseen;
     for (const std::size_t r : all) {

@@ -67,22 +67,38 @@ json final_json(const Identification& result) {
           {"starts", starts_json(run)}};
 }
 
+json rig_json(const Rig& rig) {
+  return {{"mass_kg", rig.mass},
+          {"stiffness_n_per_m", rig.stiffness},
+          {"damping_n_s_per_m", rig.damping},
+          {"excitation", rig.base ? "base" : "force"},
+          {"interpolation", word_of(rig.interpolation)}};
+}
+
+// What tells a model that was identified from the motion of a mass, in model.json: the force of these recordings is not
+// the damper's.
+json from_response_json(const Rig& rig, const std::vector<Recording>& responses) {
+  json result = rig_json(rig);
+  result["recordings"] = json::array();
+  for (const Recording& recording : responses) {
+    result["recordings"].push_back({{"file", recording.file}, {"sha256", recording.sha256}});
+  }
+  return result;
+}
+
 json response_json(const ResponseFit& fit, const Rig& rig) {
   const auto finite = [](double value) { return std::isfinite(value) && value < diverged_cost ? json(value) : json(); };
   json rows = json::array();
   for (const ResponseScore& score : fit.scores) {
     rows.push_back({{"file", score.file}, {"nrmse", finite(score.nrmse)}, {"rmse_m", finite(score.rmse)}});
   }
-  return {{"mass_kg", rig.mass},
-          {"stiffness_n_per_m", rig.stiffness},
-          {"damping_n_s_per_m", rig.damping},
-          {"excitation", rig.base ? "base" : "force"},
-          {"interpolation", word_of(rig.interpolation)},
-          {"nrmse_of_equation_of_motion", finite(fit.before)},
-          {"nrmse", finite(fit.cost)},
-          {"evaluations", fit.run.evaluations},
-          {"stopped", fit.run.stopped},
-          {"recordings", rows}};
+  json result = rig_json(rig);
+  result.update({{"nrmse_of_equation_of_motion", finite(fit.before)},
+                 {"nrmse", finite(fit.cost)},
+                 {"evaluations", fit.run.evaluations},
+                 {"stopped", fit.run.stopped},
+                 {"recordings", rows}});
+  return result;
 }
 
 // Words of the records.
@@ -403,6 +419,7 @@ FitResult fit_campaign(const FitData& data, const FitRequest& request, const std
   }
   const Names names = names_of(result, campaign, identify_with);
   fit.model_file = model_json(result, campaign, identify_with, command);
+  if (request.rig) fit.model_file["response"] = from_response_json(*request.rig, data.responses);
   fit.fit_file = fit_json(fit, data, request, names);
   fit.page = page_json(fit, data, request, command, names, std::move(page_recordings));
   return fit;

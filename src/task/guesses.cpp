@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/error.hpp"
 #include "core/frequency.hpp"
 #include "fit/layout.hpp"
 
@@ -138,6 +139,21 @@ std::vector<std::string> beyond_fitted(const StoredModel& stored, const std::str
   drive.tell_of_model(over.drive.value_or(std::pair(0.0, 0.0)), path, voltage ? "voltage" : "current", 1.0,
                       voltage ? "V" : "A", remarks);
   return remarks;
+}
+
+void refuse_excitation(const StoredModel& stored, const std::string& path, const std::vector<Recording>& recordings,
+                       std::vector<std::string>& remarks) {
+  if (!stored.from_response || recordings.empty()) return;
+  for (const Recording& recording : recordings) {
+    if (!stored.excited.contains(recording.sha256)) continue;
+    throw InputError(recording.file + ": its force excites the mass whose motion " + path +
+                     " was identified from, and is not the damper's; expected recordings of the damper's own force "
+                     "(fit.json has the errors of the motion, `respond` simulates it)");
+  }
+  remarks.push_back(
+      fmt::format("{}: {} was identified from the motion of a mass: its errors say something only where "
+                  "the force recorded is the damper's own, not what excites a mass{}",
+                  recordings.front().file, path, alike(recordings.size())));
 }
 
 }  // namespace hysteron

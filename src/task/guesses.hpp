@@ -20,4 +20,9 @@ std::vector<std::string> guesses_of(const StoredModel& stored, const std::string
 std::vector<std::string> beyond_fitted(const StoredModel& stored, const std::string& path,
                                        const std::vector<Recording>& recordings);
 
+// Of a model identified from the motion of a mass: InputError for a recording that it was identified from, whose force
+// excites the mass; a remark for any other, whose force has to be the damper's own.
+void refuse_excitation(const StoredModel& stored, const std::string& path, const std::vector<Recording>& recordings,
+                       std::vector<std::string>& remarks);
+
 }  // namespace hysteron

@@ -314,6 +314,16 @@ std::vector<int> condition_powers_of(const json& entry, const std::vector<Condit
   return result;
 }
 
+// The member `response`: on a base the recordings hold no force that is not the damper's.
+void read_response(const json& root, StoredModel& stored) {
+  const json response = root.value("response", json::object());
+  if (!response.is_object() || response.value("excitation", "") != "force") return;
+  stored.from_response = true;
+  for (const json& entry : response.value("recordings", json::array())) {
+    stored.excited.insert(entry.at("sha256").get<std::string>());
+  }
+}
+
 }  // namespace
 
 StoredModel read_model(const std::string& path) {
@@ -389,6 +399,7 @@ StoredModel parse_model(std::string_view text, const std::string& path) {
     result.drive_range = stated_range(root, "laws_fitted_over", "drive");
     result.frequency_range = stated_range(root, "laws_fitted_over", "frequency_hz");
     result.fitted_over = stated_fitted_over(root);
+    read_response(root, result);
     check_terms(root, result);
   } catch (const json::exception&) {
     throw wrong("not a complete model, expected the members model and parameters of hysteron.model/1");

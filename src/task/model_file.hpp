@@ -35,6 +35,11 @@ struct StoredModel {
   std::optional<std::pair<double, double>> drive_range;      // A or V
   std::optional<std::pair<double, double>> frequency_range;  // Hz
   FittedOver fitted_over;
+  // s since 1970 that a law in the clock counts from; none where the clock is no recording's start.
+  std::optional<double> clock_since;
+  // Identified from the motion of a mass under a force, which the recordings hold in place of the damper's own.
+  bool from_response = false;
+  std::set<std::string> excited;  // sha256 of these recordings
 };
 
 // `command` is what made it, for its provenance.

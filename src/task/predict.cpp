@@ -44,6 +44,7 @@ CampaignScore score_campaign(StoredModel stored, const std::string& path, const 
   follow_conditions(stored, recordings);
   remarks = guesses_of(stored, path, recordings);
   append(remarks, beyond_fitted(stored, path, recordings));
+  refuse_excitation(stored, path, recordings, remarks);
   for (const Recording& recording : recordings) {
     const std::vector<double> force = force_on(stored, path, recording, objective);
     result.recordings.push_back(score(force, recording, objective.normalisation));

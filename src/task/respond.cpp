@@ -91,7 +91,10 @@ MassResponse table_of(const Recording& recording, const Excitation& excitation, 
   add("displacement [m]", last(motion.displacement));
   add("velocity [m/s]", last(motion.velocity));
   add("acceleration [m/s^2]", last(motion.acceleration));
-  add("force [N]", last(motion.force));
+  // By the names that an identification from the motion reads: its force is what excites the mass.
+  if (excitation.force) add("force [N]", signal(*excitation.force));
+  const std::vector<double> force = last(motion.force);
+  add("damper force [N]", force);
   if (excitation.drive) {
     add(recording.drive_kind == DriveKind::voltage ? "voltage [V]" : "current [A]", signal(*excitation.drive));
   }
@@ -107,7 +110,7 @@ MassResponse table_of(const Recording& recording, const Excitation& excitation, 
     return most;
   };
   result.largest_displacement = largest(result.columns[1]);
-  result.largest_force = largest(result.columns[4]);
+  result.largest_force = largest(force);
   return result;
 }
 
