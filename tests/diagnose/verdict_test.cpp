@@ -576,6 +576,10 @@ TEST(BetterLaw, OneThatDoesAsWellWithoutEffects) {
   EXPECT_EQ(better_law(evidence), "");
   evidence.other_laws = {{"lugre", 1.2 * floor_squares, false, {}}, {"modified-dahl", 1.1 * floor_squares, true, {}}};
   EXPECT_EQ(better_law(evidence), "lugre") << "what has the effect as its own parameter says the same in other words";
+  evidence.base_compared = 0.95 * floor_squares;
+  evidence.other_laws.front().squares = 0.9 * floor_squares;
+  evidence.candidates.clear();
+  EXPECT_EQ(better_law(evidence), "") << "a law that leaves the noise misses nothing";
 }
 
 }  // namespace

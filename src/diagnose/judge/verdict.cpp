@@ -172,6 +172,10 @@ std::string_view name_of(Grade grade) {
 std::string better_law(const Evidence& evidence) {
   const double all = evidence.base_compared - evidence.augmented_compared;
   const double asked = evidence.candidates.empty() ? evidence.base_compared - evidence.base.floor : all;
+  // Nothing is missing in a law that leaves the noise, and no other law describes it better.
+  if (evidence.base_compared <= evidence.base.floor) {
+    return {};
+  }
   const OtherLaw* best = nullptr;
   for (const OtherLaw& law : evidence.other_laws) {
     if (!law.has_what_was_found && evidence.base_compared - law.squares > does_as_well * asked &&
