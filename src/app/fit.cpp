@@ -193,7 +193,8 @@ void run(const FitOptions& options) {
   tell(fit, data, options);
   // The remarks have been made when the recordings were read.
   for (std::size_t k = remarks.size(); k < fit.warnings.size(); ++k) {
-    fmt::print(stderr, "warning: {}\n", printable(fit.warnings[k]));
+    const bool hint = fit.warnings[k] == fit.drive_hint.plain();
+    fmt::print(stderr, "warning: {}\n", printable(hint ? fit.drive_hint.with(option_name) : fit.warnings[k]));
   }
   if (!fit.diverged.empty()) {
     throw WorkError(fit.diverged);

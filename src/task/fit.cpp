@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/drive.hpp"
 #include "core/error.hpp"
+#include "core/extent.hpp"
 #include "core/message.hpp"
 #include "fit/predict.hpp"
 #include "fit/usable.hpp"
@@ -300,6 +302,48 @@ void check_before(const Layout& layout, const FitData& data, const FitRequest& r
                   Option::fix + " PARAMETER=0, a law without it, or recordings with time");
 }
 
+// Whether the force is another without the drive: laws follow it, or equations take it themselves.
+bool follows_drive(const Identification& result, const Recording& recording, const ObjectiveOptions& objective) {
+  const auto force = [&](const Recording& on) {
+    return predict(result.layout.model(), result.layout.held(), result.terms, make_target(on, objective));
+  };
+  Recording without = recording;
+  without.drive.clear();
+  without.drive_kind = DriveKind::none;
+  return force(recording) != force(without);
+}
+
+// "alpha:1,c0:1": what a drive acts on in most dampers.
+std::string likely_laws(const Layout& layout) {
+  std::string result;
+  for (const Parameter& parameter : layout.model().law->parameters) {
+    const bool likely = parameter.role == PhysicalRole::yield_force || parameter.role == PhysicalRole::damping;
+    if (likely && !parameter.fixed) result += (result.empty() ? "" : ",") + std::string(parameter.name) + ":1";
+  }
+  return result.empty() ? "PARAMETER:1" : result;
+}
+
+// Recordings at several values of the drive, of which nothing in the model knows; empty where it does.
+Message drive_hint(const Identification& result, const std::vector<Recording>& recordings,
+                   const ObjectiveOptions& objective) {
+  const DriveKind kind = recordings.front().drive_kind;
+  std::vector<double> values;
+  bool moves = false;
+  for (const Recording& recording : recordings) {
+    if (kind == DriveKind::none || recording.drive_kind != kind) return "";
+    const std::vector<double> drive = quiet_condition(recording.drive);
+    moves = moves || drive.size() > 1;
+    values.insert(values.end(), drive.begin(), drive.end());
+  }
+  const std::size_t levels = count_levels(values);
+  const auto largest = [](const Recording& recording) { return peak_of(recording.drive); };
+  if (levels < 2 || follows_drive(result, *std::ranges::max_element(recordings, {}, largest), objective)) return "";
+  const std::string drive = kind == DriveKind::voltage ? "voltage" : "current";
+  return (moves ? "the " + drive + " of the recordings varies"
+                : fmt::format("the recordings hold {} levels of the {}", levels, drive)) +
+         " and no parameter follows it: " + Option::by_current + " " + likely_laws(result.layout);
+}
+
 }  // namespace
 
 FitData fit_data(Campaign campaign, FitRequest& request) {
@@ -409,6 +453,8 @@ FitResult fit_campaign(const FitData& data, const FitRequest& request, const std
 
   fit.warnings = remarks;
   fit.warnings.insert(fit.warnings.end(), result.warnings.begin(), result.warnings.end());
+  fit.drive_hint = drive_hint(result, campaign.recordings, objective);
+  if (!fit.drive_hint.empty()) fit.warnings.push_back(fit.drive_hint.plain());
   fit.interrupted = interrupted();
   if (fit.interrupted) {
     fit.warnings.emplace_back("interrupted: the solvers did not use their whole budget");

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "compare/criteria.hpp"
+#include "core/message.hpp"
 #include "fit/identify.hpp"
 #include "fit/two_stage.hpp"
 #include "respond/refine.hpp"
@@ -44,6 +45,7 @@ struct FitResult {
   bool interrupted = false;
   std::string diverged = {};               // recordings on which the fitted model does not stay finite; empty: none
   std::vector<std::string> warnings = {};  // `remarks` first
+  Message drive_hint = "";                 // among the warnings in plain words; empty: none
   nlohmann::json model_file = {};          // model.json
   nlohmann::json fit_file = {};            // fit.json
   nlohmann::json page = {};                // for fit_report_html

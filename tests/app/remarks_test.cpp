@@ -162,5 +162,25 @@ TEST_F(Remarks, NumbersThatAreNoneAreRefused) {
   EXPECT_EQ(run({"challenge", "--in", "data", "--sizes", "nan", "--out", "h"}).status, 2);
 }
 
+// Two currents, and a model that knows of none.
+TEST_F(Remarks, ADriveThatNoParameterFollowsIsSaidWithWhatWould) {
+  const auto fitted = [&](const std::vector<std::string>& more) {
+    Words words{"fit", "data", "--model", "bouc-wen", "--budget", "400", "--quiet", "--out", "f"};
+    words.insert(words.end(), more.begin(), more.end());
+    const Outcome outcome = run(words);
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    return outcome.err;
+  };
+  const std::string hint = "the recordings hold 2 levels of the current and no parameter follows it: ";
+  EXPECT_NE(fitted({}).find("warning: " + hint + "--by-current alpha:1,c0:1\n"), std::string::npos);
+  const json warnings = json::parse(read(folder_ / "f/fit.json")).at("warnings");
+  EXPECT_EQ(std::ranges::count(warnings, json(hint + "by current alpha:1,c0:1")), 1) << warnings;
+  EXPECT_NE(read(folder_ / "f/report.html").find(hint), std::string::npos);
+  EXPECT_EQ(fitted({"--by-current", "c0:1"}).find("levels of the current"), std::string::npos);
+  // One current is nothing to follow.
+  write(folder_ / "data/r2.csv", csv(2.0, 0.2));
+  EXPECT_EQ(fitted({}).find("levels of the current"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace hysteron
