@@ -75,7 +75,12 @@ HYSTERON_NOT_WATCHED void run_team(std::size_t count, [[maybe_unused]] int threa
 // OMP_NUM_THREADS would overflow.
 constexpr int most_threads = 1024;
 
-int team_size(int threads) { return std::min(threads > 0 ? threads : omp_get_max_threads(), most_threads); }
+int team_size(int threads) {
+  if (threads <= 0) threads = omp_get_max_threads();
+  // What OMP_NUM_THREADS says beyond an int comes out of the library as zero or a negative number.
+  if (threads <= 0) threads = omp_get_num_procs();
+  return std::min(threads, most_threads);
+}
 
 void parallel_for(std::size_t count, int threads, const std::function<void(std::size_t)>& body) {
   Loop loop{body};

@@ -32,7 +32,8 @@ using testing::write;
 using Use = Program;
 
 TEST_F(Use, ASlipInTheNumberOfThreadsEndsNothing) {
-  for (const char* threads : {"99999", "1000000000", "-1", "0", "many"}) {
+  for (const char* threads : {"99999", "1000000000", "2147483648", "4294967295", "4294967296", "99999999999999999999",
+                              "-1", "0", "many", "2,2"}) {
     const Outcome outcome = run({"fit", "data", "--model", "viscous", "--budget", "50", "--quiet", "--out", "out"},
                                 [&] { setenv("OMP_NUM_THREADS", threads, 1); });
     EXPECT_EQ(outcome.status, 0) << threads << ": " << outcome.err;
