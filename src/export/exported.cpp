@@ -24,7 +24,7 @@ std::string ExportedModel::title() const {
   for (const Part* effect : model.effects) {
     text += ", " + std::string(effect->id);
   }
-  return text;
+  return holds_at.empty() ? text : text + ", at " + holds_at;
 }
 
 bool ExportedModel::follows_drive() const {
@@ -50,7 +50,8 @@ double ExportedModel::drive_ahead() const {
 
 std::string ExportedModel::about_drive() const {
   const double ahead = drive_ahead();
-  return ahead > 0.0 ? fmt::format("A or V, of {} s after the sample", ahead) : "A or V";
+  const std::string unit = drive == DriveKind::none ? "A or V" : drive == DriveKind::voltage ? "V" : "A";
+  return ahead > 0.0 ? fmt::format("{}, of {} s after the sample", unit, ahead) : unit;
 }
 
 namespace {

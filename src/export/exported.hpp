@@ -22,8 +22,10 @@ struct ExportedModel {
   double tolerance = 1e-4;  // of the integration, as in simulate
   int most_substeps = default_most_substeps;
   int substeps = 0;  // always so many; 0: as many as the stiffness asks for
+  DriveKind drive = DriveKind::none;  // what the drive is; none: not known
+  std::string holds_at = {};          // "pressure = 2e5 Pa": values of conditions that it holds at; empty: of none
 
-  [[nodiscard]] std::string title() const;
+  [[nodiscard]] std::string title() const;  // and the conditions it holds at
   [[nodiscard]] bool follows_drive() const;
   [[nodiscard]] bool follows_frequency() const;
   // s by which the drive has to be given ahead of the motion, where an effect leads it and parameters follow it; else 0.

@@ -57,7 +57,10 @@ std::string model_description(const ExportedModel& exported, const TestVector& v
   text += fmt::format("  <DefaultExperiment startTime=\"0\" stepSize=\"{}\"/>\n  <ModelVariables>\n", interval);
   text += input(1, "displacement", "m", "displacement of the damper");
   text += input(2, "velocity", "m/s", "its velocity");
-  text += input(3, "drive", "", "current or voltage of the damper, " + exported.about_drive());
+  const char* const drive = exported.drive == DriveKind::none      ? "current or voltage"
+                            : exported.drive == DriveKind::voltage ? "voltage"
+                                                                   : "current";
+  text += input(3, "drive", "", std::string(drive) + " of the damper, " + exported.about_drive());
   text += input(4, "slope", "m/s2", "slope of the velocity between communication points, unless derived");
   text += input(5, "acceleration", "m/s2", "acceleration that the equations see, unless derived");
   text += input(6, "jerk", "m/s3", "slope of the acceleration, unless derived");

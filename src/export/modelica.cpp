@@ -8,7 +8,7 @@
 namespace hysteron {
 
 Export export_modelica(const ExportedModel& exported, const TestVector& vector) {
-  const std::string title = exported.title();
+  const std::string title = replaced(exported.title(), "\\", "/");
   std::string package = with_name(runtime::modelica_mo(), exported.name);
   package = replaced(package, "@title@", replaced(title, "\"", "'"));
   package = replaced(package, "@frequency@", literal(vector.frequency));

@@ -9,7 +9,7 @@
 namespace hysteron {
 namespace {
 
-std::string quoted(std::string_view text) { return replaced(std::string(text), "\"\"\"", "'''"); }
+std::string quoted(std::string_view text) { return replaced(replaced(std::string(text), "\\", "/"), "\"\"\"", "'''"); }
 
 // Results in the order of the function's targets are handed back as a tuple, but for a drive, which changes `seen`.
 std::string function(const ExportedLink& link, const std::string& kind, const std::string& arguments,
@@ -152,6 +152,7 @@ Export export_python(const ExportedModel& exported, const TestVector& vector) {
   const auto truth = [](bool value) { return std::string(value ? "True" : "False"); };
   const std::pair<const char*, std::string> pieces[] = {
       {"@title@", quoted(exported.title())},
+      {"@drive@", exported.about_drive()},
       {"@frequency@", literal(vector.frequency)},
       {"@states@", std::to_string(exported.model.states())},
       {"@settles@", truth(facts.settles)},

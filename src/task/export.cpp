@@ -65,14 +65,33 @@ void refuse_other_file(const std::filesystem::path& out, const ExportTarget& tar
 
 }  // namespace
 
+namespace {
+
+// "pressure = 2e5 Pa, valve = 30 %": what the conditions that laws follow are held at.
+std::string held_at(const StoredModel& stored, const std::map<std::string, ConditionNumber>& at) {
+  std::string text;
+  for (const ConditionRange& condition : stored.conditions) {
+    const auto found = at.find(condition.name);
+    if (found == at.end()) continue;  // refused by hold_conditions
+    text += fmt::format("{}{} = {}{}{}", text.empty() ? "" : ", ", condition.name, found->second.value,
+                        condition.unit.empty() ? "" : " ", condition.unit);
+  }
+  return text;
+}
+
+}  // namespace
+
 ModelExport export_model(StoredModel stored, const std::map<std::string, ConditionNumber>& at,
                          const std::optional<Recording>& motion, const ExportRequest& request) {
   const ExportTarget& target = export_target(request.to);
+  const std::string conditions = held_at(stored, at);
   hold_conditions(stored, at, "export");
   ExportedModel exported{stored.model, stored.held, stored.terms, request.name};
   exported.tolerance = request.tolerance;
   exported.most_substeps = request.most_substeps;
   exported.substeps = request.substeps;
+  exported.holds_at = conditions;
+  exported.drive = stored.drive == DriveKind::none ? stored.fitted_over.drive_kind : stored.drive;
   const bool placed = !request.out.empty() && request.out != "-";
   const std::filesystem::path out(placed ? request.out : "");
   refuse_other_file(out, target);

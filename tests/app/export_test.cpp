@@ -87,5 +87,46 @@ TEST_F(Exported, WhatIsNoModelIsRefusedWithTheOneThatIs) {
           "shaker.csv: no force and no base or displacement column, expected one of them, or --column force=NAME");
 }
 
+// Every text that is written, of all targets.
+std::string all_of(const fs::path& folder) {
+  std::string text;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    if (entry.is_regular_file()) text += testing::read(entry.path());
+  }
+  return text;
+}
+
+TEST_F(Exported, WhatIsWrittenSaysWhatTheDriveIs) {
+  for (const char* target : {"c", "python", "simulink", "modelica"}) {
+    const fs::path out = folder_ / target;
+    ASSERT_EQ(run({"export", "fitted/model.json", "--to", target, "--out", target}).status, 0) << target;
+    const std::string text = all_of(out);
+    EXPECT_EQ(text.find("@drive@"), std::string::npos) << target;
+    EXPECT_EQ(text.find("A or V"), std::string::npos) << target << " knows that it is a current";
+  }
+  EXPECT_NE(testing::read(folder_ / "python/bouc_wen.py").find("the drive in A;"), std::string::npos);
+  EXPECT_NE(testing::read(folder_ / "c/bouc_wen.h").find("drive;        /* A */"), std::string::npos);
+}
+
+TEST_F(Exported, WhatIsWrittenSaysAtWhichConditionsItHolds) {
+  const fs::path path = folder_ / "fitted/model.json";
+  nlohmann::json model = nlohmann::json::parse(testing::read(path));
+  model["by"]["pressure"] = {{"unit", "Pa"}, {"from", 1e5}, {"to", 3e5}, {"parameters", {{"f0", 1}}}};
+  model["parameters"].push_back({{"name", "f0*pressure"},
+                                 {"parameter", "f0"},
+                                 {"condition_powers", {{"pressure", 1}}},
+                                 {"value", 1e-5},
+                                 {"unit", "N/Pa"}});
+  testing::write(folder_ / "pressed.json", model.dump());
+  for (const auto& [target, file] : {std::pair{"c", "c/bouc_wen.h"},
+                                     {"python", "python/bouc_wen.py"},
+                                     {"simulink", "simulink/bouc_wen_sfun.c"},
+                                     {"modelica", "modelica/bouc_wen/package.mo"}}) {
+    const Outcome outcome = run({"export", "pressed.json", "--to", target, "--at", "pressure=2 bar", "--out", target});
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_NE(testing::read(folder_ / file).find("at pressure = 200000 Pa"), std::string::npos) << target;
+  }
+}
+
 }  // namespace
 }  // namespace hysteron

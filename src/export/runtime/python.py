@@ -560,12 +560,14 @@ class Damper:
         now.acceleration = now.slope
 
     def step(self, time, displacement, velocity, slope=None, acceleration=None, jerk=0.0, drive=0.0):
-        """Force in N at this sample: s, m, m/s, A or V.
+        """Force in N at this sample: s, m, m/s, the drive in @drive@.
 
         `slope` is that of the velocity and `acceleration` what the equations see (m/s^2), `jerk` the latter's (m/s^3);
-        without a slope all three are derived. A sample that is not later than the last one changes nothing.
+        without a slope all three are derived. A sample that is not later than the last one, or holds a number that is
+        not finite, changes nothing.
         """
-        if self.samples and not time > self.samples[-1].time:
+        given = (time, displacement, velocity, slope or 0.0, acceleration or 0.0, jerk, drive)
+        if not all(map(math.isfinite, given)) or (self.samples and not time > self.samples[-1].time):
             return self.force
         now = Sample(time, displacement, velocity, slope, slope if acceleration is None else acceleration, jerk, drive)
         if slope is None:
