@@ -111,6 +111,38 @@ TEST(ExportC, HasNoHeapAndNoGlobals) {
   }
 }
 
+// A lost measurement is no sample: the state stays, and the force comes back with the next good one.
+TEST(ExportC, ANumberThatIsNoneLeavesTheState) {
+  const TemporaryFolder folder;
+  const ExportedModel exported = model_of({"bouc-wen", {"compliance"}});
+  const TestVector vector = test_vector(exported, first_samples(motion_for_testing(), 250));
+  ExportedFiles files = export_c(exported, vector).files;
+  files.merge(ExportedFiles(export_python(exported, vector).files));
+  files["main.c"] =
+      "#include <math.h>\n#include <stdio.h>\n#include \"bouc_wen.h\"\n"
+      "int main(void) {\n  bouc_wen_model damper;\n  double held = 0.0;\n"
+      "  bouc_wen_start(&damper, 1.0);\n"
+      "  for (int n = 0; n < 400; ++n) {\n    bouc_wen_input now = {0};\n    double force;\n"
+      "    now.time = 0.002 * n;\n    now.displacement = 0.01 * sin(8.0 * now.time);\n"
+      "    now.velocity = 0.08 * cos(8.0 * now.time);\n    now.drive = 0.3;\n"
+      "    if (n == 100) now.velocity = NAN;\n    if (n == 101) now.drive = INFINITY;\n"
+      "    if (n == 102) now.displacement = NAN;\n    if (n == 103) now.time = NAN;\n"
+      "    bouc_wen_derive(&damper, &now);\n    force = bouc_wen_step(&damper, &now);\n"
+      "    if (n >= 100 && n < 104 && !(force <= held && force >= held)) return 2;\n    held = force;\n"
+      "    if (!isfinite(force)) return 1;\n  }\n  return 0;\n}\n";
+  files["lost.py"] =
+      "import math\nfrom bouc_wen import Damper\ndamper = Damper()\nheld = 0.0\n"
+      "for n in range(60):\n    t = 0.002 * n\n    lost = 20 <= n < 23\n"
+      "    force = damper.step(t, 0.01 * math.sin(8 * t), math.nan if lost else 0.08 * math.cos(8 * t), drive=0.3)\n"
+      "    assert math.isfinite(force)\n    assert not lost or force == held\n    held = force\n";
+  write(files, folder.path());
+  const Outcome built = shell(strict + std::string("main.c bouc_wen.c -lm -o lost"), folder.path());
+  ASSERT_EQ(built.status, 0) << built.err;
+  EXPECT_EQ(shell("./lost", folder.path()).status, 0);
+  const Outcome python = shell("python3 lost.py", folder.path());
+  EXPECT_EQ(python.status, 0) << python.err;
+}
+
 // A recording that begins within its cycle, with a drive that follows no law: one period is marched beforehand.
 TEST(ExportC, GoesOnFromAPeriodMarchedBeforehand) {
   Recording recording;
@@ -376,6 +408,49 @@ TEST(ExportFmu, StepsCanBeTakenBack) {
   ASSERT_TRUE(fmu.loaded());
   const std::string guid = between(files.at("modelDescription.xml"), "guid=\"", "\"");
   EXPECT_EQ(co_simulated(fmu, guid, vector, true), co_simulated(fmu, guid, vector, false));
+}
+
+TEST(ExportFmu, AnInputThatIsNoNumberIsDiscarded) {
+  const TemporaryFolder folder;
+  const ExportedModel exported = model_of({"bouc-wen", {}});
+  const TestVector vector = test_vector(exported, first_samples(motion_for_testing(), 200));
+  const auto files = unzipped(export_fmu(exported, vector).files.at("bouc_wen.fmu"));
+  write(files, folder.path());
+  const Fmu fmu(folder.path() / "binaries/linux64/bouc_wen.so");
+  ASSERT_TRUE(fmu.loaded());
+  const std::string guid = between(files.at("modelDescription.xml"), "guid=\"", "\"");
+  const fmi2CallbackFunctions callbacks = {keep_log, allocate, release, nullptr, nullptr};
+  using Instantiate = fmi2Component(fmi2String, fmi2Type, fmi2String, fmi2String, const fmi2CallbackFunctions*,
+                                    fmi2Boolean, fmi2Boolean);
+  using Real = fmi2Status(fmi2Component, const fmi2ValueReference*, std::size_t, const fmi2Real*);
+  using GetReal = fmi2Status(fmi2Component, const fmi2ValueReference*, std::size_t, fmi2Real*);
+  using DoStep = fmi2Status(fmi2Component, fmi2Real, fmi2Real, fmi2Boolean);
+  auto* instantiate = fmu.get<Instantiate>("fmi2Instantiate");
+  auto* set_real = fmu.get<Real>("fmi2SetReal");
+  auto* get_real = fmu.get<GetReal>("fmi2GetReal");
+  auto* do_step = fmu.get<DoStep>("fmi2DoStep");
+  fmi2Component c = instantiate("damper", fmi2CoSimulation, guid.c_str(), "", &callbacks, 0, 0);
+  ASSERT_NE(c, nullptr);
+  const fmi2ValueReference inputs[] = {1, 2, 3};
+  const fmi2ValueReference force = 7;
+  double value = 0.0;
+  for (int n = 0; n < 50; ++n) {
+    const double t = 0.002 * n;
+    const double lost[] = {0.01 * std::sin(8.0 * t), std::nan(""), 0.3};
+    const double good[] = {lost[0], 0.08 * std::cos(8.0 * t), 0.3};
+    if (n == 20) {
+      EXPECT_EQ(set_real(c, inputs, 3, lost), fmi2OK);
+      EXPECT_EQ(get_real(c, &force, 1, &value), fmi2Discard);
+      EXPECT_TRUE(std::isfinite(value));
+      EXPECT_EQ(do_step(c, t, 0.002, 1), fmi2Discard);
+    }
+    EXPECT_EQ(set_real(c, inputs, 3, good), fmi2OK);
+    EXPECT_EQ(get_real(c, &force, 1, &value), fmi2OK);
+    EXPECT_TRUE(std::isfinite(value)) << n;
+    EXPECT_EQ(do_step(c, t, 0.002, 1), fmi2OK);
+  }
+  EXPECT_EQ(do_step(c, std::nan(""), 0.002, 1), fmi2Discard);
+  fmu.get<void(fmi2Component)>("fmi2FreeInstance")(c);
 }
 
 // As the headers of FMI 2.0 have it: the name of the model in front, unless what builds the sources overrides that.

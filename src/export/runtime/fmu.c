@@ -4,6 +4,9 @@
  * at the next one is that of the inputs set after the step, or, before any are set, of the motion carried on from the
  * last sample with its velocity and acceleration.
  *
+ * Where an input, or the time, is not finite, fmi2DoStep steps nothing, keeps the state and returns fmi2Discard, as
+ * fmi2GetReal does for the force, whose value is then the last one: set the input again and repeat the step.
+ *
  * The functions carry the model's name, as the specification wants it of source code; for a binary, and wherever they
  * are to have their plain names, FMI2_OVERRIDE_FUNCTION_PREFIX is defined, or DISABLE_PREFIX, as some tools do.
  */
@@ -15,6 +18,7 @@
 #endif
 #include "fmi2.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "@name@.h"
@@ -43,6 +47,21 @@ static fmi2Status refuse(component *of, const char *message) {
     of->callbacks.logger(of->callbacks.componentEnvironment, of->name, fmi2Error, "error", message);
   }
   return fmi2Error;
+}
+
+static fmi2Status discard(component *of, const char *message) {
+  if (of->callbacks.logger) {
+    of->callbacks.logger(of->callbacks.componentEnvironment, of->name, fmi2Discard, "discard", message);
+  }
+  return fmi2Discard;
+}
+
+/* Slopes that are derived are not looked at. */
+static int inputs_are_finite(const component *of) {
+  const @name@_input *in = &of->inputs;
+  const double sum = in->displacement + in->velocity + in->drive + of->frequency;
+  const double slopes = in->slope + in->acceleration + in->jerk;
+  return isfinite(sum) && (of->derive || isfinite(slopes));
 }
 
 static void set_up(component *of) {
@@ -163,6 +182,7 @@ EXPORT fmi2Status NAMED(fmi2GetReal)(fmi2Component c, const fmi2ValueReference r
       values[k] = *value;
     } else if (references[k] == FORCE) {
       values[k] = force_now(of);
+      if (of->fresh && !inputs_are_finite(of)) return discard(of, "fmi2GetReal: an input is not finite");
     } else {
       return refuse(of, "fmi2GetReal: no such value reference");
     }
@@ -293,6 +313,9 @@ EXPORT fmi2Status NAMED(fmi2DoStep)(fmi2Component c, fmi2Real time, fmi2Real ste
   component *of = (component *)c;
   (void)no_state_before;
   if (!(step >= 0.0)) return refuse(of, "fmi2DoStep: the step is negative");
+  if (!isfinite(time + step) || !inputs_are_finite(of)) {
+    return discard(of, "fmi2DoStep: an input or the time is not finite, nothing is stepped");
+  }
   advance(of, &of->model, time, &of->inputs);
   of->time = time + step;
   of->fresh = 0;

@@ -19,12 +19,13 @@
 extern "C" {
 #endif
 
-/* Steps of the integration between two samples at most (twice as many where the velocity changes sign between them).
+/* Steps of the integration between two samples at most; twice as many where the velocity changes sign between them.
  * What the stiffness of the equations asks for beyond is not done: the force is then less accurate. */
 #ifndef @NAME@_MOST_SUBSTEPS
 #define @NAME@_MOST_SUBSTEPS @most_substeps@.0
 #endif
-/* 0: as many steps as the stiffness asks for. Otherwise always so many, for the same work at every sample. */
+/* 0: as many steps as the stiffness asks for. Otherwise always so many, and twice as many where the velocity changes
+ * sign between two samples: the parts before and after are marched one by one. Plan the time of a sample for these. */
 #ifndef @NAME@_SUBSTEPS
 #define @NAME@_SUBSTEPS @substeps@
 #endif
@@ -70,8 +71,9 @@ void @name@_go_on(@name@_model *model);
  * the sampling interval. Noise of the velocity is not smoothed. */
 void @name@_derive(@name@_model *model, @name@_input *now);
 
-/* Force in N at this sample, which follows the last one. A sample that is not later than the last one changes nothing
- * and returns the last force. */
+/* Force in N at this sample, which follows the last one. A sample that is not later than the last one, or holds a
+ * number that is not finite (a lost measurement), changes nothing and returns the last force: the motion then goes on
+ * from the last good sample to the next. */
 double @name@_step(@name@_model *model, const @name@_input *now);
 
 #ifdef __cplusplus

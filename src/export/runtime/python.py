@@ -18,7 +18,7 @@ ALONE = @alone@  # no other link bends the motion that the law sees
 SERIES = @series@  # links share their force, or states are driven by it
 STEP_LIMIT = @step_limit@  # largest rate times step
 MOST_SUBSTEPS = @most_substeps@  # between two samples
-SUBSTEPS = @substeps@  # always so many; 0: as many as the stiffness asks for
+SUBSTEPS = @substeps@  # always so many, twice at a reversal; 0: as many as the stiffness asks for
 
 tanh = math.tanh
 

@@ -22,12 +22,20 @@ static double slope_in_middle(double h_before, double h, double y0, double y1, d
   return ((y1 - y0) / h_before * h + (y2 - y1) / h * h_before) / (h_before + h);
 }
 
+/* One number that is none would stay in the state for ever. */
+static int is_sample(const @name@_input *now) {
+  return isfinite(now->time) && isfinite(now->displacement) && isfinite(now->velocity) && isfinite(now->slope) &&
+         isfinite(now->acceleration) && isfinite(now->jerk) && isfinite(now->drive);
+}
+
 void @name@_derive(@name@_model *model, @name@_input *now) {
   @name@_input *last = &model->last;
   const @name@_input *first = &model->before_last;
   const double h = now->time - last->time;
   now->slope = 0.0;
   now->jerk = 0.0;
+  now->acceleration = 0.0;
+  if (!is_sample(now)) return;
   if (model->samples == 1 && h > 0.0) {
     now->slope = (now->velocity - last->velocity) / h;
     last->slope = now->slope;
@@ -47,6 +55,7 @@ double @name@_step(@name@_model *model, const @name@_input *now) {
   double p[PARAMETERS];
   double h, speed;
   motion_point in;
+  if (!is_sample(now)) return model->force;
   if (model->samples > 0 && !(now->time > model->last.time)) return model->force;
   if (model->samples == 0) model->begun = now->time;
   acting_parameters(model, now, p);
