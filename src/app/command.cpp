@@ -98,17 +98,26 @@ void add_without_time_option(CLI::App& command, DataOptions& options) {
                    "files may have no time column: for laws whose force does not depend on the rate");
 }
 
+std::string name_asked(const std::string& text, const std::string& option) {
+  const Column column = split_column(text);
+  return condition_name(column.unit.empty() ? text : column.name, option);
+}
+
 std::map<std::string, ConditionNumber> numbers_at(const DataOptions& options) {
   std::map<std::string, ConditionNumber> result;
   for (const std::string& text : options.at) {
     const auto [word, value] = split_pair("--at", text, "NAME=NUMBER [UNIT], e.g. pressure=\"2.1 bar\"");
     std::optional<ConditionNumber> number = condition_number(value);
+    // "pressure [bar]=2.1"
+    if (const std::string unit = split_column(word).unit; number && number->unit.empty() && !unit.empty()) {
+      number = condition_number(value + " " + unit);
+    }
     if (!number) {
       throw InputError("--at: '" + value + "' of " + word + " is not a number with a unit, expected e.g. 2.1e5 or " +
                        "\"2.1 bar\"");
     }
     number->file = "--at";
-    const std::string name = condition_name(word, "--at");
+    const std::string name = name_asked(word, "--at");
     if (!result.emplace(name, *number).second) {
       throw InputError("--at: '" + name + "' is given twice, expected each once");
     }

@@ -37,6 +37,9 @@ void add_keep_option(CLI::App& command, DataOptions& options);
 void add_at_option(CLI::App& command, DataOptions& options);
 // For commands that take recordings without a time column (task/rate.hpp).
 void add_without_time_option(CLI::App& command, DataOptions& options);
+// The name of a condition without the unit that may stand behind it: `valve` of "Valve [%]". InputError, opened by the
+// option, as condition_name has it.
+std::string name_asked(const std::string& text, const std::string& option);
 // The numbers of --at, by name.
 std::map<std::string, ConditionNumber> numbers_at(const DataOptions& options);
 // Says on standard error what readers remark, once for all recordings alike, and puts it into `warnings`.

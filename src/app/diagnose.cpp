@@ -112,7 +112,7 @@ void run(const Options& options) {
   const auto begun = std::chrono::steady_clock::now();
   std::vector<std::string> remarks;
   DataOptions from = options.data;
-  from.conditions = conditions_asked(options.follow);
+  ask_conditions(options.follow, from);
   const Campaign campaign = load(from, Required::motion_and_force, &remarks);
   DiagnoseOptions diagnose_with;
   diagnose_with.model = options.model;

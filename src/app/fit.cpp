@@ -158,7 +158,7 @@ void run(const FitOptions& options) {
   const auto begun = std::chrono::steady_clock::now();
   std::vector<std::string> remarks;
   DataOptions from = options.data;
-  from.conditions = conditions_asked(options.laws);
+  ask_conditions(options.laws, from);
   Campaign campaign = load(from, options.response ? Required::motion : Required::motion_and_force, &remarks);
   FitRequest request = request_of(options);
   // Wrong names are told before a folder is made.

@@ -1,11 +1,13 @@
 #include "app/laws.hpp"
 
+#include <algorithm>
 #include <map>
 
 #include "app/command.hpp"
 #include "app/values.hpp"
 #include "core/error.hpp"
 #include "io/conditions.hpp"
+#include "io/text.hpp"
 
 namespace hysteron::app {
 namespace {
@@ -24,7 +26,7 @@ std::map<std::string, LawOrders> parsed(const LawOptions& options) {
   for (const std::string& text : options.by) {
     const auto [name, orders] = split_pair("--by", text, "NAME=PARAMETER:ORDER,..., e.g. pressure=alpha:1,c0:1");
     if (orders.empty()) throw InputError("--by: '" + text + "' names no parameter, expected pressure=alpha:1,c0:1");
-    add("--by", condition_name(name, "--by"), orders);
+    add("--by", name_asked(name, "--by"), orders);
   }
   return result;
 }
@@ -42,12 +44,20 @@ void add_law_options(CLI::App& command, LawOptions& options) {
       ->allow_extra_args(false);
 }
 
-std::vector<std::string> conditions_asked(const LawOptions& options) {
-  std::vector<std::string> result;
+void ask_conditions(const LawOptions& options, DataOptions& data) {
+  data.conditions.clear();
   for (const auto& [name, orders] : parsed(options)) {
-    if (name != "current" && name != "frequency") result.push_back(name);
+    if (name != "current" && name != "frequency") data.conditions.push_back(name);
   }
-  return result;
+  for (const std::string& text : options.by) {
+    const std::string column = text.substr(0, text.find('='));
+    const std::string name = name_asked(column, "--by");
+    const bool mapped = std::ranges::any_of(data.columns, [&](const std::string& mapping) {
+      return lower_case(trimmed(mapping.substr(0, mapping.find('=')))) == name;
+    });
+    // The unit belongs to the column.
+    if (name != condition_name(column, "--by") && !mapped) data.columns.push_back(name + "=" + column);
+  }
 }
 
 void set_laws(const LawOptions& options, LayoutOptions& layout) {

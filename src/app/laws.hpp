@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "app/command.hpp"
 #include "fit/layout.hpp"
 
 namespace hysteron::app {
@@ -16,8 +17,9 @@ struct LawOptions {
 };
 void add_law_options(CLI::App& command, LawOptions& options);
 
-// Names of the conditions that --by asks for, to be read with the recordings. InputError for words that are wrong.
-std::vector<std::string> conditions_asked(const LawOptions& options);
+// The conditions that --by asks for are read with the recordings: their names, and the columns of those that are named
+// with a unit. InputError for words that are wrong.
+void ask_conditions(const LawOptions& options, DataOptions& data);
 
 // The laws of the command line.
 void set_laws(const LawOptions& options, LayoutOptions& layout);

@@ -23,6 +23,21 @@ using nlohmann::json;
 
 namespace {
 
+// Where the clock of recordings counts from, s since 1970, if it is that of their starts: of the first of them, unless
+// a number was given in its place.
+std::optional<double> clock_since(const std::vector<Recording>& recordings) {
+  std::optional<double> since;
+  for (const Recording& recording : recordings) {
+    const auto clock = std::ranges::find(recording.conditions, "clock", &ConditionChannel::name);
+    if (clock == recording.conditions.end() || clock->values.size() != 1 || !recording.started) return std::nullopt;
+    const double zero = *recording.started - clock->values.front();
+    constexpr double rounding = 1e-3;  // s
+    if (since && std::fabs(zero - *since) > rounding) return std::nullopt;
+    since = since.value_or(zero);
+  }
+  return since;
+}
+
 // What laws follow beside drive and frequency: unit, the range fitted over, order of every parameter.
 json by_json(const Layout& layout) {
   json result = json::object();
@@ -154,6 +169,9 @@ json model_json(const Identification& result, const Campaign& campaign, const Id
                  {"seed", options.seed},
                  {"solver", result.solvers[result.chosen].run.solver}}}};
   if (json by = by_json(result.layout); !by.empty()) {
+    if (by.contains("clock")) {
+      if (const auto since = clock_since(campaign.recordings)) by["clock"]["since"] = *since;
+    }
     file["by"] = std::move(by);
   }
   return file;
@@ -274,7 +292,8 @@ std::vector<ConditionRange> conditions_in(const json& root, const std::vector<st
       throw InputError("by: '" + name + "' is not the name of a condition, expected lower case, e.g. pressure");
     }
     for (const auto& [key, value] : law.items()) {
-      if (key != "unit" && key != "from" && key != "to" && key != "parameters") {
+      const bool known = key == "unit" || key == "from" || key == "to" || key == "parameters";
+      if (!known && !(name == "clock" && key == "since")) {
         throw InputError("by." + name + " has an unknown member '" + key + "', expected unit, from, to, parameters");
       }
     }
@@ -360,6 +379,9 @@ StoredModel parse_model(std::string_view text, const std::string& path) {
       result.held.push_back(card.initial);
     }
     result.conditions = conditions_in(root, names);
+    if (const json by = root.value("by", json::object()); by.contains("clock") && by["clock"].contains("since")) {
+      result.clock_since = by["clock"]["since"].get<double>();
+    }
     for (const json& entry : root.at("parameters")) {
       const auto name = entry.value("parameter", entry.at("name").get<std::string>());
       const auto found = std::ranges::find(names, name);
@@ -445,6 +467,36 @@ void reorder(StoredModel& stored, const std::vector<ConditionRange>& to) {
   stored.conditions = to;
 }
 
+// Laws in the clock count from `since`, as that of the recordings does: (clock + later)^k, multiplied out.
+void count_clock_from(StoredModel& stored, double since) {
+  const auto clock = std::ranges::find(stored.conditions, "clock", &ConditionRange::name);
+  const auto c = static_cast<std::size_t>(clock - stored.conditions.begin());
+  const double later = since - *stored.clock_since;
+  const std::vector<Term> terms = std::move(stored.terms);
+  stored.terms.clear();
+  for (const Term& term : terms) {
+    const int power = c < term.condition_powers.size() ? term.condition_powers[c] : 0;
+    double factor = term.value;  // binomial coefficient and power of `later`
+    for (int k = power; k >= 0; --k) {
+      Term part = term;
+      part.value = factor;
+      if (power > 0) part.condition_powers[c] = k;
+      const auto same = std::ranges::find_if(stored.terms, [&](const Term& other) {
+        return other.parameter == part.parameter && other.same_powers(part);
+      });
+      if (same == stored.terms.end()) {
+        stored.terms.push_back(part);
+      } else {
+        same->value += part.value;
+      }
+      factor *= later * k / (power - k + 1);
+    }
+  }
+  clock->low -= later;
+  clock->high -= later;
+  stored.clock_since = since;
+}
+
 void refuse_other_unit(const ConditionRange& condition, const std::string& unit, const Message& where) {
   if (!unit.empty() && !condition.unit.empty() && unit != condition.unit) {
     throw OptionError(where + ": the " + condition.name + " is in '" + unit + "', expected '" + condition.unit +
@@ -480,6 +532,7 @@ void follow_conditions(StoredModel& stored, const std::vector<Recording>& record
                        ", expected the same in all recordings");
     }
   }
+  if (const auto since = stored.clock_since ? clock_since(recordings) : std::nullopt) count_clock_from(stored, *since);
   std::vector<ConditionRange> all;
   for (const ConditionChannel& channel : first) {
     const auto own = std::ranges::find(stored.conditions, channel.name, &ConditionRange::name);

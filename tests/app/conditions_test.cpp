@@ -133,6 +133,57 @@ TEST_F(Pressed, TheModelIsUsedAtOtherValues) {
       << far.err;
 }
 
+// A damper that gets stiffer with the hours: c0 follows the start of the recordings, wherever the first of them lies.
+TEST_F(Pressed, TheClockOfRecordingsIsFollowed) {
+  const auto started = [&](const std::string& folder, int minute, const std::string& words) {
+    const std::string name = folder + "/m" + std::to_string(minute) + ".csv";
+    write(folder_ / name, words + pressed(1.0 + 0.05 * minute, 0.1 * minute, false));
+  };
+  for (const int minute : {10, 20, 35}) {
+    started("clock", minute, "# start: 2026-11-24T14:" + std::to_string(minute) + ":00\n");
+  }
+  const Outcome fitted = fit({"clock", "--by", "clock=c0:1"}, "a");
+  ASSERT_EQ(fitted.status, 0) << fitted.err;
+  for (const json& entry : model("a")["parameters"]) {
+    if (entry["name"] != "c0*clock") continue;
+    EXPECT_EQ(entry["unit"], "N s/m/s");
+    EXPECT_NEAR(entry["value"].get<double>(), 15.0 / 60.0, 1e-4);
+  }
+  // The first of other recordings began at another time.
+  started("later", 30, "# start: 2026-11-24T14:30:00\n");
+  for (const std::vector<std::string>& more : {std::vector<std::string>{}, {"--at", "clock=1200"}}) {
+    std::vector<std::string> words{"score", "a/model.json", "later", "--json"};
+    words.insert(words.end(), more.begin(), more.end());
+    const Outcome scored = run(words);
+    ASSERT_EQ(scored.status, 0) << scored.err;
+    EXPECT_LT(json::parse(scored.out)["overall"]["nrmse"].get<double>(), 1e-4);
+  }
+  // Without its start one recording has no clock, which takes it from all.
+  started("clock", 40, "# start: yesterday\n");
+  const Outcome refused = fit({"clock", "--by", "clock=c0:1"}, "b");
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_NE(refused.err.find("error: m40.csv: says no start, and parameters follow the clock"), std::string::npos)
+      << refused.err;
+  const Outcome plain = fit({"clock"}, "b");
+  EXPECT_EQ(plain.status, 0);
+  EXPECT_NE(plain.err.find("m40.csv: no start that can be read, while other recordings have one"), std::string::npos)
+      << plain.err;
+}
+
+// A column named with its unit is the condition of its name.
+TEST_F(Pressed, AUnitInTheNameIsTheColumns) {
+  ASSERT_EQ(fit({"column", "--by", "Pressure [bar]=c0:1"}, "a").status, 0);
+  ASSERT_EQ(fit({"column", "--by", "pressure=c0:1"}, "b").status, 0);
+  EXPECT_EQ(model("a")["parameters"].dump(), model("b")["parameters"].dump());
+  EXPECT_EQ(model("a")["by"].dump(), model("b")["by"].dump());
+  write(folder_ / "bare.csv", pressed(2.2, 2.5, false));
+  for (const char* at : {"pressure=2.5 bar", "PRESSURE [bar]=2.5 bar", "pressure [bar]=2.5"}) {
+    const Outcome outcome = run({"simulate", "a/model.json", "bare.csv", "--at", at, "--out", "n.csv"});
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_EQ(outcome.err.find("guess"), std::string::npos) << outcome.err;
+  }
+}
+
 TEST_F(Pressed, WhatIsWrongIsSaidInOneLine) {
   ASSERT_EQ(fit({"column", "--by", "pressure=c0:1"}, "a").status, 0);
   write(folder_ / "bare.csv", pressed(2.2, 2.5, false));
