@@ -6,6 +6,7 @@
 #include "core/error.hpp"
 #include "core/mean.hpp"
 #include "core/message.hpp"
+#include "core/suggest.hpp"
 
 namespace hysteron {
 
@@ -35,7 +36,9 @@ Normalisation normalisation_of(const std::string& word) {
   if (word == "mean-abs") {
     return Normalisation::mean_abs;
   }
-  throw OptionError(Option::normalisation + ": unknown '" + word + "', expected max-abs, range, std or mean-abs");
+  throw OptionError(Option::normalisation + ": unknown '" + word + "'" +
+                    suggestion(word, {"max-abs", "range", "std", "mean-abs"}) +
+                    ", expected max-abs, range, std or mean-abs");
 }
 
 std::string_view word_of(Normalisation normalisation) {

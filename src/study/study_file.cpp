@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
 #include <string_view>
 
@@ -141,12 +142,19 @@ class Parser : private TomlReader {
 
   [[nodiscard]] std::int64_t whole_of(const toml::node& node, const std::string& name, std::int64_t low,
                                       std::int64_t high) const {
-    const auto* value = node.as_integer();
-    if (value == nullptr || value->get() < low || value->get() > high) {
+    // 1e4 is a whole number too; where a double no longer holds them all it is not taken for one.
+    constexpr double exact = 9007199254740992.0;
+    const auto* number = node.as_floating_point();
+    const bool written =
+        number != nullptr && std::fabs(number->get()) <= exact && std::floor(number->get()) == number->get();
+    const std::optional<std::int64_t> value = written             ? static_cast<std::int64_t>(number->get())
+                                              : node.is_integer() ? node.value<std::int64_t>()
+                                                                  : std::nullopt;
+    if (!value || *value < low || *value > high) {
       fail(node, "'" + name + "' is " + said(node) + ", expected a whole number from " + std::to_string(low) + " to " +
                      std::to_string(high));
     }
-    return value->get();
+    return *value;
   }
 
   [[nodiscard]] const toml::array& array_of(const toml::node& node, const std::string& name,
@@ -181,7 +189,7 @@ class Parser : private TomlReader {
         fail(one, "budget " + std::to_string(value) + " is given twice, expected each once");
       result.push_back(value);
     };
-    if (node.is_integer()) {
+    if (node.is_number()) {
       add(node);
     } else {
       for (const auto& element : array_of(node, "budgets", "budgets = [1000, 10000]")) add(element);

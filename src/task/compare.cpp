@@ -177,9 +177,9 @@ ModelComparison compare_models(const std::vector<ComparedModel>& given, const st
   const std::string criteria_note =
       effective ? fmt::format(
                       "AIC and BIC: n ln(mean square) + penalty with n = {:.0f}, the effective sample size of the "
-                      "residual of the best model on the {} recordings that every model was fitted on; "
+                      "residual of the best model on the {} recording{} that every model was fitted on; "
                       "differences from the best are shown",
-                      *effective, common.size())
+                      *effective, common.size(), common.size() == 1 ? "" : "s")
                 : "AIC and BIC: none, since no recording was fitted by every model";
   json file = {{"schema", "hysteron.compare/1"},
                {"normalisation", normalisation},

@@ -67,5 +67,12 @@ TEST_F(Complaint, SaysWhatIsExpected) {
   }
 }
 
+// How many words there may be is said as of every other command.
+TEST_F(Complaint, UsageCountsNoWords) {
+  const std::string help = run({"compare", "--help"}).out;
+  EXPECT_NE(help.find("[OPTIONS] MODEL.json DATA...\n"), std::string::npos) << help;
+  EXPECT_EQ(help.find(" x 2"), std::string::npos) << help;
+}
+
 }  // namespace
 }  // namespace hysteron

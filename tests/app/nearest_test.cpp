@@ -38,6 +38,7 @@ TEST_F(Nearest, NamesAndFilesAreOffered) {
       {{"reproduce", "table-vv"}, "table-v"},
       {{"export", "fitted/model.json", "--to", "pyton", "--out", "out"}, "python"},
       {{"report", "fited"}, "fitted"},
+      {{"fit", "data", "--model", "viscous", "--normalisation", "maxabs", "--out", "out"}, "max-abs"},
       {{"challenge", "--out", "out", "--effect", "clerance"}, "clearance"},
       {{"challenge", "--out", "out", "--level", "plan"}, "plain"},
       {{"challenge", "--out", "out", "--forms", "clearance/hertzz"}, "clearance/hertz"},
@@ -66,6 +67,14 @@ TEST_F(Nearest, ABudgetMayBeAPowerOfTenInEveryCommand) {
     EXPECT_EQ(outcome.status, 0) << words[0] << ": " << outcome.err;
     words.back() = "2e1.5";
     EXPECT_EQ(run(words).status, 2) << words[0];
+  }
+  for (const auto& [budget, status] : {std::pair("[2e1]", 0), {"2e1", 0}, {"2.5", 2}, {"1e300", 2}}) {
+    testing::write(folder_ / "study.toml",
+                   std::string("schema = \"hysteron.study/1\"\nmodels = [\"viscous\"]\nsolvers = [\"pso\"]\nseeds = 1\n"
+                               "budgets = ") +
+                       budget + "\n[[data]]\nrecordings = \"data/r1.csv\"\n");
+    const Outcome outcome = run({"bench", "study.toml", "--quiet", "--out", std::string("study") + budget});
+    EXPECT_EQ(outcome.status, status) << budget << ": " << outcome.err;
   }
 }
 
