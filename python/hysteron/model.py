@@ -22,17 +22,20 @@ class Model:
     """A damper law with effects and parameter values. `json` is its model.json as a dictionary; `fit_json` and
     `warnings` are of the fit that made it, None and () where it was read from a file."""
 
-    def __init__(self, text, path="model.json", files=None, warnings=()):
+    def __init__(self, text, path=None, files=None, warnings=()):
         self._text = bytes(text)
-        self._path = path
-        self._stored = _hysteron.parse_model(self._text, path)
+        self._file = path  # None: of no file
+        self._stored = _hysteron.parse_model(self._text, self._called)
         self._files = files
         self.json = json.loads(self._text)
         self.fit_json = json.loads(files["fit.json"]) if files and "fit.json" in files else None
         self.warnings = tuple(warnings)
 
     def __reduce__(self):
-        return Model, (self._text, self._path, self._files, self.warnings)
+        return Model, (self._text, self._file, self._files, self.warnings)
+
+    _path = property(lambda self: self._file or "model.json", doc="for a command line")
+    _called = property(lambda self: self._file or "the model", doc="in messages")
 
     def __repr__(self):
         parts = " with ".join([self.name, ", ".join(self.effects)]) if self.effects else self.name
@@ -70,7 +73,7 @@ class Model:
         its ending."""
         recording = self._one(recording, "simulate", motion_only=True)
         force, remarks = _hysteron.simulate(
-            self._stored, self._path, recording._core, _words.real("tolerance", tolerance, 1e-10, 1e-2))
+            self._stored, self._called, recording._core, _words.real("tolerance", tolerance, 1e-10, 1e-2))
         _words.warn(remarks)
         if out is not None:
             write_force(out, recording, force)
@@ -82,7 +85,7 @@ class Model:
         options = _words.common(normalisation, weighting, tolerance, 0)
         recordings = as_recordings(recordings, need_force=True, conditions=self.json.get("by", ()))
         _hysteron.refuse_unfollowed([self._stored], recordings.at)
-        text, csv, remarks = _hysteron.score(self._stored, self._path, recordings.core(), options)
+        text, csv, remarks = _hysteron.score(self._stored, self._called, recordings.core(), options)
         _words.warn(remarks)
         if out is not None:
             write_table(out, csv.encode())
@@ -115,7 +118,7 @@ class Model:
             "tolerance": _words.real("tolerance", tolerance, 1e-13, 1e-2),
         }
         recording = self._one(recording, "respond", excitation=True)
-        names, columns, csv, remarks = _hysteron.respond(self._stored, self._path, recording._core, options)
+        names, columns, csv, remarks = _hysteron.respond(self._stored, self._called, recording._core, options)
         _words.warn(remarks)
         response = Response(names, columns, csv)
         if out is not None:
@@ -151,7 +154,7 @@ class Model:
     def save(self, path):
         """Writes model.json, the bytes that the program writes; messages name the model by this file from then on."""
         _hysteron.write_file(_words.path(path), self._text)
-        self._path = _words.path(path)
+        self._file = _words.path(path)
 
     def save_all(self, folder):
         """Writes model.json and, of a fit, fit.json and report.html into a folder, as `hysteron fit --out` does."""
@@ -319,7 +322,7 @@ def fit(recordings, model=None, *, by_current=None, by_frequency=None, by=None, 
         recordings.core(), recordings.model, with_campaign(recordings, options), warnings, command.text(), _words.observer(progress))
     _words.warn(result["warnings"][len(warnings):])
     files = result["files"]
-    return Model(files["model.json"], "model.json", files, result["warnings"])
+    return Model(files["model.json"], None, files, result["warnings"])
 
 
 def with_campaign(recordings, options):

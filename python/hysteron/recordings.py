@@ -54,8 +54,11 @@ class Recording:
 
     @property
     def frame(self):
-        """The channels as a table, a column each."""
-        return _table.of_columns(self.channels)
+        """The channels and the conditions as a table, a column each."""
+        columns = self.channels
+        for name, (values, _) in self.conditions.items():
+            columns.setdefault(name, numpy.broadcast_to(values, len(self)))
+        return _table.of_columns(columns)
 
     def save(self, path):
         """Writes a CSV file. Of a recording made of arrays it holds those, and a program that reads it works on the same

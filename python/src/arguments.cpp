@@ -2,8 +2,22 @@
 
 #include <algorithm>
 #include <cctype>
+#include <regex>
 
 namespace hysteron::python {
+
+std::string with_mappings(const std::string& message) {
+  // CHANNEL="COLUMN" behind the argument is an entry of its dictionary.
+  static const std::regex mapping("\\bcolumns ([^ =]+)=(\"[^\"]*\"|[^ ,;]+)");
+  std::string result;
+  auto from = message.cbegin();
+  for (std::smatch found; std::regex_search(from, message.cend(), found, mapping); from = found.suffix().first) {
+    const std::string column = found[2].str();
+    result += found.prefix().str() + "columns={\"" + found[1].str() +
+              "\": " + (column.starts_with('"') ? column : '"' + column + '"') + "}";
+  }
+  return result + std::string(from, message.cend());
+}
 
 std::string argument_name(Option option) {
   if (option == Option::column) return "columns";

@@ -10,6 +10,9 @@ namespace hysteron::python {
 // "by_current"; Option::column is the argument columns.
 std::string argument_name(Option option);
 
+// Mappings of columns as the argument takes them: columns displacement="x [mm]" -> columns={"displacement": "x [mm]"}.
+std::string with_mappings(const std::string& message);
+
 // Where a message still has options of the command line. "--by-current: ..." -> "by_current: ...", and --column is the
 // argument columns.
 std::string with_arguments(const std::string& message);

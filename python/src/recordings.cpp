@@ -35,7 +35,7 @@ using Remarks = std::vector<std::pair<std::string, std::string>>;
 Remarks remarks_of(const std::vector<Remark>& remarks) {
   Remarks result;
   for (const Remark& remark : remarks)
-    result.emplace_back(remark.file + ": " + remark.text.with(argument_name), warning_of(remark));
+    result.emplace_back(remark.file + ": " + with_mappings(remark.text.with(argument_name)), warning_of(remark));
   return result;
 }
 

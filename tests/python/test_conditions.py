@@ -46,6 +46,8 @@ class Conditions(InFolder):
         one = hysteron.load("pressed/p1.csv", conditions=["pressure"])[0]
         values, unit = one.conditions["pressure"]
         self.assertEqual((unit, list(values)), ("Pa", [2e5]))
+        self.assertEqual(list(one.frame.columns), ["time", "displacement", "velocity", "force", "pressure"])
+        self.assertEqual(set(one.frame.pressure), {2e5})
         force = model.simulate(one)
         numpy.testing.assert_array_equal(model.simulate("pressed/p1.csv"), force)
         told = json.loads(program("score", "module/model.json", "pressed", "--json"))

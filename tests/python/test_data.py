@@ -28,6 +28,19 @@ class Data(InFolder):
         numpy.testing.assert_allclose(one.velocity, 2 * k, atol=1e-9)  # of a parabola, at 1 ms a sample
         self.assertEqual(list(one.frame.columns), ["time", "displacement", "velocity", "force"])
 
+    def test_warnings_are_python_and_name_no_file_that_is_none(self):
+        time, displacement, force, current = sine(2.0, 0.01, 1.0)
+        with self.assertWarnsRegex(hysteron.HysteronWarning, r'columns=\{"displacement": "x \[UNIT\]"\}'):
+            hysteron.recording({"time": time, "x": 4e3 * displacement, "force": force})
+        one = hysteron.recording(time=time, displacement=displacement, force=force)
+        model = hysteron.fit([one], "viscous", budget=50)
+        far = hysteron.recording(time=time, displacement=3 * displacement, force=force, name="far")
+        with self.assertWarnsRegex(hysteron.HysteronWarning, "and the model was fitted"):
+            model.score(far)
+        model.save("mine.json")
+        with self.assertWarnsRegex(hysteron.HysteronWarning, "and mine.json was fitted"):
+            model.score(far)
+
     def test_errors_name_arguments_not_options(self):
         time, displacement, force, current = sine(2.0, 0.01, 1.0)
         one = hysteron.recording(time=time, displacement=displacement, force=force, current=current)
