@@ -89,7 +89,8 @@ void add_export(CLI::App& program) {
       ->capture_default_str();
   command
       ->add_option("--substeps", options->request.substeps,
-                   "always so many steps between two samples, for a fixed time a sample; 0: as the stiffness asks")
+                   "always so many steps between two samples, twice as many where the velocity changes sign; 0: as the "
+                   "stiffness asks")
       ->transform(whole_number(0, default_most_substeps))
       ->capture_default_str();
   command->footer(

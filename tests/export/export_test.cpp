@@ -111,6 +111,27 @@ TEST(ExportC, HasNoHeapAndNoGlobals) {
   }
 }
 
+// As docs/export.md has it: N steps between two samples, and 2 N where the velocity changes sign.
+TEST(ExportPython, FixedStepsAreTwiceAsManyAtAReversal) {
+  const TemporaryFolder folder;
+  ExportedModel exported = model_of({"bouc-wen", {}});
+  exported.substeps = 8;
+  const TestVector vector = test_vector(exported, first_samples(motion_for_testing(), 50));
+  ExportedFiles files = export_python(exported, vector).files;
+  files["count.py"] =
+      "import math\nimport bouc_wen\ncalls = 0\n"
+      "law = bouc_wen.LINKS[0]\nrate = law.rate\n"
+      "def counted(*given):\n    global calls\n    calls += 1\n    return rate(*given)\n"
+      "law.rate = counted\ndamper = bouc_wen.Damper()\nplain, at_reversal = set(), set()\nlast = 1.0\n"
+      "for n in range(200):\n    t = 0.005 * n\n    v = 0.2 * math.cos(20.0 * t + 0.3)\n    before = calls\n"
+      "    damper.step(t, 0.01 * math.sin(20.0 * t + 0.3), v, drive=0.3)\n"
+      "    if n > 0:\n        (at_reversal if v * last < 0 else plain).add(calls - before)\n    last = v\n"
+      "assert plain == {4 * 8}, plain\nassert at_reversal == {2 * 4 * 8}, at_reversal\n";
+  write(files, folder.path());
+  const Outcome counted = shell("python3 count.py", folder.path());
+  EXPECT_EQ(counted.status, 0) << counted.out << counted.err;
+}
+
 // A lost measurement is no sample: the state stays, and the force comes back with the next good one.
 TEST(ExportC, ANumberThatIsNoneLeavesTheState) {
   const TemporaryFolder folder;
