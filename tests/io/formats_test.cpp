@@ -994,6 +994,29 @@ TEST(Xlsx, DatesInAColumnWithAUnit) {
             "r:2: the force in column 'force [N]' is formatted as a date, expected a number");
 }
 
+TEST(Xlsx, WhatLooksLikeNumbersAndIsNoneIsTold) {
+  const std::string head = row({cell("time [s]"), cell("disp [mm]"), cell("force [N]")});
+  const auto refused = [&](const std::string& before, const auto& cell_of) {
+    std::string sheet = head + before;
+    for (int k = 0; k < 20; ++k) sheet += row({cell_of(k), cell_of(2 * k), cell_of(3 * k)});
+    const std::string bytes = zip_of(workbook_parts({{"A", sheet}}));
+    ReadOptions options;
+    options.group = "A";
+    EXPECT_EQ(refusal("xlsx", bytes, options), refusal("xlsx", bytes));
+    return refusal("xlsx", bytes);
+  };
+  const auto text = [](int k) { return cell(std::string_view(std::to_string(k) + (k % 2 == 0 ? ".5" : ",5"))); };
+  const auto formula = [](int k) { return "<c><f>" + std::to_string(k) + (k % 2 == 0 ? "</f></c>" : "</f><v/></c>"); };
+  const std::string texts =
+      " of sheet 'A', below names, holds numbers that are stored as text, expected cells of numbers";
+  EXPECT_EQ(refused("", text), "r: row 2" + texts);
+  EXPECT_EQ(refused(row({cell("s"), cell("mm"), cell("N")}), text), "r: row 3" + texts);
+  EXPECT_EQ(
+      refused("", formula),
+      "r: row 2 of sheet 'A', below names, holds formulas whose values are not stored, expected a workbook that a "
+      "spreadsheet program has saved");
+}
+
 TEST(Xlsx, SheetsAreChosenByGroup) {
   const std::string head = row({cell("time"), cell("disp"), cell("force")});
   const std::string bytes = zip_of(workbook_parts({{"Notes", row({cell("what"), cell("who")})},

@@ -162,6 +162,7 @@ struct Sheet {
   std::string letters;
   std::vector<Cell> cells;  // those that are not empty
   std::vector<SheetRow> rows;
+  std::vector<std::uint32_t> unvalued;  // rows of formulas without a value, once for each
 
   [[nodiscard]] std::string_view text(const Cell& cell) const {
     return std::string_view(letters).substr(cell.at, cell.length);
@@ -199,6 +200,13 @@ std::optional<double> number_of(std::string_view text) {
   const auto read = std::from_chars(text.data(), text.data() + text.size(), value);
   const bool whole_text = read.ec == std::errc() && read.ptr == text.data() + text.size();
   return whole_text && std::isfinite(value) ? std::optional(value) : std::nullopt;
+}
+
+// With a decimal comma, too.
+bool looks_like_a_number(std::string_view text) {
+  std::string copy(text);
+  std::ranges::replace(copy, ',', '.');
+  return number_of(copy).has_value();
 }
 
 std::string shortest(double value) {
@@ -321,8 +329,10 @@ class SheetParser {
       const std::optional<std::uint32_t> style = whole(attribute(attributes, "s"));
       date_ = style && *style < dates_.size() && dates_[*style];
       value_.clear();
+      has_formula_ = false;
       in_cell_ = true;
     }
+    has_formula_ = has_formula_ || name == "f";
     in_value_ = in_cell_ && (name == "v" || (name == "t" && phonetic_ == 0));
     if (name == "rPh") ++phonetic_;
   }
@@ -353,6 +363,8 @@ class SheetParser {
       kind = Cell::Kind::error;
     }
     text = trimmed(text);
+    // An empty text is a value.
+    if (has_formula_ && value_.empty() && type_ != "str") sheet_.unvalued.push_back(sheet_.rows.back().number);
     if (text.empty()) return;
     if (sheet_.letters.size() + text.size() > largest_part) throw Damage("more text than 2 GiB");
     sheet_.cells.push_back({column_, kind, date_ && kind == Cell::Kind::number, static_cast<std::uint32_t>(text.size()),
@@ -370,6 +382,7 @@ class SheetParser {
   std::string type_;
   std::string value_;
   bool date_ = false;
+  bool has_formula_ = false;
   bool in_cell_ = false;
   bool in_value_ = false;
   int phonetic_ = 0;
@@ -420,6 +433,34 @@ std::optional<Table> table_of(const Sheet& sheet, std::uint32_t skip) {
     }
   }
   return std::nullopt;
+}
+
+// Why the rows below names are no numbers, as they look like: they hold texts, or formulas whose values are not stored.
+// Empty where they do not.
+std::string why_no_table(const Sheet& sheet) {
+  constexpr std::size_t most_rows_before = 200;
+  for (std::size_t r = 0; r < std::min(sheet.rows.size(), most_rows_before); ++r) {
+    const auto names = std::ranges::count_if(sheet.cells_of(sheet.rows[r]), [&](const Cell& cell) {
+      return cell.kind == Cell::Kind::text && quantity_of_column(split_column(sheet.text(cell)));
+    });
+    if (names < 2) continue;
+    // Next to it or below a row of units.
+    for (std::size_t below = r + 1; below < std::min(r + 3, sheet.rows.size()); ++below) {
+      const std::uint32_t number = sheet.rows[below].number;
+      const std::string where =
+          "row " + std::to_string(number) + " of sheet " + in_quotes(sheet.name) + ", below names";
+      if (std::ranges::count(sheet.unvalued, number) > 1) {
+        return where +
+               ", holds formulas whose values are not stored, expected a workbook that a spreadsheet program has saved";
+      }
+      if (std::ranges::count_if(sheet.cells_of(sheet.rows[below]), [&](const Cell& cell) {
+            return cell.kind == Cell::Kind::text && looks_like_a_number(sheet.text(cell));
+          }) > 1) {
+        return where + ", holds numbers that are stored as text, expected cells of numbers";
+      }
+    }
+  }
+  return {};
 }
 
 // Whether a row holds numbers of the table: one in every column in which the row before has one, and no words where
@@ -528,21 +569,28 @@ class WorkbookReader {
       }
       Sheet sheet = read_sheet(static_cast<std::size_t>(wanted - names_.begin()));
       const auto table = table_of(sheet, skip());
-      if (!table) fail("sheet " + in_quotes(sheet.name) + " has no row of names above rows of numbers, expected one");
+      if (!table) {
+        const std::string why = why_no_table(sheet);
+        if (!why.empty()) fail(why);
+        fail("sheet " + in_quotes(sheet.name) + " has no row of names above rows of numbers, expected one");
+      }
       return read_table(sheet, *table);
     }
     std::optional<Sheet> chosen;
     std::optional<Table> table;
     std::vector<std::string> with_tables;
+    std::string why;  // a sheet is none that has one
     for (std::size_t k = 0; k < names_.size(); ++k) {
       Sheet sheet = read_sheet(k);
       auto of_sheet = table_of(sheet, skip());
+      if (!of_sheet && why.empty()) why = why_no_table(sheet);
       if (!of_sheet || !names_a_channel(sheet, *of_sheet, options_)) continue;
       with_tables.push_back(sheet.name);
       if (chosen) continue;
       chosen = std::move(sheet);
       table = std::move(of_sheet);
     }
+    if (!chosen && !why.empty()) fail(why);
     if (!chosen) {
       fail(
           "no sheet has a row of names such as time, displacement and force above rows of numbers, expected one; the "
