@@ -22,6 +22,10 @@ constexpr std::size_t steps_beside = 4;
 constexpr double least_leap = 0.02;
 constexpr double moving = 0.005;
 
+// A dropout has so many samples at most, and there are so many.
+constexpr std::size_t longest_dropout = 10;
+constexpr std::size_t fewest_dropouts = 2;
+
 // Of the stretches of one value, this share has the same length, give or take one sample, and there are so many.
 constexpr double alike = 0.95;
 constexpr std::size_t fewest_holds = 30;
@@ -51,6 +55,36 @@ std::optional<Leap> leap_of(const std::vector<double>& time, const std::vector<d
   const double usual = (time.back() - time.front()) / static_cast<double>(time.size() - 1);
   const bool in_time = time[leap.after + 1] - time[leap.after] < 2.0 * usual;
   return in_time && alone && std::min(before, after) > moving * leap.size ? std::optional(leap) : std::nullopt;
+}
+
+std::optional<Dropouts> dropouts_of(const std::vector<double>& values) {
+  struct Candidate {
+    std::size_t first;
+    std::size_t count;
+    double before;
+    double after;
+  };
+  std::vector<Candidate> candidates;
+  double widest = 0.0;  // of the other steps
+  for_each_run(values, [&](std::size_t first, std::size_t count) {
+    if (first == 0) return;
+    const double before = values[first - 1];
+    if (values[first] != 0.0) {
+      if (before != 0.0) widest = std::max(widest, std::fabs(values[first] - before));
+    } else if (first + count < values.size()) {
+      const double after = values[first + count];
+      if (count > longest_dropout) widest = std::max({widest, std::fabs(before), std::fabs(after)});
+      if (count <= longest_dropout) candidates.push_back({first, count, before, after});
+    }
+  });
+  if (!(widest > 0.0)) return std::nullopt;
+  // A friction that turns and a channel that crosses zero are zero as well.
+  std::erase_if(candidates, [&](const Candidate& one) {
+    const bool far = std::min(std::fabs(one.before), std::fabs(one.after)) > longer * widest;
+    return !far || std::fabs(one.after - one.before) > static_cast<double>(one.count + 1) * widest;
+  });
+  if (candidates.size() < fewest_dropouts) return std::nullopt;
+  return Dropouts{candidates.size(), candidates.front().first};
 }
 
 std::optional<double> held_samples_of(const std::vector<double>& values) {

@@ -1,5 +1,6 @@
-// What displacement and velocity show of faults of the motion's channels: samples that are lost, a channel that is
-// slower than the log, and a recorded velocity that lags the slope of the displacement or is off by a constant.
+// What displacement and velocity show of faults of the motion's channels: samples that are lost, moments of zeros, a
+// channel that is slower than the log, and a recorded velocity that lags the slope of the displacement or is off by a
+// constant.
 #pragma once
 
 #include <cstddef>
@@ -18,6 +19,15 @@ struct Leap {
   double size = 0.0;      // in the channel's unit
 };
 std::optional<Leap> leap_of(const std::vector<double>& time, const std::vector<double>& values);
+
+// Stretches of few samples that are exactly zero, two or more of them, entered and left by jumps many times longer than
+// any step of the channel elsewhere, and back to where it may have gone meanwhile: a sensor or a transmission that
+// fails for moments.
+struct Dropouts {
+  std::size_t count = 0;
+  std::size_t first = 0;  // index of a sample
+};
+std::optional<Dropouts> dropouts_of(const std::vector<double>& values);
 
 // How many samples a channel holds each of its values for, where it does so throughout and its steps are not those of a
 // converter: a sensor that is slower than the log. Nothing for a channel that changes from sample to sample.

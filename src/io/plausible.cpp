@@ -175,6 +175,15 @@ void tell_of_motion(const Recording& recording, const Sources& sources, Remarks&
                                      "steps before and after: lost samples or two records joined look so; cut there",
                                      1e3 * leap->size, time[leap->after], time[leap->after + 1]));
   }
+  for (const auto& [name, values] :
+       {std::pair("displacement", &recording.displacement), std::pair("force", &recording.force)}) {
+    if (const auto dropouts = dropouts_of(*values)) {
+      remarks.tell(std::string("dropouts of ") + name,
+                   fmt::format("the {} jumps to exactly 0 and back {} times, first at {:.4g} s, far beyond its other "
+                               "steps: a sensor or a transmission that fails for moments looks so; cut these samples",
+                               name, dropouts->count, time[dropouts->first]));
+    }
+  }
   const double step = (time.back() - time.front()) / static_cast<double>(time.size() - 1);
   for (const auto& [name, values] :
        {std::pair("displacement", &recording.displacement), std::pair("force", &recording.force),

@@ -149,6 +149,42 @@ TEST(MotionFaults, LostSamples) {
   }
 }
 
+TEST(MotionFaults, MomentsOfZeros) {
+  // Of three samples each; the displacement crosses zero in the last, the force nearly does in the second.
+  const auto fails = [](int n) { return (n >= 415 && n < 418) || (n >= 935 && n < 938) || (n >= 1000 && n < 1003); };
+  const auto failing = [&](const Channel& channel) {
+    return [&fails, channel](double t, int n) { return fails(n) ? 0.0 : channel(t, n); };
+  };
+  const std::string times =
+      " jumps to exactly 0 and back 2 times, first at 0.83 s, far beyond its other steps: a sensor";
+  const auto said_of_motion = remarks(failing(true_x), true_v, true_f);
+  ASSERT_FALSE(said_of_motion.empty());
+  EXPECT_TRUE(said_of_motion.front().starts_with("the displacement" + times)) << said_of_motion.front();
+  const auto said_of_force = remarks(true_x, true_v, failing(true_f));
+  ASSERT_FALSE(said_of_force.empty());
+  EXPECT_TRUE(said_of_force.front().starts_with("the force jumps to exactly 0 and back 2 times, first at 0.83 s"))
+      << said_of_force.front();
+}
+
+TEST(MotionFaults, ZerosOfADamperAreNoFaults) {
+  std::vector<double> friction, play, stops;
+  for (int n = 0; n < 1000; ++n) {
+    const double phase = 0.02 * std::numbers::pi * n;
+    const double cosine = std::round(1e6 * std::cos(phase)) / 1e6;
+    friction.push_back(cosine == 0.0 ? 0.0 : std::copysign(500.0, cosine));
+    play.push_back(std::fabs(std::sin(phase)) > 0.1 ? 500.0 * std::sin(phase) : 0.0);
+    stops.push_back(n % 50 < 25 ? 500.0 : n % 50 < 30 ? 0.0 : -500.0);
+  }
+  EXPECT_FALSE(dropouts_of(friction).has_value());
+  EXPECT_FALSE(dropouts_of(play).has_value());
+  EXPECT_FALSE(dropouts_of(stops).has_value());
+  EXPECT_FALSE(dropouts_of({}).has_value());
+  // Once is an outlier, and what it does often is no failure.
+  std::vector<double> once(200, 5.0);
+  once[100] = 0.0;
+  EXPECT_FALSE(dropouts_of(once).has_value());
+}
+
 TEST(MotionFaults, AStepOfTheMotionIsNoLeap) {
   std::vector<double> time;
   std::vector<double> step;
