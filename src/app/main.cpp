@@ -6,6 +6,8 @@
 #include <cerrno>
 #include <cstdio>
 #include <iostream>
+#include <memory>
+#include <string>
 #include <system_error>
 
 #include "app/command.hpp"
@@ -34,6 +36,20 @@ void load_plugins(int count, char** arguments) {
   }
 }
 
+// Names tell how many words there are; a count behind them, as in "MODEL RECORDING(1x)", does not.
+class WithoutCounts : public CLI::Formatter {
+ public:
+  std::string make_option_usage(const CLI::Option* option) const override {
+    std::string text = Formatter::make_option_usage(option);
+    const auto count = text.rfind('(');
+    if (count != std::string::npos && text.find("x)", count) != std::string::npos) {
+      const auto end = text.find("x)", count) + 2;
+      text.erase(count, end - count);
+    }
+    return text;
+  }
+};
+
 int run(int count, char** arguments) {
   using namespace hysteron;
   app::remember_command(count, arguments);
@@ -42,6 +58,7 @@ int run(int count, char** arguments) {
       "Hysteron identifies damper models from recordings, compares identification algorithms, and finds missing "
       "physics.",
       "hysteron"};
+  program.formatter(std::make_shared<WithoutCounts>());  // before the commands, which take it over
   program.set_version_flag("--version", "hysteron " HYSTERON_VERSION);
   program.require_subcommand(1);
   std::vector<std::string> plugins;

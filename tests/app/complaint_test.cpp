@@ -72,6 +72,8 @@ TEST_F(Complaint, UsageCountsNoWords) {
   const std::string help = run({"compare", "--help"}).out;
   EXPECT_NE(help.find("[OPTIONS] MODEL.json DATA...\n"), std::string::npos) << help;
   EXPECT_EQ(help.find(" x 2"), std::string::npos) << help;
+  const std::string other = run({"simulate", "--help"}).out;
+  EXPECT_NE(other.find("[OPTIONS] MODEL RECORDING\n"), std::string::npos) << other;
 }
 
 }  // namespace
