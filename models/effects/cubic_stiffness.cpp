@@ -19,7 +19,7 @@ struct CubicStiffness {
   static constexpr Knowledge knowledge = {
       .family = families::place,
       .in_words = "a cubic stiffness",
-      .shows = "a force that grows towards both ends of the stroke with the cube of the displacement",
+      .shows = "a stiffness that grows, or where k3 is negative falls, towards both ends of the stroke",
       .experiment = "a slow full stroke around two mid-positions",
       .acts = Acts::by_place,
       .kin = kin,

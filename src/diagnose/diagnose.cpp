@@ -178,6 +178,7 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const Split& split
   diagnosis.surprises = std::move(judgement.surprising);
   diagnosis.tone = judgement.tone;
   diagnosis.tone_doubts = judgement.tone_doubts;
+  diagnosis.too_few_values = judgement.too_few_values;
   diagnosis.belonging = std::move(judgement.belonging);
   diagnosis.column = std::move(judgement.column);
   diagnosis.evidence = std::move(judgement.evidence);

@@ -31,6 +31,7 @@ struct Diagnosis {
   std::optional<Belonging> belonging;  // groups of the recordings, where some stand out
   std::optional<Tone> tone;            // that what is left of the fitted recordings holds, N
   bool tone_doubts = false;            // whether it is what doubt_of_completeness of the evidence says
+  bool too_few_values = false;         // likewise, that nothing can be told
   std::optional<ColumnTold> column;    // that the parameters follow and no model uses
   std::optional<Search> asked;         // behind the law asked for, where another took its place
   Evidence evidence;

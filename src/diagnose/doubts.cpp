@@ -75,7 +75,8 @@ Doubt doubt_of_completeness(const Search& search, const Workbench& fine, const s
     return {fmt::format(
         "what is left holds {:.0f} independent values for {:.0f} parameters: too few to tell noise from what is "
         "missing",
-        left.independent, parameters)};
+        left.independent, parameters),
+            false, true};
   }
   if (left.squares <= above_white * left.white) {
     return {};
@@ -84,7 +85,7 @@ Doubt doubt_of_completeness(const Search& search, const Workbench& fine, const s
     return {"the size of the residual follows the motion, and that of noise would not"};
   }
   if (tone) {
-    return {sentence_of(*tone), true};
+    return {sentence_of(*tone), true, false};
   }
   const Residuals residuals = fine.residuals(search.augmented);
   const Wandering wander = wandering(leftovers_of(fine.split().fit, residuals.of, residuals.norms));

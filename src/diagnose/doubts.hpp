@@ -23,6 +23,7 @@ std::string sentence_of(const Tone& tone);
 struct Doubt {
   std::string why;
   bool of_tone = false;
+  bool too_few = false;  // values to tell at all whether anything is missing
 };
 Doubt doubt_of_completeness(const Search& search, const Workbench& fine, const std::vector<std::string>& surprising,
                             const std::optional<Tone>& tone);

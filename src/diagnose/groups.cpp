@@ -255,7 +255,7 @@ std::string sentence_of(const Belonging& belonging) {
   }
   return fmt::format(
       "the recordings are not of one device state: {}{}{}; fitted together NRMSE {:.2g}, apart {:.2g}; {}. A valve, a "
-      "preload or the specimen was another; no name is given on a mixture",
+      "preload or the specimen was another, or what drives it was noted wrongly; no name is given on a mixture",
       joined(groups, " and "), differences.empty() ? "" : "; ", joined(differences, " and "), belonging.together,
       belonging.apart,
       belonging.by_repeats ? std::string("recordings of the same motion and drive are not alike")

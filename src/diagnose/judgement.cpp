@@ -41,6 +41,7 @@ Judgement judge_search(Search found, const Searching& searching) {
   const Doubt doubt = doubt_of_completeness(result.search, fine, result.surprising, result.tone);
   result.evidence.doubt_of_completeness = doubt.why;
   result.tone_doubts = doubt.of_tone;
+  result.too_few_values = doubt.too_few;
   result.evidence.doubt_of_data = searching.doubt_of_data;
   return result;
 }

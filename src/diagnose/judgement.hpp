@@ -20,6 +20,7 @@ struct Judgement {
   std::vector<std::string> surprising;
   std::optional<Tone> tone;
   bool tone_doubts = false;
+  bool too_few_values = false;
   std::vector<Contrast> contrasts;
   std::optional<Belonging> belonging;
   std::optional<ColumnTold> column;

@@ -88,7 +88,7 @@ std::string sentence_of_shapes(const Diagnosis& diagnosis) {
   if (shapes.empty()) {
     return {};
   }
-  return fmt::format("Too uncertain to name: {}; {} {} better.", joined(shapes, "; and "),
+  return fmt::format("Too uncertain to name: {}; {} {} better.", fmt::format("{}", fmt::join(shapes, "; ")),
                      shapes.size() == 1 ? "it is a shape that" : "they are shapes that",
                      std::string(what_shapes_do(diagnosis)) + (shapes.size() == 1 ? "s" : ""));
 }
@@ -190,7 +190,10 @@ std::vector<std::string> summary_of(const Diagnosis& diagnosis) {
   } else if (mixed(diagnosis.belonging)) {
     add(summary, capital(sentence_of(*diagnosis.belonging)) + ".");
   } else if (verdict.effects.empty()) {
-    add(summary, "Physics is missing, but no effect is certain enough to name: " + verdict.reason + ".");
+    const bool may_be_noise = diagnosis.too_few_values && diagnosis.evidence.doubt_of_data.empty();
+    add(summary, (may_be_noise ? "Whether physics is missing cannot be told: "
+                               : "Physics is missing, but no effect is certain enough to name: ") +
+                     verdict.reason + ".");
   }
   if (diagnosis.column) {
     add(summary, capital(sentence_of(*diagnosis.column)) + ".");

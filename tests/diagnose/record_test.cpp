@@ -10,6 +10,7 @@
 
 #include "diagnose/concealed_damper.hpp"
 #include "diagnose/search/relatives.hpp"
+#include "diagnose/summary.hpp"
 
 namespace hysteron {
 namespace {
@@ -217,9 +218,13 @@ TEST(Record, OfACauseThatIsNotAmongTheCandidates) {
   EXPECT_EQ(record["unknown_share"], 1.0);
   const std::string text = paragraph(*diagnosis);
   EXPECT_TRUE(text.starts_with("Physics is missing, but no effect is certain enough to name")) << text;
+  Diagnosis of_few_values = *diagnosis;
+  of_few_values.too_few_values = true;
+  of_few_values.summary = summary_of(of_few_values);
+  EXPECT_TRUE(paragraph(of_few_values).starts_with("Whether physics is missing cannot be told: "));
   EXPECT_EQ(text.find("current"), std::string::npos) << "these recordings have no drive: " << text;
   for (const json& shape : record["augmented"]["shapes"]) {
-    EXPECT_NE(text.find("Not sure enough to name: "), std::string::npos) << text;
+    EXPECT_NE(text.find("Too uncertain to name: "), std::string::npos) << text;
     EXPECT_NE(text.find(shape["title"].get<std::string>()), std::string::npos) << text;
   }
 }
