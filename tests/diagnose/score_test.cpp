@@ -124,22 +124,6 @@ TEST(Valleys, AreAllStartedInBeforeOneIsTwice) {
   EXPECT_EQ(in_several_valleys(sorted, {true, true}, 2), (Points{sorted[0], sorted[1]}));
 }
 
-TEST(Stage, WhatIsAskedForIsRefittedBehindASeriesElementToo) {
-  const std::vector<Recording> all = recordings_with({"compliance"}, {{"compliance.C", 3e-6}}, 0.01);
-  const Workbench bench = bench_of(all, all);
-  const Fit base = bench.from_anywhere({"viscous", {"compliance"}, {}}, 2000);
-  std::vector<Extension> candidates;
-  for (const char* id : {"inertia", "quadratic-damping", "cubic-stiffness", "gas-spring", "coulomb-friction",
-                         "asymmetry", "offset-force"}) {
-    candidates.push_back(effect_extension(id));
-  }
-  const std::vector<Tried> first = stage(bench, base, candidates, 1000.0);
-  const Extension& last = first.back().part;
-  ASSERT_FALSE(first.back().fit.has_value()) << "all are refitted anyway";
-  const std::vector<Tried> again = stage(bench, base, candidates, 1000.0, nullptr, {last});
-  EXPECT_TRUE(std::ranges::find(again, last, &Tried::part)->fit.has_value());
-}
-
 TEST(Score, OfAnEffectThatIsLinearIsWhatARefitGains) {
   const std::vector<Recording> all = recordings_with({"inertia"}, {{"inertia.m", 6.0}}, 0.01);
   const Workbench bench = bench_of(all, all);

@@ -52,7 +52,7 @@ std::vector<bool> chosen(const std::vector<Scored>& scores, const std::vector<Ex
     const bool kin = !scores.front().part.is_law() && !scores[k].part.is_law() &&
                      is_kin(scores.front().part.effect, scores[k].part.effect);
     const bool asked = std::ranges::find(always, scores[k].part) != always.end();
-    result[k] = asked || (count < most && (k < refitted_at_least || near || kin));
+    result[k] = count < most && (k < refitted_at_least || near || kin || asked);
     count += result[k] ? 1 : 0;
   }
   return result;

@@ -40,8 +40,8 @@ Tried weighed(const Extension& part, const Fit& fit, double squares_before, std:
               double independent);
 
 // All candidates behind `before`, the promising ones refitted: best first, those refitted before the others. Members of
-// `always` are refitted whatever their score. The base's parameters start from those of `before` and, where given, of
-// `also`.
+// `always` are refitted whatever their score, but behind a series element, where the four best scores take all places:
+// refits cost most there. The base's parameters start from those of `before` and, where given, of `also`.
 std::vector<Tried> stage(const Workbench& bench, const Fit& before, const std::vector<Extension>& candidates,
                          double independent, const Fit* also = nullptr, const std::vector<Extension>& always = {});
 
