@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/extent.hpp"
 #include "core/robust.hpp"
 
 namespace hysteron {
@@ -67,23 +68,6 @@ bool varies(const std::vector<double>& drive) {
   }
   const auto [low, high] = std::ranges::minmax(drive);
   return high - low > least_move(drive);
-}
-
-double turned_by(const std::vector<double>& values) {
-  if (values.empty()) {
-    return 0.0;
-  }
-  double low = values.front();
-  double high = values.front();
-  double rise = 0.0;
-  double fall = 0.0;
-  for (const double value : values) {
-    low = std::min(low, value);
-    high = std::max(high, value);
-    rise = std::max(rise, value - low);
-    fall = std::max(fall, high - value);
-  }
-  return std::min(rise, fall);
 }
 
 bool returns(const std::vector<double>& drive) { return !drive.empty() && turned_by(drive) > least_move(drive); }

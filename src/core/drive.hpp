@@ -17,10 +17,6 @@ double drive_noise(const std::vector<double>& drive);
 // Whether it moves by more than 2 % of its largest size, and by more than its noise does.
 bool varies(const std::vector<double>& drive);
 
-// The smaller of how far the values rise and how far they fall, between any two of them in their order: 0 where they
-// only rise, or only fall.
-double turned_by(const std::vector<double>& values);
-
 // Whether it rises and falls, each as varies() asks.
 bool returns(const std::vector<double>& drive);
 

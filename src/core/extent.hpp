@@ -25,4 +25,23 @@ inline double span_of(std::span<const double> values) {
   return high - low;
 }
 
+// The smaller of how far the values rise and how far they fall, between any two of them in their order: 0 where they
+// only rise, or only fall.
+inline double turned_by(std::span<const double> values) {
+  if (values.empty()) {
+    return 0.0;
+  }
+  double low = values.front();
+  double high = values.front();
+  double rise = 0.0;
+  double fall = 0.0;
+  for (const double value : values) {
+    low = std::min(low, value);
+    high = std::max(high, value);
+    rise = std::max(rise, value - low);
+    fall = std::max(fall, high - value);
+  }
+  return std::min(rise, fall);
+}
+
 }  // namespace hysteron

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "core/extent.hpp"
 #include "core/squared.hpp"
@@ -46,21 +47,6 @@ constexpr double held_else = 0.25;
 // that time, whatever its time constant: less than a quarter of its span. One that turns round in its middle loses
 // more.
 constexpr double turns = 0.25;
-
-// The smaller of how far the values rise and how far they fall, between any two of them in their order.
-double rises_and_falls(const std::vector<double>& values, std::size_t first, std::size_t count) {
-  double low = values[first];
-  double high = values[first];
-  double rise = 0.0;
-  double fall = 0.0;
-  for (std::size_t n = first; n < first + count; ++n) {
-    low = std::min(low, values[n]);
-    high = std::max(high, values[n]);
-    rise = std::max(rise, values[n] - low);
-    fall = std::max(fall, high - values[n]);
-  }
-  return std::min(rise, fall);
-}
 
 std::vector<double> thinned(const std::vector<double>& values) {
   const std::size_t stride = values.size() / most_looked_at + 1;
@@ -169,7 +155,7 @@ std::optional<Stretch> frozen_stretch_of(const std::vector<double>& values, cons
   Stretch frozen;
   std::size_t longest = 0;  // of the others
   for_each_run(values, [&](std::size_t first, std::size_t count) {
-    if (rises_and_falls(other, first, count) < enough) {
+    if (turned_by(std::span(other).subspan(first, count)) < enough) {
       longest = std::max(longest, count);
     } else if (count > frozen.count) {
       frozen = {first, count};

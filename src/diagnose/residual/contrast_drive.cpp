@@ -6,6 +6,7 @@
 #include <set>
 
 #include "core/drive.hpp"
+#include "core/extent.hpp"
 #include "diagnose/residual/contrast_panel.hpp"
 
 namespace hysteron::contrast {
