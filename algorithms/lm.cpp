@@ -13,12 +13,14 @@ namespace {
 constexpr Setting settings[] = {
     {"tolerance", 1e-7, 1e-16, 0.1,
      "a descent ends when the squared cost falls by less than this share of itself twice"},
+    longest_step_setting,
 };
 
 class LevenbergMarquardt final : public Solver {
  public:
   explicit LevenbergMarquardt(const Problem& problem)
-      : descent_(start_of(problem), problem.linear, setting(problem, solver_lm, "tolerance")) {}
+      : descent_(start_of(problem), problem.linear, setting(problem, solver_lm, "tolerance"),
+                 setting(problem, solver_lm, longest_step_setting.name)) {}
 
   Request ask() override {
     Request request;

@@ -32,6 +32,7 @@ constexpr Setting settings[] = {
     {"starts", 16.0, 1.0, 1e6, "descents ended before agreement may stop the run"},
     {"tolerance", 1e-7, 1e-16, 0.1,
      "a descent ends when the squared cost falls by less than this share of itself twice"},
+    longest_step_setting,
     {"agreement", 3.0, 0.0, 1e6, "descents that must end at the best cost; 0 uses the whole budget"},
 };
 
@@ -43,6 +44,7 @@ class MultistartLm final : public Solver {
     agreement_ = static_cast<std::size_t>(setting(problem, solver_multistart_lm, "agreement"));
     width_ = static_cast<std::size_t>(setting(problem, solver_multistart_lm, "width"));
     tolerance_ = setting(problem, solver_multistart_lm, "tolerance");
+    longest_step_ = setting(problem, solver_multistart_lm, longest_step_setting.name);
     screening_ = problem.screening && affords(descent_points * width_);
     for (std::size_t k = 0; k < at_once(); ++k) {
       descents_.push_back(begin(begun_++));
@@ -126,7 +128,7 @@ class MultistartLm final : public Solver {
       ++diverged_;
       if (screening_ && from_start) {
         // Too stiff for coarse steps, which says nothing of the problem's start on the full objective.
-        finishing_.emplace_back(point_of(0), problem_.linear, tolerance_);
+        finishing_.emplace_back(point_of(0), problem_.linear, tolerance_, longest_step_);
       }
       return;
     }
@@ -140,7 +142,7 @@ class MultistartLm final : public Solver {
         taken_, [&](double other) { return std::fabs(cost - other) <= screened_tolerance * other; });
     if ((promising || from_start) && !known) {
       taken_.push_back(cost);
-      finishing_.emplace_back(descent.best(), problem_.linear, tolerance_);
+      finishing_.emplace_back(descent.best(), problem_.linear, tolerance_, longest_step_);
     }
   }
 
@@ -171,8 +173,8 @@ class MultistartLm final : public Solver {
 
   Descent begin(std::size_t index) {
     Eigen::VectorXd point = point_of(index);
-    return screening_ ? Descent(std::move(point), problem_.linear, 1e-2, true)
-                      : Descent(std::move(point), problem_.linear, tolerance_);
+    return screening_ ? Descent(std::move(point), problem_.linear, 1e-2, longest_step_, true)
+                      : Descent(std::move(point), problem_.linear, tolerance_, longest_step_);
   }
 
   Problem problem_;
@@ -190,6 +192,7 @@ class MultistartLm final : public Solver {
   std::size_t starts_ = 0;
   std::size_t agreement_ = 0;
   double tolerance_ = 0.0;
+  double longest_step_ = 0.0;
   bool screening_ = false;
 };
 

@@ -2,7 +2,8 @@
 // Gauss-Newton matrix there, propose the next.
 //   minimise  g.s + s.(H + D/radius).s / 2   subject to  0 <= u + s <= 1,   D = diag(H)
 // by an active set (components that would leave the box are put on it and the rest solved again).
-// No coordinate moves further than a quarter of its box in a step.
+// No coordinate that is not projected out moves further than `longest_step` of its box in a step: where the cost hardly
+// depends on it, the step is long and the matrix tells nothing of what is there.
 // Radius as in Ceres: grown by 1/max(1/3, 1 - (2 rho - 1)^3), shrunk by 2, 4, 8, ... on rejection.
 // Coordinates in which the residual is affine are projected out (Golub and Pereyra 1973, doi 10.1137/0710036): at every
 // point told, their optimum in the box is exact from the same matrices, and costs are compared there.
@@ -19,14 +20,19 @@
 
 namespace hysteron {
 
+// Chosen among steps of an eighth of the box to the whole on training problems (results/longest-step.md).
+inline constexpr Setting longest_step_setting = {"longest_step", 0.25, 1e-3, 1.0,
+                                                 "share of its box that a parameter moves by in a step at most"};
+
 class Descent {
  public:
   // Ends when the squared cost has fallen by less than `tolerance` of itself in two steps running. With a tolerance
   // below `polishing` steps are taken on even where they no longer show in the cost, which double precision leaves half
   // of the digits of the parameters, until they are shorter than a hundredth of the tolerance. One that anticipates
   // ends as soon as a step that the quadratic model foretold leaves it so little to gain, and counts that as gained.
-  Descent(Eigen::VectorXd start, const std::vector<bool>& linear, double tolerance = 1e-7, bool anticipates = false)
-      : next_(std::move(start)), tolerance_(tolerance), anticipates_(anticipates) {
+  Descent(Eigen::VectorXd start, const std::vector<bool>& linear, double tolerance = 1e-7,
+          double longest_step = longest_step_setting.value, bool anticipates = false)
+      : next_(std::move(start)), tolerance_(tolerance), longest_step_(longest_step), anticipates_(anticipates) {
     for (std::size_t k = 0; k < linear.size(); ++k) {
       if (linear[k]) {
         linear_.push_back(static_cast<Eigen::Index>(k));
@@ -113,10 +119,6 @@ class Descent {
   static constexpr double foretold = 0.5;
   static constexpr double undamped = 10.0;
   static constexpr double polishing = 1e-10;
-  // Of the box, in a coordinate that is not projected out: where the cost hardly depends on one, its step is long and
-  // the matrix tells nothing about what is there. Chosen on the training problems of scripts/race.py, between 0.18 and
-  // 0.35 of which none does better at every budget.
-  static constexpr double longest_step = 0.25;
   static constexpr double rounding = 1e-13;  // of a squared cost
   static constexpr int polishing_steps = 20;
 
@@ -235,7 +237,7 @@ class Descent {
         damped(k, k) += std::max(matrix_(k, k), 1e-12) / radius_;
       }
       Eigen::VectorXd s = bounded_step(damped, gradient_, at_);
-      s *= std::min(1.0, longest_step / longest(s));
+      s *= std::min(1.0, longest_step_ / longest(s));
       predicted_ = -(2.0 * gradient_.dot(s) + s.dot(matrix_ * s));
       const double shortest = std::min(1e-9, 0.01 * tolerance_);
       if (s.lpNorm<Eigen::Infinity>() < shortest) {
@@ -258,6 +260,7 @@ class Descent {
   Eigen::MatrixXd matrix_;
   std::string reason_;
   double tolerance_;
+  double longest_step_;
   bool anticipates_;
   double best_squares_ = 0.0;
   double cost_ = 1e300;
