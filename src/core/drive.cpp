@@ -33,6 +33,12 @@ double middle_of_parabola(const std::vector<double>& drive, std::size_t n, std::
   return 3.0 * sum / ((2.0 * m - 1.0) * (2.0 * m + 1.0) * (2.0 * m + 3.0));
 }
 
+// What the drive has to move by not to be constant.
+double least_move(const std::vector<double>& drive) {
+  const auto [low, high] = std::ranges::minmax(drive);
+  return std::max(least_variation * std::max(std::fabs(low), std::fabs(high)), least_over_noise * drive_noise(drive));
+}
+
 }  // namespace
 
 std::vector<double> fourth_differences(const std::vector<double>& values) {
@@ -51,16 +57,6 @@ double drive_noise(const std::vector<double>& drive) {
   }
   return robust_deviation(fourth_differences(drive));
 }
-
-namespace {
-
-// What the drive has to move by not to be constant.
-double least_move(const std::vector<double>& drive) {
-  const auto [low, high] = std::ranges::minmax(drive);
-  return std::max(least_variation * std::max(std::fabs(low), std::fabs(high)), least_over_noise * drive_noise(drive));
-}
-
-}  // namespace
 
 bool varies(const std::vector<double>& drive) {
   if (drive.empty()) {

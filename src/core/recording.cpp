@@ -110,4 +110,13 @@ std::vector<UnusedOfAll> unused_of_all(const std::vector<Recording>& recordings)
 
 bool drive_varies(const Recording& recording) { return varies(recording.drive); }
 
+std::size_t drive_levels(const std::vector<Recording>& recordings) {
+  std::vector<double> values;
+  for (const Recording& recording : recordings) {
+    const std::vector<double> drive = quiet_condition(recording.drive);
+    values.insert(values.end(), drive.begin(), drive.end());
+  }
+  return count_levels(std::move(values));
+}
+
 }  // namespace hysteron

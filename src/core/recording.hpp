@@ -74,6 +74,8 @@ std::vector<UnusedOfAll> unused_of_all(const std::vector<Recording>& recordings)
 Recording every_kth(const Recording& recording, std::size_t k);
 // Whether the drive moves, by more than its noise (core/drive.hpp); false when there is none.
 bool drive_varies(const Recording& recording);
+// count_levels() of all recordings: of one in which the drive is constant its mean counts, else every sample.
+std::size_t drive_levels(const std::vector<Recording>& recordings);
 
 enum class Role { unassigned, fit, validate };
 

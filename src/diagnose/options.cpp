@@ -1,7 +1,5 @@
 #include "diagnose/options.hpp"
 
-#include "diagnose/signal/drive_levels.hpp"
-
 namespace hysteron {
 
 std::vector<std::string> alternative_laws() {

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/drive.hpp"
 #include "core/error.hpp"
 #include "core/extent.hpp"
 #include "core/message.hpp"
+#include "diagnose/options.hpp"
 #include "fit/predict.hpp"
 #include "fit/usable.hpp"
 #include "fit/weighting.hpp"
@@ -313,12 +313,11 @@ bool follows_drive(const Identification& result, const Recording& recording, con
   return force(recording) != force(without);
 }
 
-// "alpha:1,c0:1": what a drive acts on in most dampers.
-std::string likely_laws(const Layout& layout) {
+// "alpha:1,c0:1": the laws that `diagnose` assumes.
+std::string likely_laws(const std::string& model, const std::vector<Recording>& recordings) {
   std::string result;
-  for (const Parameter& parameter : layout.model().law->parameters) {
-    const bool likely = parameter.role == PhysicalRole::yield_force || parameter.role == PhysicalRole::damping;
-    if (likely && !parameter.fixed) result += (result.empty() ? "" : ",") + std::string(parameter.name) + ":1";
+  for (const auto& [name, order] : base_laws(model, recordings)) {
+    result += (result.empty() ? "" : ",") + fmt::format("{}:{}", name, order);
   }
   return result.empty() ? "PARAMETER:1" : result;
 }
@@ -327,21 +326,19 @@ std::string likely_laws(const Layout& layout) {
 Message drive_hint(const Identification& result, const std::vector<Recording>& recordings,
                    const ObjectiveOptions& objective) {
   const DriveKind kind = recordings.front().drive_kind;
-  std::vector<double> values;
-  bool moves = false;
-  for (const Recording& recording : recordings) {
-    if (kind == DriveKind::none || recording.drive_kind != kind) return "";
-    const std::vector<double> drive = quiet_condition(recording.drive);
-    moves = moves || drive.size() > 1;
-    values.insert(values.end(), drive.begin(), drive.end());
-  }
-  const std::size_t levels = count_levels(values);
+  const bool of_one_kind = std::ranges::all_of(recordings, [&](const Recording& r) { return r.drive_kind == kind; });
   const auto largest = [](const Recording& recording) { return peak_of(recording.drive); };
-  if (levels < 2 || follows_drive(result, *std::ranges::max_element(recordings, {}, largest), objective)) return "";
+  const std::size_t levels = drive_levels(recordings);
+  if (kind == DriveKind::none || !of_one_kind || levels < 2 ||
+      follows_drive(result, *std::ranges::max_element(recordings, {}, largest), objective)) {
+    return "";
+  }
   const std::string drive = kind == DriveKind::voltage ? "voltage" : "current";
-  return (moves ? "the " + drive + " of the recordings varies"
-                : fmt::format("the recordings hold {} levels of the {}", levels, drive)) +
-         " and no parameter follows it: " + Option::by_current + " " + likely_laws(result.layout);
+  return (std::ranges::any_of(recordings, drive_varies)
+              ? "the " + drive + " of the recordings varies"
+              : fmt::format("the recordings hold {} levels of the {}", levels, drive)) +
+         " and no parameter follows it: " + Option::by_current + " " +
+         likely_laws(std::string(result.layout.model().law->id), recordings);
 }
 
 }  // namespace

@@ -8,13 +8,12 @@
 
 #include "diagnose/search/observe.hpp"
 #include "diagnose/search/signature.hpp"
+#include "diagnose/search/stage.hpp"
 #include "fit/parallel.hpp"
 
 namespace hysteron {
 namespace {
 
-// What the criterion asks for, beside the price of a parameter.
-constexpr double asked_evidence = 12.0;
 // A change of this part of the peak force, root mean square, is none: integration rounds by as much.
 constexpr double least_change = 1e-6;
 
@@ -81,7 +80,7 @@ std::string value_at(const Fit& neutral, const std::vector<std::size_t>& coordin
 }
 
 Unobservable limit_of(const Workbench& bench, const Fit& fit, const Misfit& misfit, const std::string& effect,
-                      const Eigen::VectorXd& at, const Eigen::MatrixXd& basis) {
+                      double candidates, const Eigen::VectorXd& at, const Eigen::MatrixXd& basis) {
   Unobservable result;
   result.id = effect;
   const Fit neutral = at_neutral_size(bench, fit, effect);
@@ -90,8 +89,9 @@ Unobservable limit_of(const Workbench& bench, const Fit& fit, const Misfit& misf
     result.reason = "its parameters are all held";
     return result;
   }
-  // left^2 / squares * independent values = what the criterion asks for.
-  const double asked = std::sqrt((asked_evidence + std::log(misfit.independent)) * misfit.squares / misfit.independent);
+  // left^2 / squares * independent values = what the criterion asks for (worth() in stage.hpp), and a parameter's price.
+  const double asked_evidence = least_evidence_of_a_place + 2.0 * std::log(candidates) + std::log(misfit.independent);
+  const double asked = std::sqrt(asked_evidence * misfit.squares / misfit.independent);
   const std::vector<Probe> probes =
       probes_of(bench, neutral, coordinates, at, basis, [&](const Probe& probe) { return probe.left >= asked; });
   if (probes.empty()) {
@@ -130,9 +130,10 @@ std::vector<Unobservable> detection_limits(const Workbench& bench, const Fit& fi
     return {};
   }
   const Eigen::MatrixXd basis = imitable(bench, fit, at);
+  const auto candidates = static_cast<double>(effects.size());
   std::vector<Unobservable> result(effects.size());
   parallel_for(effects.size(), bench.options().threads,
-               [&](std::size_t k) { result[k] = limit_of(bench, fit, misfit, effects[k], at, basis); });
+               [&](std::size_t k) { result[k] = limit_of(bench, fit, misfit, effects[k], candidates, at, basis); });
   return result;
 }
 

@@ -8,7 +8,6 @@
 #include "core/drive.hpp"
 #include "diagnose/search/relatives.hpp"
 #include "diagnose/search/wording.hpp"
-#include "diagnose/signal/drive_levels.hpp"
 #include "io/channel_lag.hpp"
 
 namespace hysteron {

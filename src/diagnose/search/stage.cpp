@@ -5,7 +5,6 @@
 
 #include "diagnose/residual/misfit.hpp"
 #include "diagnose/search/relatives.hpp"
-#include "diagnose/signal/drive_levels.hpp"
 #include "fit/parallel.hpp"
 
 namespace hysteron {
