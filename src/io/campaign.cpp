@@ -197,13 +197,45 @@ std::size_t limit_of_each(const std::vector<Item>& items, std::size_t total) {
   return kept_of_each(samples, total);
 }
 
-// Where every recording says when it was started, the time since the first is kept beside the unused columns.
-void tell_clock(std::vector<Recording>& recordings) {
-  const auto untold = [](const Recording& recording) { return !recording.started; };
-  if (recordings.size() < 2 || std::ranges::any_of(recordings, untold)) return;
-  const auto by_start = [](const Recording& recording) { return *recording.started; };
-  const double first = *std::ranges::min(recordings, {}, by_start).started;
+bool has_start(const Recording& recording) { return recording.started.has_value(); }
+
+double first_start(const std::vector<Recording>& recordings) {
+  return *std::ranges::min(recordings, {}, [](const Recording& one) { return *one.started; }).started;
+}
+
+// Where every recording says when it was started, the time since the first is kept beside the unused columns. One start
+// that is not told takes it from all.
+void tell_clock(std::vector<Recording>& recordings, const ReadOptions& options) {
+  if (std::ranges::none_of(recordings, has_start)) return;
+  for (const Recording& recording : recordings) {
+    if (recording.started || !options.remark) continue;
+    const std::string text = "no start that can be read, while other recordings have one: the clock is left out of all";
+    options.remark({recording.file, Remark::Kind::dialect, text, text});
+  }
+  if (recordings.size() < 2 || !std::ranges::all_of(recordings, has_start)) return;
+  const double first = first_start(recordings);
   for (Recording& recording : recordings) recording.unused.push_back({"clock [s]", *recording.started - first});
+}
+
+// Where parameters follow the clock and no recording holds a column or a number of it, it is that of the starts.
+void follow_clock(std::vector<Recording>& recordings) {
+  const auto has_clock = [](const Recording& recording) {
+    return std::ranges::find(recording.conditions, clock_condition, &ConditionChannel::name) !=
+           recording.conditions.end();
+  };
+  if (std::ranges::all_of(recordings, has_clock)) return;
+  for (const Recording& recording : recordings) {
+    if (recording.started && !has_clock(recording)) continue;
+    throw InputError(recording.file + (recording.started ? ": has a column 'clock', and other recordings have none"
+                                                         : ": says no start, and parameters follow the clock") +
+                     "; expected a column 'clock' in all of them, or a comment `# start: 2026-11-24T14:50:58` above the "
+                     "rows, or starts in campaign.toml");
+  }
+  const double first = first_start(recordings);
+  for (Recording& recording : recordings) {
+    const auto at = std::ranges::lower_bound(recording.conditions, clock_condition, {}, &ConditionChannel::name);
+    recording.conditions.insert(at, {std::string(clock_condition), "s", {*recording.started - first}});
+  }
 }
 
 }  // namespace
@@ -239,9 +271,15 @@ Campaign load_campaign(const std::vector<std::string>& data, const ReadOptions& 
     remark_on_numbers(of_each, valid_utf8(item.name));
     take_numbers(campaign.recordings.back(), of_each);
     if (item.start) campaign.recordings.back().started = item.start;
+    // A number for the clock is meant, wherever the starts lie.
+    if (of_each.numbers.contains(std::string(clock_condition))) campaign.recordings.back().started.reset();
     campaign.roles.push_back(item.role);
   }
-  tell_clock(campaign.recordings);
+  if (std::ranges::find(of_each.conditions, clock_condition) == of_each.conditions.end()) {
+    tell_clock(campaign.recordings, options);
+  } else {
+    follow_clock(campaign.recordings);
+  }
   agree_on_units(campaign.recordings);
   return campaign;
 }

@@ -151,6 +151,8 @@ std::vector<ConditionSource> assign_conditions(const std::vector<Column>& column
       if (recorded) fail_both(number->second, name, file);
       source.number = number->second;
       if (source.number->unit.empty()) source.number->unit = unit_of_plain(name);
+    } else if (!recorded && name == clock_condition) {
+      continue;
     } else if (!recorded) {
       std::string list;
       std::string likely = "NAME";  // a column of which the name is a part, as "oil temperature" of a temperature

@@ -12,6 +12,9 @@
 
 namespace hysteron {
 
+// The condition that needs no column: the start of every recording, s since that of the first (io/campaign.hpp).
+inline constexpr std::string_view clock_condition = "clock";
+
 // A name as the command line or campaign.toml writes it, in lower case without spaces around it. What is wrong with it
 // is said behind `where` in an InputError: empty, or a channel of the motion or the force.
 [[nodiscard]] std::string condition_name(std::string_view text, const std::string& where);
@@ -39,8 +42,8 @@ struct ConditionSource {
   std::optional<ConditionNumber> number;
 };
 
-// Of every name of options.conditions. InputError at file:line where a recording has neither column nor number for one,
-// or both.
+// Of every name of options.conditions, but for a clock that has neither. InputError at file:line where a recording has
+// neither column nor number for one, or both.
 [[nodiscard]] std::vector<ConditionSource> assign_conditions(const std::vector<Column>& columns, const Sources& sources,
                                                              const ReadOptions& options, const std::string& file,
                                                              int line);

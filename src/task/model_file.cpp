@@ -28,7 +28,7 @@ namespace {
 std::optional<double> clock_since(const std::vector<Recording>& recordings) {
   std::optional<double> since;
   for (const Recording& recording : recordings) {
-    const auto clock = std::ranges::find(recording.conditions, "clock", &ConditionChannel::name);
+    const auto clock = std::ranges::find(recording.conditions, clock_condition, &ConditionChannel::name);
     if (clock == recording.conditions.end() || clock->values.size() != 1 || !recording.started) return std::nullopt;
     const double zero = *recording.started - clock->values.front();
     constexpr double rounding = 1e-3;  // s
@@ -169,8 +169,8 @@ json model_json(const Identification& result, const Campaign& campaign, const Id
                  {"seed", options.seed},
                  {"solver", result.solvers[result.chosen].run.solver}}}};
   if (json by = by_json(result.layout); !by.empty()) {
-    if (by.contains("clock")) {
-      if (const auto since = clock_since(campaign.recordings)) by["clock"]["since"] = *since;
+    if (by.contains(clock_condition)) {
+      if (const auto since = clock_since(campaign.recordings)) by[std::string(clock_condition)]["since"] = *since;
     }
     file["by"] = std::move(by);
   }
@@ -293,7 +293,7 @@ std::vector<ConditionRange> conditions_in(const json& root, const std::vector<st
     }
     for (const auto& [key, value] : law.items()) {
       const bool known = key == "unit" || key == "from" || key == "to" || key == "parameters";
-      if (!known && !(name == "clock" && key == "since")) {
+      if (!known && !(name == clock_condition && key == "since")) {
         throw InputError("by." + name + " has an unknown member '" + key + "', expected unit, from, to, parameters");
       }
     }
@@ -379,8 +379,9 @@ StoredModel parse_model(std::string_view text, const std::string& path) {
       result.held.push_back(card.initial);
     }
     result.conditions = conditions_in(root, names);
-    if (const json by = root.value("by", json::object()); by.contains("clock") && by["clock"].contains("since")) {
-      result.clock_since = by["clock"]["since"].get<double>();
+    if (const json clock = root.value("by", json::object()).value(std::string(clock_condition), json::object());
+        clock.contains("since")) {
+      result.clock_since = clock["since"].get<double>();
     }
     for (const json& entry : root.at("parameters")) {
       const auto name = entry.value("parameter", entry.at("name").get<std::string>());
@@ -469,7 +470,7 @@ void reorder(StoredModel& stored, const std::vector<ConditionRange>& to) {
 
 // Laws in the clock count from `since`, as that of the recordings does: (clock + later)^k, multiplied out.
 void count_clock_from(StoredModel& stored, double since) {
-  const auto clock = std::ranges::find(stored.conditions, "clock", &ConditionRange::name);
+  const auto clock = std::ranges::find(stored.conditions, clock_condition, &ConditionRange::name);
   const auto c = static_cast<std::size_t>(clock - stored.conditions.begin());
   const double later = since - *stored.clock_since;
   const std::vector<Term> terms = std::move(stored.terms);

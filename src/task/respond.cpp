@@ -94,7 +94,7 @@ MassResponse table_of(const Recording& recording, const Excitation& excitation, 
   // By the names that an identification from the motion reads: its force is what excites the mass.
   if (excitation.force) add("force [N]", signal(*excitation.force));
   const std::vector<double> force = last(motion.force);
-  add("damper force [N]", force);
+  add(std::string(damper_force) + " [N]", force);
   if (excitation.drive) {
     add(recording.drive_kind == DriveKind::voltage ? "voltage [V]" : "current [A]", signal(*excitation.drive));
   }

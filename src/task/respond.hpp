@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "respond/respond.hpp"
@@ -11,6 +12,9 @@
 #include "task/model_file.hpp"
 
 namespace hysteron {
+
+// The column of the model's own force in what `respond` writes, beside that of the force on the mass.
+inline constexpr std::string_view damper_force = "damper force";
 
 struct ResponseRequest {
   double mass = 1.0;       // kg

@@ -1,7 +1,9 @@
 // Laws in columns and numbers of recordings, and recordings without time, as a user meets them.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -144,11 +146,16 @@ TEST_F(Pressed, TheClockOfRecordingsIsFollowed) {
   }
   const Outcome fitted = fit({"clock", "--by", "clock=c0:1"}, "a");
   ASSERT_EQ(fitted.status, 0) << fitted.err;
-  for (const json& entry : model("a")["parameters"]) {
-    if (entry["name"] != "c0*clock") continue;
-    EXPECT_EQ(entry["unit"], "N s/m/s");
-    EXPECT_NEAR(entry["value"].get<double>(), 15.0 / 60.0, 1e-4);
-  }
+  const json parameters = model("a")["parameters"];
+  const auto slope = std::ranges::find_if(parameters, [](const json& one) { return one["name"] == "c0*clock"; });
+  ASSERT_NE(slope, parameters.end()) << parameters;
+  EXPECT_EQ((*slope)["unit"], "N s/m/s");
+  EXPECT_NEAR((*slope)["value"].get<double>(), 15.0 / 60.0, 1e-4);
+  // campaign.toml asks for it as well.
+  write(folder_ / "clock/campaign.toml", "schema = \"hysteron.campaign/1\"\n[by.clock]\nc0 = 1\n");
+  ASSERT_EQ(fit({"clock"}, "toml").status, 0);
+  EXPECT_EQ(model("toml")["parameters"].dump(), parameters.dump());
+  std::filesystem::remove(folder_ / "clock/campaign.toml");
   // The first of other recordings began at another time.
   started("later", 30, "# start: 2026-11-24T14:30:00\n");
   for (const std::vector<std::string>& more : {std::vector<std::string>{}, {"--at", "clock=1200"}}) {
