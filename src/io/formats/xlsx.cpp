@@ -4,10 +4,10 @@
 // A workbook is a zip archive of XML. One of its sheets is read as CSV text is: the same names, units, rules and
 // messages, whose line numbers are the rows of the sheet. The table of a sheet begins with the first row of names that
 // has numbers below; its columns are those with a name, and it ends where all of them are empty.
+#include <fmt/format.h>
 #include <zip.h>
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstring>
@@ -207,11 +207,6 @@ bool looks_like_a_number(std::string_view text) {
   std::string copy(text);
   std::ranges::replace(copy, ',', '.');
   return number_of(copy).has_value();
-}
-
-std::string shortest(double value) {
-  std::array<char, 32> digits{};
-  return {digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr};
 }
 
 // Texts that cells name by number.
@@ -668,7 +663,7 @@ class WorkbookReader {
     const std::map<std::uint32_t, std::uint32_t> dates = first_dates(sheet, table);
     for (std::size_t k = 0; k < columns.size(); ++k) {
       const auto date = dates.find(table.columns[k]);
-      const std::optional<Quantity> quantity = date == dates.end() ? std::nullopt : channel_of(columns, k);
+      const std::optional<Quantity> quantity = date == dates.end() ? std::nullopt : channel_of(columns[k]);
       if (!quantity) continue;
       if (*quantity != Quantity::time) {
         fail_at(date->second, "the " + std::string(quantity_name(*quantity)) + " in column " +
@@ -695,26 +690,15 @@ class WorkbookReader {
     return rows;
   }
 
-  // The channel of a column: by a mapping, its name, or, where no column has such a name, its last word.
-  [[nodiscard]] std::optional<Quantity> channel_of(const std::vector<Column>& columns, std::size_t k) const {
-    const Column& column = columns[k];
+  // By a mapping or its name; a time by the last word of its name, too.
+  [[nodiscard]] std::optional<Quantity> channel_of(const Column& column) const {
     const auto mapped = std::ranges::find_if(options_.columns, [&](const auto& entry) {
       return trimmed(entry.second) == column.text ||
              lower_case(split_column(entry.second).name) == lower_case(column.name);
     });
     if (mapped != options_.columns.end()) return quantity_of_name(mapped->first);
-    const auto is_mapped = [&](std::optional<Quantity> quantity) {
-      return std::ranges::any_of(options_.columns,
-                                 [&](const auto& entry) { return quantity_of_name(entry.first) == quantity; });
-    };
-    std::optional<Quantity> quantity = quantity_of_column(column);
-    if (!quantity) {
-      quantity = quantity_of_last_word(column.name);
-      if (std::ranges::any_of(columns, [&](const Column& other) { return quantity_of_name(other.name) == quantity; })) {
-        return std::nullopt;
-      }
-    }
-    return is_mapped(quantity) ? std::nullopt : quantity;
+    if (const auto quantity = quantity_of_column(column)) return quantity;
+    return quantity_of_last_word(column.name) == Quantity::time ? std::optional(Quantity::time) : std::nullopt;
   }
 
   void dates_to_seconds(Sheet& sheet, const Table& table, const Column& column, std::uint32_t at) const {
@@ -742,7 +726,7 @@ class WorkbookReader {
         if (!days) continue;  // refused as text that is no number
         if (!first) first = days;
         before = row;
-        sheet.write(cell, shortest((*days - *first) * seconds_a_day));
+        sheet.write(cell, fmt::format("{}", (*days - *first) * seconds_a_day));
       }
     }
     if (options_.remark) {
