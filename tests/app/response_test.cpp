@@ -43,6 +43,14 @@ class ResponseOfAMass : public Program {
     ASSERT_EQ(outcome.status, 0) << outcome.err;
   }
 
+  // Of out/model.json, by name.
+  [[nodiscard]] std::map<std::string, double> parameters() const {
+    const json model = json::parse(read(folder_ / "out/model.json"));
+    std::map<std::string, double> result;
+    for (const json& one : model.at("parameters")) result[one.at("name").get<std::string>()] = one.at("value");
+    return result;
+  }
+
   [[nodiscard]] Outcome fit_response() const {
     return run({"fit", "shaker", "--response", "--mass", "2", "--model", "viscous", "--budget", "500", "--quiet",
                 "--out", "out"});
@@ -55,9 +63,10 @@ TEST_F(ResponseOfAMass, WhatIsWrittenIsIdentifiedFrom) {
             "time [s],displacement [m],velocity [m/s],acceleration [m/s^2],force [N],damper force [N]");
   const Outcome outcome = fit_response();
   ASSERT_EQ(outcome.status, 0) << outcome.err;
-  for (const json& one : json::parse(read(folder_ / "out/model.json")).at("parameters")) {
-    const double truth = one.at("name") == "c0" ? 8.0 : one.at("name") == "k0" ? 800.0 : 0.0;
-    EXPECT_NEAR(one.at("value").get<double>(), truth, 1e-3) << one.at("name");
+  const std::map<std::string, double> found = parameters();
+  for (const auto& [name, truth] : {std::pair("c0", 8.0), {"k0", 800.0}, {"f0", 0.0}}) {
+    ASSERT_TRUE(found.contains(name)) << name;
+    EXPECT_NEAR(found.at(name), truth, 1e-3) << name;
   }
   // Its own force is that of the damper where that is asked for.
   const Outcome damper = run({"fit", "shaker", "--column", "force=damper force [N]", "--model", "viscous", "--budget",
@@ -137,10 +146,10 @@ TEST_F(ResponseOfAMass, TheHystereticOscillatorIsIdentified) {
   ASSERT_EQ(fitted.status, 0) << fitted.err;
   const std::map<std::string, double> truth = {
       {"k_z", 5e4}, {"c0", 10.0}, {"k0", 5e4}, {"on", -300.0}, {"off", 1900.0}};
-  for (const json& one : json::parse(read(folder_ / "out/model.json")).at("parameters")) {
-    const auto known = truth.find(one.at("name").get<std::string>());
-    if (known == truth.end()) continue;
-    EXPECT_NEAR(one.at("value").get<double>(), known->second, 0.01 * std::fabs(known->second)) << known->first;
+  const std::map<std::string, double> found = parameters();
+  for (const auto& [name, value] : truth) {
+    ASSERT_TRUE(found.contains(name)) << name;
+    EXPECT_NEAR(found.at(name), value, 0.01 * std::fabs(value)) << name;
   }
   const Outcome moved = run({"respond", "out/model.json", "oscillator/multisine.csv", "--mass", "2", "--excitation",
                              "force", "--interpolation", "band-limited", "--out", "motion.csv"});
