@@ -205,7 +205,9 @@ void take_common_options(CLI::App& command) {
   const std::string group = "Options of every command, without effect in this one";
   const auto take = [&](const std::string& name, CLI::Validator value, const std::string& meaning) {
     if (command.get_option_no_throw(name) == nullptr) {
-      command.add_option_function<std::string>(name, [](const std::string&) {}, meaning)
+      command
+          .add_option_function<std::string>(
+              name, [](const std::string&) {}, meaning)
           ->check(std::move(value))
           ->group(group);
     }
@@ -214,7 +216,10 @@ void take_common_options(CLI::App& command) {
   take("--threads", whole_number(0, 1024), "no work is shared");
   take("--normalisation", one_of({"max-abs", "range", "std", "mean-abs"}), "no error is measured");
   if (command.get_option_no_throw("--quiet") == nullptr) {
-    command.add_flag_function("--quiet", [](std::int64_t) {}, "no progress is shown")->group(group);
+    command
+        .add_flag_function(
+            "--quiet", [](std::int64_t) {}, "no progress is shown")
+        ->group(group);
   }
 }
 

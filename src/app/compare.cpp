@@ -89,7 +89,7 @@ void add_compare(CLI::App& program) {
       ->add_option("MODEL.json DATA", options->words,
                    "models written by fit or diagnose, and recordings or folders of them, in any order")
       ->required()
-      ->expected(2, CLI::detail::expected_max_vector_size);  // "..." in the usage
+      ->expected(2, -1);
   add_keep_option(*command, options->data);
   add_reading_options(*command, options->data);
   command
