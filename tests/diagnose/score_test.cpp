@@ -7,7 +7,6 @@
 #include "core/squared.hpp"
 #include "diagnose/search/left_out.hpp"
 #include "diagnose/search/stage.hpp"
-#include "diagnose/search/valleys.hpp"
 #include "fit/score.hpp"
 #include "fit/synthetic.hpp"
 
@@ -111,17 +110,6 @@ TEST(Workbench, AFarTooLargeSizeIsHalvedBeforeADescent) {
   ASSERT_GT(given, 1.1 * base.cost) << "the start is no better than it should be";
   // One round of a descent is its start: a sixteenth of the size costs next to nothing more than none.
   EXPECT_LT(bench.from_starts(warm, starts, 1, 4).cost - base.cost, 0.05 * (given - base.cost));
-}
-
-TEST(Valleys, AreAllStartedInBeforeOneIsTwice) {
-  using Points = std::vector<std::vector<double>>;
-  // The first coordinate is projected out: it parts nothing.
-  const Points sorted = {{0.0, 0.8}, {1.0, 0.7}, {0.5, 0.6}, {0.5, 0.1}};
-  const std::vector<bool> projected = {true, false};
-  EXPECT_EQ(in_several_valleys(sorted, projected, 2), (Points{sorted[0], sorted[3]}));
-  EXPECT_EQ(in_several_valleys(sorted, projected, 3), (Points{sorted[0], sorted[3], sorted[1]}));
-  EXPECT_EQ(in_several_valleys(sorted, projected, 9).size(), sorted.size());
-  EXPECT_EQ(in_several_valleys(sorted, {true, true}, 2), (Points{sorted[0], sorted[1]}));
 }
 
 TEST(Score, OfAnEffectThatIsLinearIsWhatARefitGains) {

@@ -7,7 +7,6 @@
 #include "core/squared.hpp"
 #include "diagnose/residual/conditions.hpp"
 #include "diagnose/search/relatives.hpp"
-#include "diagnose/search/valleys.hpp"
 #include "fit/driver.hpp"
 #include "fit/identify.hpp"
 #include "fit/parallel.hpp"
@@ -440,7 +439,7 @@ Fit Workbench::from_starts(const Hypothesis& what, const Starts& given, int roun
   if (!starts.sizes.empty()) {
     starts.points = eased(given);
   }
-  starts.points = in_several_valleys(std::move(starts.points), starts.layout->linear(), most);
+  starts.points.resize(std::min(starts.points.size(), most));
   const bool balances =
       std::ranges::any_of(what.effects, [](const std::string& id) { return find_effect(id)->balances(); });
   if (!balances || starts.points.size() < 2) {
