@@ -138,11 +138,12 @@ void tell(const FitResult& fit, const FitData& data, const FitOptions& options) 
                 2));
   }
   if (fit.response) {
-    say(
-        fmt::format("lm on the motion of the mass: NRMSE of the displacement {} after {} evaluations, {} with the "
-                    "parameters of the equation of motion; {}\nforce of the equation of motion: ",
-                    format_number(fit.response->cost, 4), fit.response->run.evaluations,
-                    format_number(fit.response->before, 4), fit.response->run.stopped));
+    say(wrapped(fmt::format("lm on the motion of the mass: NRMSE of the displacement {} after {} evaluations, {} with "
+                            "the parameters of the equation of motion; {}",
+                            format_number(fit.response->cost, 4), fit.response->run.evaluations,
+                            format_number(fit.response->before, 4), fit.response->run.stopped),
+                2));
+    say("force of the equation of motion: ");
   }
   say(fmt::format("overall NRMSE {} ({} weighting, normalised by {})", format_number(result.cost, 4),
                   options.common.weighting, options.common.normalisation));
