@@ -23,7 +23,7 @@ struct MagneticRemanence {
       {.name = "w", .unit = "A", .meaning = "half width of the play", .box = {0.01, 2}, .initial = 0.2, .scale = Scale::logarithmic},
       {.name = "s", .unit = "1", .meaning = "field over current before the recording", .box = {0, 1}, .initial = 1, .limits = {.lower = -1, .upper = 1}},
   };
-  static constexpr Need needs[] = {Need::drive, Need::changing_drive, Need::returning_drive};
+  static constexpr Need needs[] = {Need::drive, Need::returning_drive};
   static constexpr std::string_view kin[] = {"coil-lag", "magnetic-saturation"};
   static constexpr PartOfLaw part_of[] = {{"preisach"}};
   // The current was the same long before, or switched on from a circuit without field.
