@@ -151,9 +151,9 @@ std::vector<TestSample> samples_of(const Motion& motion) {
   for (std::size_t n = 0; n < motion.time.size(); ++n) {
     double slope = 0.0;
     if (n < motion.intervals.size()) {
-      slope = motion.intervals[n].v[1] / motion.intervals[n].length;
+      slope = motion.intervals[n].course.v[1] / motion.intervals[n].length;
     } else if (n > 0) {
-      slope = cubic_slope(motion.intervals[n - 1].v, 1.0) / motion.intervals[n - 1].length;
+      slope = cubic_slope(motion.intervals[n - 1].course.v, 1.0) / motion.intervals[n - 1].length;
     }
     result.push_back({motion.time[n], motion.x[n], motion.v[n], slope, motion.a[n], motion.jerk[n],
                       motion.drive.empty() ? 0.0 : motion.drive[n]});

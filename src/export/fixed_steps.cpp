@@ -33,9 +33,9 @@ class Steps {
     }
     piece_.intervals.clear();
     if (n < motion_.intervals.size()) {
-      const double reversal_at = motion_.intervals[n].reversal_at;
-      cut(n, 0.0, reversal_at);
-      cut(n, reversal_at, 1.0);
+      const double split_at = motion_.intervals[n].split_at;
+      cut(n, 0.0, split_at);
+      cut(n, split_at, 1.0);
     }
     sample(n < motion_.intervals.size() ? n + 1 : n);
     return piece_;
@@ -59,31 +59,32 @@ class Steps {
   void cut(std::size_t n, double from, double to) {
     if (!(from < to)) return;
     const MotionInterval& whole = motion_.intervals[n];
+    const MotionCourse& course = whole.course;  // a test vector has no corners
     const double width = (to - from) / substeps_;
     for (int k = 0; k < substeps_; ++k) {
       const double theta = from + width * k;
       MotionInterval step = whole;
       step.length = whole.length * width;
-      part_of(whole.x, theta, width, step.x);
-      part_of(whole.v, theta, width, step.v);
+      part_of(course.x, theta, width, step.course.x);
+      part_of(course.v, theta, width, step.course.v);
       part_of(whole.a, theta, width, step.a);
       const auto values_at = [&](double at, double(&values)[4]) {
-        values[0] = cubic(step.x, at);
-        values[1] = cubic(step.v, at);
+        values[0] = cubic(step.course.x, at);
+        values[1] = cubic(step.course.v, at);
         values[2] = cubic(step.a, at);
         values[3] = cubic_slope(step.a, at) / step.length;
       };
       values_at(0.5, step.middle);
       values_at(1.0, step.end);
       step.reversal = false;
-      step.reversal_at = 1.0;
+      step.split_at = 1.0;
       piece_.intervals.push_back(step);
       if (theta == 0.0) {
         sample(n);
       } else {
         const double drive =
             motion_.drive.empty() ? 0.0 : motion_.drive[n] + (motion_.drive[n + 1] - motion_.drive[n]) * theta;
-        add_sample(motion_.time[n] + whole.length * theta, step.x[0], step.v[0], step.a[0],
+        add_sample(motion_.time[n] + whole.length * theta, step.course.x[0], step.course.v[0], step.a[0],
                    cubic_slope(step.a, 0.0) / step.length, drive);
       }
     }

@@ -53,6 +53,7 @@ Motion beginning_of(const Motion& motion, std::size_t count) {
   first(motion.drive, result.drive, count);
   first(motion.load, result.load, count);
   first(motion.intervals, result.intervals, count - 1);
+  result.beyond_corners = motion.beyond_corners;
   return result;
 }
 

@@ -170,8 +170,8 @@ struct Room {
   States<T> next;
 };
 
-double acceleration_of(const MotionInterval& interval) {
-  return detail::change_of_velocity(interval) / interval.length;
+double acceleration_along(const MotionCourse& course, double length) {
+  return detail::change_of_velocity(course) / length;
 }
 
 // Over the part [from, to] of interval n; `start` belongs to `from` when `known`.
@@ -180,6 +180,7 @@ void march_segment(const Assembly<T>& system, const Motion& motion, std::size_t 
                    Room<T>& room, States<T>& state) {
   using Value = value_t<T>;
   const MotionInterval& interval = motion.intervals[n];
+  const MotionCourse& course = course_from(motion, interval, from);
   // The kinks are those of the laws: elements are smooth on the scale that their own stiffness tells.
   const double finer = detail::fineness(motion, n);
   const double limit = motion.step_limit / interval.length;
@@ -190,10 +191,10 @@ void march_segment(const Assembly<T>& system, const Motion& motion, std::size_t 
   auto active = theta < Value(to);
   auto careful = theta < Value(0.0);  // lanes in which a state woke up within a step over which it was to rest
   while (any(active)) {
-    const Input<T> in = detail::input_at<T>(motion, n, theta);
+    const Input<T> in = detail::input_at<T>(motion, n, course, theta);
     if (!known) {
       const auto before = start.relief;
-      system.start(state, in, interval.speed, acceleration_of(interval), start);
+      system.start(state, in, interval.speed, acceleration_along(course, interval.length), start);
       for (std::size_t i = 0; i < max_links; ++i) {
         start.relief.speed[i] = select(active, start.relief.speed[i], before.speed[i]);
         start.relief.resistance[i] = select(active, start.relief.resistance[i], before.resistance[i]);
@@ -211,8 +212,8 @@ void march_segment(const Assembly<T>& system, const Motion& motion, std::size_t 
       system.rate(s, at, start.relief, rates);
     };
     detail::advance<-1, T>(rate, system.states(), step * Value(interval.length), start.rates,
-                           detail::input_at<T>(motion, n, middle), detail::input_at<T>(motion, n, reached), state,
-                           room.stages, room.next);
+                           detail::input_at<T>(motion, n, course, middle),
+                           detail::input_at<T>(motion, n, course, reached), state, room.stages, room.next);
     const auto awake = (stiffness < start.stiffness) & (system.woken(start.rates, room.stages.k2, little) |
                                                         system.woken(start.rates, room.stages.k3, little) |
                                                         system.woken(start.rates, room.stages.k4, little));
@@ -245,7 +246,7 @@ void march_assembly(const CompositeModel& model, const Motion& motion, const T* 
     start.relief.speed.fill(value_t<T>(0.0));
     start.relief.resistance.fill(value_t<T>(0.0));
     system.start(current, detail::input_of_sample<T>(motion, n), last ? 0.0 : motion.intervals[n].speed,
-                 last ? 0.0 : acceleration_of(motion.intervals[n]), start);
+                 last ? 0.0 : acceleration_along(motion.intervals[n].course, motion.intervals[n].length), start);
     out[n - begin] = start.force;
     if (last) {
       continue;
@@ -255,8 +256,8 @@ void march_assembly(const CompositeModel& model, const Motion& motion, const T* 
       detail::parameters_between(p + (n - begin) * stride, stride, between.data());
       system.set_parameters(between.data());
     }
-    bool known = stride == 0;
-    detail::between_reversals(interval, [&](double from, double to) {
+    bool known = stride == 0 && interval.corner < 0;
+    detail::in_parts(interval, [&](double from, double to) {
       march_segment<T>(system, motion, n, from, to, known, room, current);
       known = false;
     });

@@ -425,16 +425,18 @@ template <class T>
 void march_segment(Implicit<T>& system, const Motion& motion, std::size_t n, double from, double to, Room<T>& room) {
   using Value = value_t<T>;
   const MotionInterval& interval = motion.intervals[n];
+  const MotionCourse& course = course_from(motion, interval, from);
   const double finer = detail::fineness(motion, n);
   const double limit = motion.step_limit / interval.length;
   const Value shortest((to - from) / motion.most_substeps);
   const auto states = static_cast<std::size_t>(system.states());
-  const auto at = [&](const Value& theta) { return detail::input_at<T>(motion, n, theta); };
+  const auto at = [&](const Value& theta) { return detail::input_at<T>(motion, n, course, theta); };
   Value theta(from);
   auto active = theta < Value(to);
   while (any(active)) {
     system.copy_values(room.state, room.values);
-    const Value stiffness = system.look(room.values, detail::input_at<Value>(motion, n, theta), interval.speed, limit);
+    const Value stiffness =
+        system.look(room.values, detail::input_at<Value>(motion, n, course, theta), interval.speed, limit);
     const Value left = Value(to) - theta;
     Value step = Value(limit) / max(Value(finer) * stiffness, Value(1e-300));
     step = select(step < shortest, shortest, step);
@@ -488,8 +490,8 @@ void march_implicit(const CompositeModel& model, const Motion& motion, const T* 
       detail::parameters_between(p + (n - begin) * stride, stride, between.data());
       system.set_parameters(between.data());
     }
-    detail::between_reversals(motion.intervals[n],
-                              [&](double from, double to) { march_segment<T>(system, motion, n, from, to, room); });
+    detail::in_parts(motion.intervals[n],
+                     [&](double from, double to) { march_segment<T>(system, motion, n, from, to, room); });
   }
   std::copy_n(room.state.begin(), system.states(), state);
 }

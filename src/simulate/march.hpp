@@ -2,8 +2,9 @@
 // bound of the equations asks for, per lane. h lambda <= step_limit (motion.hpp) keeps every lane inside the
 // stability region (2.78) for every parameter set and sampling, and the step count is finite because the bound is.
 // Sub-steps of lanes that need fewer are masked, so a lane does not depend on its company. Steps land on velocity
-// reversals, where hysteresis equations have a kink. Hysteresis that has yielded rests at its bound, and steps need not
-// resolve it until it turns; kinks at places that are not known beforehand are looked for, and passed in small steps.
+// reversals, where hysteresis equations have a kink, and on corners, where the velocity has a jump. Hysteresis that has
+// yielded rests at its bound, and steps need not resolve it until it turns; kinks at places that are not known
+// beforehand are looked for, and passed in small steps.
 #pragma once
 
 #include <algorithm>
@@ -49,12 +50,14 @@ template <class T>
   }
 }
 
+// Within interval n, on the part of it where `course` holds.
 template <class T, class V>
-[[gnu::always_inline]] inline Input<T> input_at(const Motion& motion, std::size_t n, const V& theta) {
+[[gnu::always_inline]] inline Input<T> input_at(const Motion& motion, std::size_t n, const MotionCourse& course,
+                                                const V& theta) {
   const MotionInterval& interval = motion.intervals[n];
   const V time = fma(V(interval.length), theta, V(motion.time[n]));
-  return {T(cubic(interval.x, theta)),
-          T(cubic(interval.v, theta)),
+  return {T(cubic(course.x, theta)),
+          T(cubic(course.v, theta)),
           motion.drive.empty() ? T(0.0) : T(fma(V(motion.drive[n + 1] - motion.drive[n]), theta, V(motion.drive[n]))),
           T(time),
           T(time + V(motion.lead)),
@@ -62,7 +65,7 @@ template <class T, class V>
           T(cubic_slope(interval.a, theta) / V(interval.length))};
 }
 
-// Equals input_at theta = 0: the polynomials' constant terms are the samples.
+// Equals input_at theta = 0 unless a corner is near: the polynomials' constant terms are the samples.
 template <class T>
 [[gnu::always_inline]] inline Input<T> input_of_sample(const Motion& motion, std::size_t n) {
   return {T(motion.x[n]),
@@ -180,9 +183,9 @@ template <class T>
 inline double coarseness(const Motion& motion, double length) {
   return 1.0 + motion.finer_when_long * std::min(1.0, length / 5e-3);
 }
-// Bound of the change of v over an interval.
-inline double change_of_velocity(const MotionInterval& interval) {
-  const double* c = interval.v;
+// Bound of the change of v over an interval with this course.
+inline double change_of_velocity(const MotionCourse& course) {
+  const double* c = course.v;
   return std::fabs(c[1]) + 2.0 * std::fabs(c[2]) + 3.0 * std::fabs(c[3]);
 }
 [[gnu::always_inline]] inline bool near_reversal(const Motion& motion, std::size_t n) {
@@ -231,17 +234,26 @@ inline double fineness(const Motion& motion, std::size_t n) {
   return near_reversal(motion, n) ? std::max(motion.finer_at_reversals, coarse) : coarse;
 }
 
-// The parts of interval n that are marched one after the other, up to a reversal and from it: march_part(from, to).
+// The parts of interval n that are marched one after the other, up to a reversal or a corner and from it:
+// march_part(from, to).
 template <class MarchPart>
-[[gnu::always_inline]] inline void between_reversals(const MotionInterval& interval, const MarchPart& march_part) {
-  march_part(0.0, interval.reversal_at);
-  if (interval.reversal) march_part(interval.reversal_at, 1.0);
+[[gnu::always_inline]] inline void in_parts(const MotionInterval& interval, const MarchPart& march_part) {
+  if (interval.split_at > 0.0) march_part(0.0, interval.split_at);
+  if (interval.split_at < 1.0) march_part(interval.split_at, 1.0);
 }
 
 // The part [from, from + span] of interval n.
 struct Segment {
+  Segment(const Motion& of, std::size_t interval_index, double begin, double end)
+      : motion(of),
+        n(interval_index),
+        course(course_from(of, of.intervals[n], begin)),
+        from(begin),
+        span(end - begin) {}
+
   const Motion& motion;
   std::size_t n;
+  const MotionCourse& course;
   double from;
   double span;
 
@@ -264,7 +276,7 @@ template <int N, class T, class Rate>
                                              StateArray<T, N>& state) {
   using Value = value_t<T>;
   const auto input = [&](const Value& theta) __attribute__((always_inline)) {
-    return input_at<T>(segment.motion, segment.n, theta);
+    return input_at<T>(segment.motion, segment.n, segment.course, theta);
   };
   const int most = static_cast<int>(largest(count));
   const Value inverse = Value(1.0) / count;
@@ -314,13 +326,13 @@ template <int N, class T, class Chain>
     system.rate(p, s.data(), in, rates.data());
   };
   const StateArray<T, N> before = state;
-  const Input<T> in_before = input_at<T>(segment.motion, segment.n, Value(segment.from));
+  const Input<T> in_before = input_at<T>(segment.motion, segment.n, segment.course, Value(segment.from));
   StateArray<T, N> moving;
   rate(before, in_before, moving, many);
   StateArray<T, N> rates_before = moving;
   system.rest(p, before.data(), in_before, rates_before.data());
   const Value bound = system.stiffness_now(p, before.data(), rates_before.data(), in_before, segment.interval().speed,
-                                           change_of_velocity(segment.interval()) * segment.span);
+                                           change_of_velocity(segment.course) * segment.span);
   const double smooth = std::sqrt(coarseness(segment.motion, segment.interval().length));
   const Value fewer = select(many, min(segment.count(bound, system.knows_kinks() ? smooth : finer), count), count);
   const auto tries = fewer < count;
@@ -380,7 +392,7 @@ template <class T, class Chain>
   StateArray<T, N> state;
   for_states<N>(
       states, [&](auto i) __attribute__((always_inline)) { state[i] = result[i]; });
-  enough_sub_steps<N, T>(system, copy.data(), states, Segment{motion, n, from, to - from}, state);
+  enough_sub_steps<N, T>(system, copy.data(), states, Segment(motion, n, from, to), state);
   for_states<N>(
       states, [&](auto i) __attribute__((always_inline)) { result[i] = state[i]; });
 }
@@ -401,13 +413,11 @@ template <class T, class Chain>
   for (std::size_t n = begin; n < end; ++n) {
     out[n - begin] = system.force(p, state.data(), input_of_sample<T>(motion, n));
     if (n >= motion.intervals.size()) continue;
-    // Up to a reversal and from it.
-    const MotionInterval& interval = motion.intervals[n];
-    double from = 0.0;
-    for (int part = 0; part < (interval.reversal ? 2 : 1); ++part) {
-      const double to = part == 0 ? interval.reversal_at : 1.0;
-      enough_sub_steps<N, T>(system, p, states, Segment{motion, n, from, to - from}, state);
-      from = to;
+    // Up to a reversal or a corner and from it, in a loop so that the steps are compiled once.
+    const double split_at = motion.intervals[n].split_at;
+    const std::array<double, 3> ends = {0.0, split_at, 1.0};
+    for (std::size_t part = split_at > 0.0 ? 0 : 1; part < (split_at < 1.0 ? 2U : 1U); ++part) {
+      enough_sub_steps<N, T>(system, p, states, Segment(motion, n, ends[part], ends[part + 1]), state);
     }
   }
   for_states<N>(
@@ -475,7 +485,7 @@ template <class T, class Chain>
       continue;
     }
     for (std::size_t n = first; n < last; ++n) {
-      if (n < intervals && near_reversal(motion, n)) {
+      if (n < intervals && (near_reversal(motion, n) || motion.intervals[n].corner >= 0)) {
         in_segments(n, n + 1);
         continue;
       }

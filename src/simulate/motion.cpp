@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
+#include "simulate/corner.hpp"
 #include "simulate/lean_motion.hpp"
 
 namespace hysteron {
@@ -72,30 +74,80 @@ Motion samples_of(std::span<const double> time, std::span<const double> displace
   return motion;
 }
 
-// The intervals between the samples of a motion, whose velocity has these slopes; `time` as recorded or from its start.
-void add_intervals(std::span<const double> time, const std::vector<double>& slope, Motion& motion) {
-  const std::vector<double>& displacement = motion.x;
-  const std::vector<double>& velocity = motion.v;
-  motion.intervals.resize(time.empty() ? 0 : time.size() - 1);
+// The samples first to last of all those that a motion is made of; the ones around them tell corners.
+struct Samples {
+  std::span<const double> time;
+  std::span<const double> displacement;
+  std::span<const double> velocity;
+  std::size_t first;
+  std::size_t last;
+};
+
+// Bound of the speed along an interval: a Hermite cubic stays within its end values plus 4/27 of h |slope| of either.
+double fastest(double length, double start, double end, double start_slope, double end_slope) {
+  return std::max(std::fabs(start), std::fabs(end)) +
+         4.0 / 27.0 * length * (std::fabs(start_slope) + std::fabs(end_slope));
+}
+
+// Straight lines of the velocity on both sides of a corner, in theta; the displacements are those of the samples.
+void turn(const VelocityCorner& corner, double x0, double x1, MotionInterval& interval,
+          std::vector<MotionCourse>& beyond_corners) {
+  const double h = interval.length;
+  const double bend0 = 0.5 * h * h * corner.start_slope;
+  const double bend1 = 0.5 * h * h * corner.end_slope;
+  interval.course = {.x = {x0, h * corner.start, bend0, 0.0}, .v = {corner.start, h * corner.start_slope, 0.0, 0.0}};
+  const MotionCourse beyond = {.x = {x1 - h * corner.end + bend1, h * corner.end - 2.0 * bend1, bend1, 0.0},
+                               .v = {corner.end - h * corner.end_slope, h * corner.end_slope, 0.0, 0.0}};
+  interval.corner = static_cast<int>(beyond_corners.size());
+  beyond_corners.push_back(beyond);
+  interval.split_at = corner.at;
+  interval.speed = fastest(h, corner.start, corner.end, corner.start_slope, corner.end_slope);
+  const double before = cubic(interval.course.v, corner.at);
+  const double after = cubic(beyond.v, corner.at);
+  interval.reversal = before * after < 0.0;
+}
+
+// Without a corner; slopes of the velocity at both ends.
+void go_smoothly(double x0, double x1, double v0, double v1, double slope0, double slope1, MotionInterval& interval) {
+  hermite(interval.length, x0, x1, v0, v1, interval.course.x);
+  hermite(interval.length, v0, v1, slope0, slope1, interval.course.v);
+  interval.corner = -1;
+  interval.speed = fastest(interval.length, v0, v1, slope0, slope1);
+  interval.reversal = v0 * v1 < 0.0;
+  interval.split_at = interval.reversal ? zero_crossing(interval.course.v) : 1.0;
+}
+
+// The intervals between samples first to last of all, which are those of `motion`.
+void add_intervals(const Samples& all, Motion& motion) {
+  const std::vector<double> slope = slopes(all.time, all.velocity, all.first, all.last);
+  const auto corner_at = [&](std::size_t n) {
+    return n + 1 < all.time.size() ? corner_of(all.time, all.displacement, all.velocity, n) : std::nullopt;
+  };
+  motion.intervals.resize(all.last > all.first ? all.last - all.first - 1 : 0);
+  motion.beyond_corners.clear();
+  std::optional<VelocityCorner> before = all.first > 0 ? corner_at(all.first - 1) : std::nullopt;
+  std::optional<VelocityCorner> here = corner_at(all.first);
   for (std::size_t n = 0; n < motion.intervals.size(); ++n) {
     MotionInterval& interval = motion.intervals[n];
-    interval.length = time[n + 1] - time[n];
-    hermite(interval.length, displacement[n], displacement[n + 1], velocity[n], velocity[n + 1], interval.x);
-    hermite(interval.length, velocity[n], velocity[n + 1], slope[n], slope[n + 1], interval.v);
+    const std::optional<VelocityCorner> next = corner_at(all.first + n + 1);
+    interval.length = motion.time[n + 1] - motion.time[n];
+    if (here.has_value()) {
+      turn(*here, motion.x[n], motion.x[n + 1], interval, motion.beyond_corners);
+    } else {
+      go_smoothly(motion.x[n], motion.x[n + 1], motion.v[n], motion.v[n + 1], before ? before->end_slope : slope[n],
+                  next ? next->start_slope : slope[n + 1], interval);
+    }
     hermite(interval.length, motion.a[n], motion.a[n + 1], motion.jerk[n], motion.jerk[n + 1], interval.a);
-    interval.middle[0] = cubic(interval.x, 0.5);
-    interval.middle[1] = cubic(interval.v, 0.5);
+    interval.middle[0] = cubic(interval.course.x, 0.5);
+    interval.middle[1] = cubic(interval.course.v, 0.5);
     interval.middle[2] = cubic(interval.a, 0.5);
     interval.middle[3] = cubic_slope(interval.a, 0.5) / interval.length;
-    interval.end[0] = cubic(interval.x, 1.0);
-    interval.end[1] = cubic(interval.v, 1.0);
+    interval.end[0] = cubic(interval.course.x, 1.0);
+    interval.end[1] = cubic(interval.course.v, 1.0);
     interval.end[2] = cubic(interval.a, 1.0);
     interval.end[3] = cubic_slope(interval.a, 1.0) / interval.length;
-    // A Hermite cubic stays within its end values plus 4/27 of h |slope| of either end.
-    interval.speed = std::max(std::fabs(velocity[n]), std::fabs(velocity[n + 1])) +
-                     4.0 / 27.0 * interval.length * (std::fabs(slope[n]) + std::fabs(slope[n + 1]));
-    interval.reversal = velocity[n] * velocity[n + 1] < 0.0;
-    interval.reversal_at = interval.reversal ? zero_crossing(interval.v) : 1.0;
+    before = here;
+    here = next;
   }
 }
 
@@ -105,7 +157,7 @@ Motion make_motion(std::span<const double> time, std::span<const double> displac
                    std::span<const double> drive, double tolerance, std::span<const double> acceleration) {
   Motion motion = samples_of(time, displacement, velocity, drive, tolerance, acceleration);
   motion.jerk = slopes(time, motion.a, 0, time.size());
-  add_intervals(time, slopes(time, velocity, 0, time.size()), motion);
+  add_intervals({motion.time, motion.x, motion.v, 0, time.size()}, motion);
   return motion;
 }
 
@@ -143,7 +195,7 @@ void prepare(const Motion& lean, std::size_t first, std::size_t last, Motion& pi
   part(lean.drive, piece.drive);
   part(lean.load, piece.load);
   piece.jerk = slopes(lean.time, lean.a, first, last);
-  add_intervals(piece.time, slopes(lean.time, lean.v, first, last), piece);
+  add_intervals({lean.time, lean.x, lean.v, first, last}, piece);
 }
 
 namespace {

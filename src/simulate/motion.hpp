@@ -1,4 +1,5 @@
-// A recording's motion prepared for marching: cubic interpolation of displacement and velocity between samples.
+// A recording's motion prepared for marching: cubic interpolation of displacement and velocity between samples, with
+// corners where straight lines meet.
 #pragma once
 
 #include <cstddef>
@@ -21,17 +22,25 @@ V cubic_slope(const double* c, const V& theta) {
   return fma(fma(V(3.0 * c[3]), theta, V(2.0 * c[2])), theta, V(c[1]));
 }
 
-// Polynomials in theta in [0, 1] over the interval from sample n to n + 1.
+// Displacement and velocity as polynomials in theta in [0, 1] over an interval.
+struct MotionCourse {
+  double x[4];  // Hermite cubic through both displacements with the velocities as slopes
+  double v[4];  // cubic through four velocity samples (quadratic slopes at the ends)
+};
+
+// From sample n to n + 1.
 struct MotionInterval {
-  double length;       // s
-  double x[4];         // Hermite cubic through both displacements with the velocities as slopes
-  double v[4];         // cubic through four velocity samples (quadratic slopes at the ends)
-  double a[4];         // likewise through the accelerations
-  double middle[4];    // x, v, a and its slope at theta = 1/2
-  double end[4];       // at theta = 1, as the polynomials round
-  double speed;        // bound of |v| on the interval
-  bool reversal;       // velocity changes sign
-  double reversal_at;  // theta of the change
+  double length;        // s
+  MotionCourse course;  // up to a corner, if there is one
+  double a[4];          // like course.v through the accelerations
+  double middle[4];     // x, v, a and its slope at theta = 1/2
+  double end[4];        // at theta = 1, as the polynomials round
+  double speed;         // bound of |v| on the interval
+  double split_at;      // theta of a reversal or a corner, where a step has to end; 1 without
+  bool reversal;        // velocity changes sign
+  // On a corner (simulate/corner.hpp) in it or on a sample beside it: the velocity has a jump at split_at, beyond which
+  // motion.beyond_corners[corner] holds, and `course` need not have the samples' velocities at its ends.
+  int corner;  // -1 without
 };
 
 struct Motion {
@@ -43,6 +52,7 @@ struct Motion {
   std::vector<double> drive;  // empty: zero
   std::vector<double> load;   // N, force that series elements are taken to bear; empty: that of the model, by balance
   std::vector<MotionInterval> intervals;
+  std::vector<MotionCourse> beyond_corners;
   double lead = 0.0;  // s marched before the first sample
   // Largest |lambda| h a sub-step may have: 0.5 at the default tolerance of 1e-4 of peak force.
   double step_limit = 0.5;
@@ -61,6 +71,13 @@ struct Motion {
   // Steps that do not follow the elements (simulate/implicit.hpp).
   bool implicit_elements = false;
 };
+
+// The one that holds on the part of an interval that begins at theta = from.
+inline const MotionCourse& course_from(const Motion& motion, const MotionInterval& interval, double from) {
+  return interval.corner >= 0 && from >= interval.split_at
+             ? motion.beyond_corners[static_cast<std::size_t>(interval.corner)]
+             : interval.course;
+}
 
 // Arrays of equal length; time strictly increasing (s), displacement (m), velocity (m/s), drive (A or V, may be empty),
 // acceleration (m/s^2; empty: the differences of the velocity).

@@ -187,7 +187,7 @@ void run(const CompositeModel& model, const Motion& motion, const T* p, std::siz
     if (stride > 0) {
       detail::parameters_between(here, stride, between.data());
     }
-    detail::between_reversals(motion.intervals[n], [&](double from, double to) {
+    detail::in_parts(motion.intervals[n], [&](double from, double to) {
       detail::march_segment<T>(static_cast<const Loaded&>(chain), motion, n, from, to, between.data(), state);
     });
     model.for_links([&](const Link& link) {

@@ -260,7 +260,7 @@ TEST(Series, AReversalWithinRoundingOfASampleIsPassed) {
   std::size_t placed = 0;
   for (MotionInterval& interval : motion.intervals) {
     if (interval.reversal) {
-      interval.reversal_at = std::nextafter(1.0, 0.0);
+      interval.split_at = std::nextafter(1.0, 0.0);
       ++placed;
     }
   }

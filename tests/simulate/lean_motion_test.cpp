@@ -12,15 +12,16 @@ using Vector = std::vector<double>;
 void expect_same(const MotionInterval& a, const MotionInterval& b, std::size_t n) {
   EXPECT_EQ(a.length, b.length) << n;
   for (int k = 0; k < 4; ++k) {
-    EXPECT_EQ(a.x[k], b.x[k]) << n;
-    EXPECT_EQ(a.v[k], b.v[k]) << n;
+    EXPECT_EQ(a.course.x[k], b.course.x[k]) << n;
+    EXPECT_EQ(a.course.v[k], b.course.v[k]) << n;
     EXPECT_EQ(a.a[k], b.a[k]) << n;
     EXPECT_EQ(a.middle[k], b.middle[k]) << n;
     EXPECT_EQ(a.end[k], b.end[k]) << n;
   }
   EXPECT_EQ(a.speed, b.speed) << n;
   EXPECT_EQ(a.reversal, b.reversal) << n;
-  EXPECT_EQ(a.reversal_at, b.reversal_at) << n;
+  EXPECT_EQ(a.split_at, b.split_at) << n;
+  EXPECT_EQ(a.corner < 0, b.corner < 0) << n;
 }
 
 TEST(LeanMotion, EveryPieceHasTheIntervalsOfTheWhole) {
@@ -65,6 +66,34 @@ TEST(LeanMotion, EveryPieceHasTheIntervalsOfTheWhole) {
       EXPECT_EQ(piece.balance_iterations, whole.balance_iterations);
       EXPECT_EQ(piece.element_rate_limit, whole.element_rate_limit);
       EXPECT_EQ(piece.implicit_elements, whole.implicit_elements);
+    }
+  }
+}
+
+TEST(LeanMotion, CornersBesideAPieceAreThoseOfTheWhole) {
+  Vector time;
+  Vector x;
+  Vector v;
+  for (int n = 0; n < 40; ++n) {
+    const double phase = std::fmod(0.013 + 0.01 * n, 0.1);
+    time.push_back(0.01 * n);
+    x.push_back(phase < 0.05 ? phase : 0.1 - phase);
+    v.push_back(phase < 0.05 ? 1.0 : -1.0);
+  }
+  const Motion whole = make_motion(time, x, v, {});
+  const Motion lean = make_lean_motion(time, x, v, {}, 1e-4, {});
+  ASSERT_EQ(whole.beyond_corners.size(), 7U);
+  Motion piece;
+  for (std::size_t first = 0; first < 30; ++first) {
+    prepare(lean, first, first + 6, piece);
+    for (std::size_t n = 0; n < piece.intervals.size(); ++n) {
+      expect_same(piece.intervals[n], whole.intervals[first + n], first + n);
+      const MotionCourse& a = course_from(piece, piece.intervals[n], 1.0);
+      const MotionCourse& b = course_from(whole, whole.intervals[first + n], 1.0);
+      for (int k = 0; k < 4; ++k) {
+        EXPECT_EQ(a.x[k], b.x[k]) << first + n;
+        EXPECT_EQ(a.v[k], b.v[k]) << first + n;
+      }
     }
   }
 }

@@ -137,11 +137,11 @@ TEST(March, ConvergesWithFourthOrder) {
   Vector time = {0.0, 1.0};
   Motion motion = make_motion(time, Vector{0.0, 25.0 / 12.0}, Vector{1.0, 4.0}, {});
   MotionInterval& interval = motion.intervals[0];
-  for (double& c : interval.v) {
+  for (double& c : interval.course.v) {
     c = 1.0;
   }
-  interval.middle[1] = cubic(interval.v, 0.5);
-  interval.end[1] = cubic(interval.v, 1.0);
+  interval.middle[1] = cubic(interval.course.v, 0.5);
+  interval.end[1] = cubic(interval.course.v, 1.0);
   const double lambda = 3.0;
   // Particular solution sum b_k t^k: b_3 = 1, b_k = 1 - (k + 1) b_{k+1} / lambda.
   double b[4];

@@ -42,8 +42,9 @@ bool recovers(const Recording& whole, const Recording& part, std::size_t k, doub
     for (std::size_t m = 1; m < k && n * k + m < whole.size(); ++m) {
       const std::size_t at = n * k + m;
       const double theta = (whole.time[at] - part.time[n]) / motion.intervals[n].length;
-      const double x = cubic(motion.intervals[n].x, theta) - whole.displacement[at];
-      const double v = cubic(motion.intervals[n].v, theta) - whole.velocity[at];
+      const MotionCourse& course = course_from(motion, motion.intervals[n], theta);
+      const double x = cubic(course.x, theta) - whole.displacement[at];
+      const double v = cubic(course.v, theta) - whole.velocity[at];
       x_error += x * x;
       v_error += v * v;
       count += 1.0;
