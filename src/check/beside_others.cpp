@@ -11,6 +11,7 @@
 #include <string_view>
 #include <utility>
 
+#include "core/apart.hpp"
 #include "core/extent.hpp"
 #include "core/frequency.hpp"
 #include "core/robust.hpp"
@@ -153,6 +154,17 @@ std::string text_of(const Suspect& suspect, double value, const Range& others) {
       suspect.channel);
 }
 
+void tell_of_zeros(const std::vector<Recording>& recordings, std::vector<Remark>& remarks) {
+  for (const Apart& apart : apart_from_others(recordings)) {
+    remarks.push_back(
+        {recordings[apart.recording].file, Remark::Kind::implausible, "zero of displacement",
+         fmt::format(
+             "a displacement of {:.4g} to {:.4g} mm, and of {:.4g} to {:.4g} mm in all other recordings: if its "
+             "zero is another, correct it; a stiffness, a gas spring or an end stop would be read from it",
+             1e3 * apart.own.low, 1e3 * apart.own.high, 1e3 * apart.others.low, 1e3 * apart.others.high)});
+  }
+}
+
 void tell_of_drives(const std::vector<Recording>& recordings, std::vector<Remark>& remarks) {
   for (const DriveKind kind : {DriveKind::current, DriveKind::voltage}) {
     const std::vector<double> drives = drives_of(recordings, kind);
@@ -175,6 +187,7 @@ std::vector<Remark> remarks_beside_others(const std::vector<Recording>& recordin
   for (const Recording& recording : recordings) all.push_back(figures_of(recording));
   std::vector<Remark> remarks;
   tell_of_drives(recordings, remarks);
+  tell_of_zeros(recordings, remarks);
   const auto ranges = ranges_of_most(all);
   if (!ranges) return remarks;
   for (std::size_t k = 0; k < all.size(); ++k) {

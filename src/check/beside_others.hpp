@@ -1,4 +1,4 @@
-// A recording among others of a campaign whose unit is another: seen alone, it may well be of a damper.
+// A recording among others of a campaign whose unit or zero is another: seen alone, it may well be of a damper.
 #pragma once
 
 #include <vector>
@@ -9,7 +9,8 @@
 namespace hysteron {
 
 // Remarks of recordings of which one channel (displacement, time, force or drive), a thousand times as large or as small, has
-// the figures of most others, and as it is has not: metres among millimetres, microseconds among milliseconds.
+// the figures of most others, and as it is has not: metres among millimetres, microseconds among milliseconds. And of one
+// that lies far from where the rod was in all others.
 std::vector<Remark> remarks_beside_others(const std::vector<Recording>& recordings);
 
 }  // namespace hysteron

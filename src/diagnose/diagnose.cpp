@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <ranges>
 
+#include "core/apart.hpp"
 #include "core/drive.hpp"
 #include "core/error.hpp"
 #include "diagnose/account.hpp"
@@ -150,7 +152,29 @@ std::string without_outliers(Campaign& campaign) {
                              replaced, samples, recordings, campaign.recordings.size());
 }
 
+Campaign without_apart(const Campaign& campaign) {
+  Campaign result = campaign;
+  const std::vector<Apart> apart = apart_from_others(campaign.recordings);
+  for (const Apart& one : apart | std::views::reverse) {
+    result.recordings.erase(result.recordings.begin() + static_cast<std::ptrdiff_t>(one.recording));
+    result.roles.erase(result.roles.begin() + static_cast<std::ptrdiff_t>(one.recording));
+  }
+  return result;
+}
+
 namespace {
+
+std::string note_of_apart(const Campaign& campaign) {
+  std::vector<std::string> files;
+  for (const Apart& apart : apart_from_others(campaign.recordings)) {
+    files.push_back(campaign.recordings[apart.recording].file);
+  }
+  if (files.empty()) return {};
+  return fmt::format(
+      "{} left out: the rod was where it is in no other recording, so that a spring or a stop there and a zero of the "
+      "sensor that is another look alike; with a second recording there, or the zero corrected, it counts",
+      joined(files, " and ") + (files.size() == 1 ? " was" : " were"));
+}
 
 std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const Split& split, const DiagnoseOptions& options,
                                     const SearchProgress& progress) {
@@ -252,21 +276,23 @@ void add_note(Diagnosis& diagnosis, const std::string& note) {
 
 std::unique_ptr<Diagnosis> diagnose(const Campaign& recorded, const DiagnoseOptions& options,
                                     const SearchProgress& progress) {
-  Campaign campaign = recorded;
+  Campaign campaign = without_apart(recorded);
   const std::string cleaned = without_outliers(campaign);
   const Split split = split_of(campaign);
+  const auto noted = [&](std::unique_ptr<Diagnosis> result) {
+    add_note(*result, cleaned);
+    add_note(*result, note_of_apart(recorded));
+    return result;
+  };
   std::unique_ptr<Diagnosis> result = diagnose(campaign, split, options, progress);
   if (!split.by_program || result->surprises.empty()) {
-    add_note(*result, cleaned);
-    return result;
+    return noted(std::move(result));
   }
   // The split was the program's own: what only a held-out recording shows has to be learnt from it.
   Split other = split_of(campaign, result->surprises);
   other.how +=
       " (first others, of which " + joined(result->surprises, " and ") + " showed what the fitted ones did not)";
-  result = diagnose(campaign, other, options, progress);
-  add_note(*result, cleaned);
-  return result;
+  return noted(diagnose(campaign, other, options, progress));
 }
 
 }  // namespace hysteron

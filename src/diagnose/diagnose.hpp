@@ -76,7 +76,11 @@ std::string law_instead(const Search& search);
 // note that says so, empty where nothing stands out.
 std::string without_outliers(Campaign& campaign);
 
-// Throws InputError for an unknown model or a campaign that leaves nothing to fit.
+// Without recordings that lie apart from all others (core/apart.hpp): what depends on position would be read from each
+// of them alone, and a zero that is another looks like it.
+Campaign without_apart(const Campaign& campaign);
+
+// Of the recordings that without_apart leaves. Throws InputError for an unknown model or a campaign that leaves nothing to fit.
 std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const DiagnoseOptions& options,
                                     const SearchProgress& progress);
 

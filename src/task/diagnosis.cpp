@@ -109,8 +109,9 @@ void check_diagnosis(const Campaign& campaign, DiagnoseOptions& options) {
   }
 }
 
-DiagnosisRecords records_of(const Diagnosis& diagnosis, const Campaign& campaign, const DiagnoseOptions& options,
+DiagnosisRecords records_of(const Diagnosis& diagnosis, const Campaign& recorded, const DiagnoseOptions& options,
                             const std::vector<std::string>& remarks, const std::string& command) {
+  const Campaign campaign = without_apart(recorded);
   const bool roles = std::ranges::any_of(campaign.roles, [](Role role) { return role == Role::validate; });
   const Identification result = identification_of(diagnosis, campaign, options.objective, roles);
   IdentifyOptions stored;

@@ -54,6 +54,22 @@ TEST(BesideOthers, ACurrentInMilliamperesThatIsHeadedAsAmperes) {
                   "unit of the voltage"});
 }
 
+Recording moved_by(double shift, const std::string& file) {
+  Recording result = recording(file, {1.0});
+  for (double& x : result.displacement) x += shift;
+  return result;
+}
+
+TEST(BesideOthers, AZeroFarFromThatOfAllOthers) {
+  EXPECT_EQ(said_of({moved_by(0.0, "a"), moved_by(0.003, "b"), moved_by(0.1, "c")}),
+            Lines{"c: a displacement of 90 to 110 mm, and of -10 to 13 mm in all other recordings: if its zero is "
+                  "another, correct it; a stiffness, a gas spring or an end stop would be read from it"});
+  // Nearer than the length that the others cover; at several positions; of two, either may be right.
+  EXPECT_EQ(said_of({moved_by(0.0, "a"), moved_by(0.003, "b"), moved_by(0.04, "c")}), Lines{});
+  EXPECT_EQ(said_of({moved_by(-0.05, "a"), moved_by(0.0, "b"), moved_by(0.05, "c")}), Lines{});
+  EXPECT_EQ(said_of({moved_by(0.0, "a"), moved_by(0.1, "b")}), Lines{});
+}
+
 TEST(BesideOthers, DrivesThatDifferAreWhatTheyAre) {
   for (const double drive : {0.0, 0.01, 0.1, 5.0, 30.0}) EXPECT_EQ(said_of_drive({drive}), Lines{}) << drive;
   EXPECT_EQ(said_of_drive({-0.001, 0.0012}), Lines{}) << "noise of a drive that is off";

@@ -84,6 +84,18 @@ TEST(Diagnosis, NamesNothingWhereTheVelocityIsNotThatOfTheDisplacement) {
   EXPECT_TRUE(diagnosis->search.found.empty()) << "effects would explain a fault of the data";
 }
 
+// The spring of the law has another force there, of which an end stop or a gas spring would be made.
+TEST(Diagnosis, ARecordingOfAnotherZeroGivesNoName) {
+  Campaign campaign = campaign_with({}, {}, 0.02);
+  for (double& displacement : campaign.recordings[2].displacement) displacement += 0.1;
+  const auto diagnosis = diagnosis_of(campaign, {"end-stop", "gas-spring", "cubic-stiffness"});
+  EXPECT_EQ(diagnosis->verdict.answer, Answer::complete);
+  EXPECT_TRUE(std::ranges::none_of(diagnosis->bench.split().fit,
+                                   [](const Recording& recording) { return recording.file == "r2.csv"; }));
+  EXPECT_TRUE(std::ranges::any_of(diagnosis->notes,
+                                  [](const std::string& note) { return note.starts_with("r2.csv was left out: "); }));
+}
+
 TEST(Diagnosis, NamesNothingWhereNothingIsMissing) {
   const auto diagnosis = diagnosis_of(campaign_with({}, {}, 0.02), few);
   EXPECT_EQ(diagnosis->verdict.answer, Answer::complete);
