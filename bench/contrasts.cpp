@@ -24,6 +24,7 @@
 #include "bench/program.hpp"
 #include "core/random.hpp"
 #include "diagnose/residual/contrast.hpp"
+#include "diagnose/search/relatives.hpp"
 #include "diagnose/signal/thin.hpp"
 #include "fit/driver.hpp"
 #include "fit/identify.hpp"
@@ -34,6 +35,11 @@
 namespace {
 
 using namespace hysteron;
+
+bool speaks_for(ContrastKind kind, std::string_view effect) {
+  const std::vector<Voice> voices = voices_of(kind);
+  return std::ranges::find(voices, effect, &Voice::effect) != voices.end();
+}
 
 struct Base {
   std::string model;
@@ -231,7 +237,7 @@ void study(std::size_t seeds, double noise, std::size_t budget, const std::vecto
       for (const Contrast& one : contrasts(recordings, residuals)) {
         if (std::fabs(one.z) > loud && one.placebo_quantile > beyond) {
           ++loud_ones[one.kind];
-        } else if (std::ranges::find(speaks_for(one.kind), truth.effect) != speaks_for(one.kind).end()) {
+        } else if (speaks_for(one.kind, truth.effect)) {
           quiet += fmt::format(" [{} {:.2g} z {:.1f} placebos {:.3f}]", card_of(one.kind).id, one.value, one.z,
                                one.placebo_quantile);
         }
@@ -240,8 +246,7 @@ void study(std::size_t seeds, double noise, std::size_t budget, const std::vecto
     }
     fmt::print("{}:", truth.effect.empty() ? "(nothing)" : truth.effect);
     for (const auto& [kind, count] : loud_ones) {
-      const auto own = speaks_for(kind);
-      const bool right = std::ranges::find(own, truth.effect) != own.end();
+      const bool right = speaks_for(kind, truth.effect);
       std::vector<double>& of = values[kind];
       std::ranges::nth_element(of, of.begin() + static_cast<std::ptrdiff_t>(of.size() / 2));
       fmt::print(" {}{} {}/{} ({:.2g})", right ? "*" : "", card_of(kind).id, count, seeds, of[of.size() / 2]);

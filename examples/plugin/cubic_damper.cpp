@@ -40,12 +40,15 @@ struct CubicDamping {
   };
   // A diagnosis sets these in the place of cubic damping, and cubic damping in theirs.
   static constexpr std::string_view kin[] = {"quadratic-damping", "viscous-damping"};
+  // What shows it in the data: force per squared velocity.
+  static constexpr ContrastSense contrasts[] = {{ContrastKind::speed_bend, Sense::positive}};
   static constexpr Knowledge knowledge = {
       .family = families::fluid,
       .in_words = "cubic damping",
       .shows = "the force rises with the cube of the speed",
       .experiment = "constant-velocity runs over at least a decade of speed",
       .kin = kin,
+      .contrasts = contrasts,
   };
   template <class T>
   static T force(const std::array<T, 1>& p, const std::array<T, 0>& /*s*/, const Input<T>& in, const T& below) {

@@ -23,12 +23,14 @@ struct Asymmetry {
       {.name = "v_c", .unit = "m/s", .meaning = "speed at which half of that is gained: yield force over damping", .box = {5e-3, 1}, .initial = 0.05, .scale = Scale::logarithmic},
   };
   static constexpr std::string_view kin[] = {"cavitation"};
+  static constexpr ContrastSense contrasts[] = {{ContrastKind::direction, Sense::either}};
   static constexpr Knowledge knowledge = {
       .family = families::direction,
       .in_words = "an asymmetry of compression and rebound",
       .shows = "the force of one direction is that of the other times a factor, at any place",
       .experiment = "the same sine around two mid-positions: an asymmetry is the same at both, a gas spring is not",
       .kin = kin,
+      .contrasts = contrasts,
   };
 
   template <class T>

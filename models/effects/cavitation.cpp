@@ -31,12 +31,14 @@ struct Cavitation {
       {.name = "s_r", .unit = "m", .meaning = "length over which the dwell ends", .box = {2e-5, 2e-3}, .initial = 2e-4, .scale = Scale::logarithmic},
   };
   static constexpr std::string_view kin[] = {"asymmetry"};
+  static constexpr ContrastSense contrasts[] = {{ContrastKind::one_sided_limit, Sense::either}};
   static constexpr Knowledge knowledge = {
       .family = families::direction,
       .in_words = "cavitation (a force limit on one side, with dwell)",
       .shows = "the force of one direction stops growing, and after the reversal the void is filled without force",
       .experiment = "the same run at two gas pressures and at rising speed",
       .kin = kin,
+      .contrasts = contrasts,
   };
 
   template <class T>

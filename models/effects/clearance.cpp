@@ -28,6 +28,7 @@ struct Clearance {
   static constexpr BoxLimit ends_as[] = {{id, "C_c", BoxEnd::lower}};
   static constexpr KindredParameter kindred[] = {{"gap", "entrapped-gas", "d_a", 0.5},
                                                  {"C_c", "entrapped-gas", "C_c", 1.0}};
+  static constexpr ContrastSense contrasts[] = {{ContrastKind::reversal_travel, Sense::positive}};
   static constexpr Knowledge knowledge = {
       .family = families::free_travel,
       .in_words = "clearance (play with a stiffness of contact)",
@@ -39,6 +40,7 @@ struct Clearance {
       .holds = holds,
       .ends_as = ends_as,
       .kindred = kindred,
+      .contrasts = contrasts,
   };
 
   template <class T>

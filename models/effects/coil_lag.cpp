@@ -25,6 +25,7 @@ struct CoilLag {
   };
   static constexpr Need needs[] = {Need::drive, Need::changing_drive};
   static constexpr std::string_view kin[] = {"magnetic-remanence", "magnetic-saturation"};
+  static constexpr ContrastSense contrasts[] = {{ContrastKind::drive_lag, Sense::positive}};
   static constexpr Knowledge knowledge = {
       .family = families::drive_path,
       .in_words = "a lag of the coil current",
@@ -32,6 +33,7 @@ struct CoilLag {
       .experiment = "current steps up and down at constant velocity, at several levels",
       .needs = needs,
       .kin = kin,
+      .contrasts = contrasts,
   };
 
   template <class T>

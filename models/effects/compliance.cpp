@@ -19,6 +19,7 @@ struct Compliance {
   };
   static constexpr std::string_view kin[] = {"clearance", "entrapped-gas", "series-dashpot", "sensor-delay"};
   static constexpr KindredParameter kindred[] = {{"C", "clearance", "C_c", 1.0}, {"C", "entrapped-gas", "C_c", 1.0}};
+  static constexpr ContrastSense contrasts[] = {{ContrastKind::force_travel, Sense::positive}};
   static constexpr Knowledge knowledge = {
       .family = families::series,
       .in_words = "a compliance in series",
@@ -28,6 +29,7 @@ struct Compliance {
           "speeds]: the deflection of a compliance grows with the force",
       .kin = kin,
       .kindred = kindred,
+      .contrasts = contrasts,
   };
 
   template <class T>

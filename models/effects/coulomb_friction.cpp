@@ -26,6 +26,7 @@ struct CoulombFriction {
   static constexpr BoxLimit ends_as[] = {{"shear-thinning", "v_t", BoxEnd::upper},
                                          {id, "v_t", BoxEnd::lower},
                                          {id, "x_b", BoxEnd::lower}};
+  static constexpr ContrastSense contrasts[] = {{ContrastKind::dry_friction, Sense::positive}};
   static constexpr Knowledge knowledge = {
       .family = families::friction,
       .in_words = "Coulomb friction",
@@ -33,6 +34,7 @@ struct CoulombFriction {
       .experiment = "a slow triangle[ without current] at several speeds below 20 mm/s",
       .kin = kin,
       .ends_as = ends_as,
+      .contrasts = contrasts,
   };
 
   template <class T>

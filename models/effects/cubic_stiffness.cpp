@@ -16,6 +16,7 @@ struct CubicStiffness {
       {.name = "k3", .unit = "N/m^3", .meaning = "cubic stiffness", .box = {-1e8, 1e8}, .initial = 0, .linear = true},
   };
   static constexpr std::string_view kin[] = {"linear-stiffness", "gas-spring", "end-stop", "pinching"};
+  static constexpr ContrastSense contrasts[] = {{ContrastKind::stiffness_cubic, Sense::either}};
   static constexpr Knowledge knowledge = {
       .family = families::place,
       .in_words = "a cubic stiffness",
@@ -23,6 +24,7 @@ struct CubicStiffness {
       .experiment = "a slow full stroke around two mid-positions",
       .acts = Acts::by_place,
       .kin = kin,
+      .contrasts = contrasts,
   };
 
   template <class T>

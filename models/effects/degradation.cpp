@@ -20,6 +20,7 @@ struct Degradation {
   };
   static constexpr std::string_view kin[] = {"self-heating", "stiction"};
   static constexpr PartOfLaw part_of[] = {{"baber-noori"}};
+  static constexpr ContrastSense contrasts[] = {{ContrastKind::energy_fade, Sense::positive}};
   static constexpr Knowledge knowledge = {
       .family = families::slow_loss,
       .in_words = "a degradation with the work done",
@@ -27,6 +28,7 @@ struct Degradation {
       .experiment = "the first recording again at the end of the campaign, cold",
       .kin = kin,
       .part_of = part_of,
+      .contrasts = contrasts,
   };
 
   template <class T>

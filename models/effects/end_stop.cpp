@@ -25,6 +25,7 @@ struct EndStop {
   static constexpr Limit holds[] = {{"cubic-stiffness", "x_up"}};
   // A stop of constant stiffness; one that rises more steeply than is searched is a stop as well.
   static constexpr BoxLimit ends_as[] = {{id, "p", BoxEnd::lower}, {id, "p", BoxEnd::upper}};
+  static constexpr ContrastSense contrasts[] = {{ContrastKind::stroke_end, Sense::positive}};
   static constexpr Knowledge knowledge = {
       .family = families::place,
       .in_words = "an end stop",
@@ -34,6 +35,7 @@ struct EndStop {
       .kin = kin,
       .holds = holds,
       .ends_as = ends_as,
+      .contrasts = contrasts,
   };
 
   template <class T>

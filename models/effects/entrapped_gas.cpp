@@ -26,6 +26,7 @@ struct EntrappedGas {
   static constexpr Limit holds[] = {{"compliance", "d_a"}};
   // A gas that next to no force compresses is a play; where nothing but the gas gives way, C_c is zero.
   static constexpr BoxLimit ends_as[] = {{"clearance", "f_a", BoxEnd::lower}, {id, "C_c", BoxEnd::lower}};
+  static constexpr ContrastSense contrasts[] = {{ContrastKind::reversal_travel, Sense::positive}, {ContrastKind::force_travel, Sense::positive}};
   static constexpr Knowledge knowledge = {
       .family = families::free_travel,
       .in_words = "entrapped gas (a hardening spring in series)",
@@ -36,6 +37,7 @@ struct EntrappedGas {
       .kin = kin,
       .holds = holds,
       .ends_as = ends_as,
+      .contrasts = contrasts,
   };
 
   template <class T>

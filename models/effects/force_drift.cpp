@@ -15,11 +15,13 @@ struct ForceDrift {
   static constexpr Parameter parameters[] = {
       {.name = "r", .unit = "N/s", .meaning = "drift of the force", .box = {-100, 100}, .initial = 0, .linear = true},
   };
+  static constexpr ContrastSense contrasts[] = {{ContrastKind::drift, Sense::either}};
   static constexpr Knowledge knowledge = {
       .family = families::force_channel,
       .in_words = "a drift of the load cell",
       .shows = "the force moves at a constant rate, at rest too",
       .experiment = "a minute of recording at rest before and after the run",
+      .contrasts = contrasts,
   };
 
   template <class T>

@@ -25,6 +25,7 @@ struct GasSpring {
   static constexpr BoxLimit ends_as[] = {{id, "kappa", BoxEnd::lower}, {id, "kappa", BoxEnd::upper}};
   // A large gas force with hardly any gas swept is a spring.
   static constexpr Limit holds[] = {{"offset-force", "g"}, {"linear-stiffness", ""}};
+  static constexpr ContrastSense contrasts[] = {{ContrastKind::mean_force, Sense::either}, {ContrastKind::stiffness, Sense::positive}, {ContrastKind::stiffness_bend, Sense::either}};
   static constexpr Knowledge knowledge = {
       .family = families::place,
       .in_words = "the gas spring of the accumulator",
@@ -34,6 +35,7 @@ struct GasSpring {
       .kin = kin,
       .holds = holds,
       .ends_as = ends_as,
+      .contrasts = contrasts,
   };
 
   template <class T>

@@ -17,6 +17,7 @@ struct Inertia {
       {.name = "m", .unit = "kg", .meaning = "effective mass", .box = {0, 500}, .initial = 0, .linear = true, .role = PhysicalRole::mass},
   };
   static constexpr std::string_view kin[] = {"sensor-delay", "velocity-lag"};
+  static constexpr ContrastSense contrasts[] = {{ContrastKind::acceleration, Sense::positive}};
   static constexpr Knowledge knowledge = {
       .family = families::phase,
       .in_words = "the inertia of fluid, rod or fixture",
@@ -26,6 +27,7 @@ struct Inertia {
           "the fixture",
       .one_form = true,
       .kin = kin,
+      .contrasts = contrasts,
   };
 
   template <class T>

@@ -16,6 +16,7 @@ struct LinearStiffness {
       {.name = "k", .unit = "N/m", .meaning = "stiffness", .box = {-2e4, 1e5}, .initial = 0, .linear = true, .role = PhysicalRole::stiffness},
   };
   static constexpr std::string_view kin[] = {"gas-spring", "cubic-stiffness", "end-stop"};
+  static constexpr ContrastSense contrasts[] = {{ContrastKind::stiffness, Sense::either}};
   static constexpr Knowledge knowledge = {
       .family = families::place,
       .in_words = "a linear stiffness",
@@ -24,6 +25,7 @@ struct LinearStiffness {
       .acts = Acts::by_place,
       .one_form = true,
       .kin = kin,
+      .contrasts = contrasts,
   };
 
   template <class T>

@@ -28,6 +28,7 @@ struct MagneticRemanence {
   static constexpr PartOfLaw part_of[] = {{"preisach"}};
   // The current was the same long before, or switched on from a circuit without field.
   static constexpr BoxLimit ends_as[] = {{id, "s", BoxEnd::upper}, {id, "s", BoxEnd::lower}};
+  static constexpr ContrastSense contrasts[] = {{ContrastKind::drive_memory, Sense::positive}};
   static constexpr Knowledge knowledge = {
       .family = families::drive_path,
       .in_words = "magnetic remanence",
@@ -38,6 +39,7 @@ struct MagneticRemanence {
       .kin = kin,
       .ends_as = ends_as,
       .part_of = part_of,
+      .contrasts = contrasts,
   };
 
   template <class T>

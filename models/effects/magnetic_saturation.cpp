@@ -20,6 +20,7 @@ struct MagneticSaturation {
   // At two levels it is another slope of the force with the drive.
   static constexpr Need needs[] = {Need::drive, Need::three_drive_levels};
   static constexpr std::string_view kin[] = {"coil-lag", "magnetic-remanence"};
+  static constexpr ContrastSense contrasts[] = {{ContrastKind::drive_bend, Sense::negative}};
   static constexpr Knowledge knowledge = {
       .family = families::drive_path,
       .in_words = "magnetic saturation",
@@ -27,6 +28,7 @@ struct MagneticSaturation {
       .experiment = "at least five current levels up to the highest",
       .needs = needs,
       .kin = kin,
+      .contrasts = contrasts,
   };
 
   template <class T>

@@ -16,6 +16,7 @@ struct OffsetForce {
       {.name = "f0", .unit = "N", .meaning = "offset force", .box = {-1.5e3, 1.5e3}, .initial = 0, .linear = true, .role = PhysicalRole::offset_force},
   };
   static constexpr std::string_view kin[] = {"gas-spring"};
+  static constexpr ContrastSense contrasts[] = {{ContrastKind::mean_force, Sense::either}};
   static constexpr Knowledge knowledge = {
       .family = families::place,
       .in_words = "a constant offset force",
@@ -24,6 +25,7 @@ struct OffsetForce {
       .acts = Acts::by_place,
       .one_form = true,
       .kin = kin,
+      .contrasts = contrasts,
   };
 
   template <class T>

@@ -24,6 +24,7 @@ struct Pinching {
   };
   static constexpr std::string_view kin[] = {"cubic-stiffness"};
   static constexpr PartOfLaw part_of[] = {{"baber-noori"}};
+  static constexpr ContrastSense contrasts[] = {{ContrastKind::middle_loss, Sense::either}};
   static constexpr Knowledge knowledge = {
       .family = families::place,
       .in_words = "pinching around mid-stroke",
@@ -32,6 +33,7 @@ struct Pinching {
       .acts = Acts::by_place,
       .kin = kin,
       .part_of = part_of,
+      .contrasts = contrasts,
   };
 
   template <class T>

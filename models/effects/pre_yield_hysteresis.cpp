@@ -19,12 +19,14 @@ struct PreYieldHysteresis {
       {.name = "x_y", .unit = "m", .meaning = "its yield displacement", .box = {1e-3, 0.025}, .initial = 5e-3, .scale = Scale::logarithmic},
   };
   static constexpr std::string_view kin[] = {"coulomb-friction", "seal-friction"};
+  static constexpr ContrastSense contrasts[] = {{ContrastKind::pre_yield, Sense::positive}};
   static constexpr Knowledge knowledge = {
       .family = families::friction,
       .in_words = "pre-yield hysteresis (a Dahl element in parallel)",
       .shows = "strokes below the yield displacement draw loops of their own, the same at any speed",
       .experiment = "small strokes at several amplitudes below the knee",
       .kin = kin,
+      .contrasts = contrasts,
   };
 
   template <class T>

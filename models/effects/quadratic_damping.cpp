@@ -18,12 +18,14 @@ struct QuadraticDamping {
       {.name = "d2", .unit = "N s^2/m^2", .meaning = "quadratic damping", .box = {0, 2e4}, .initial = 0, .linear = true},
   };
   static constexpr std::string_view kin[] = {"viscous-damping", "shear-thinning"};
+  static constexpr ContrastSense contrasts[] = {{ContrastKind::speed_bend, Sense::positive}};
   static constexpr Knowledge knowledge = {
       .family = families::fluid,
       .in_words = "quadratic (orifice) damping",
       .shows = "the force rises with the square of the speed",
       .experiment = "constant-velocity runs over at least a decade of speed",
       .kin = kin,
+      .contrasts = contrasts,
   };
 
   template <class T>

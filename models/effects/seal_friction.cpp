@@ -31,6 +31,7 @@ struct SealFriction {
   static constexpr BoxLimit ends_as[] = {{"shear-thinning", "v_t", BoxEnd::upper},
                                          {id, "v_t", BoxEnd::lower},
                                          {id, "x_b", BoxEnd::lower}};
+  static constexpr ContrastSense contrasts[] = {{ContrastKind::dry_friction, Sense::positive}, {ContrastKind::low_speed, Sense::positive}};
   static constexpr Knowledge knowledge = {
       .family = families::friction,
       .in_words = "seal friction (Coulomb-Stribeck)",
@@ -39,6 +40,7 @@ struct SealFriction {
       .kin = kin,
       .holds = holds,
       .ends_as = ends_as,
+      .contrasts = contrasts,
   };
 
   template <class T>

@@ -28,6 +28,7 @@ struct SelfHeating {
                                          {id, "y", BoxEnd::lower},
                                          {id, "y", BoxEnd::upper},
                                          {id, "c_h", BoxEnd::lower}};
+  static constexpr ContrastSense contrasts[] = {{ContrastKind::energy_fade, Sense::positive}, {ContrastKind::pause_recovery, Sense::positive}};
   static constexpr Knowledge knowledge = {
       .family = families::slow_loss,
       .in_words = "self-heating",
@@ -35,6 +36,7 @@ struct SelfHeating {
       .experiment = "a long run of constant severity, a pause, and the first recording again",
       .kin = kin,
       .ends_as = ends_as,
+      .contrasts = contrasts,
   };
 
   template <class T>

@@ -20,6 +20,7 @@ struct SensorDelay {
       {.name = "lag", .unit = "s", .meaning = "delay of the force channel", .box = {-0.02, 0.02}, .initial = 0},
   };
   static constexpr std::string_view kin[] = {"inertia", "velocity-lag", "compliance"};
+  static constexpr ContrastSense contrasts[] = {{ContrastKind::force_delay, Sense::either}};
   static constexpr Knowledge knowledge = {
       .family = families::phase,
       .in_words = "a delay between the motion and force channels",
@@ -28,6 +29,7 @@ struct SensorDelay {
           "[a current step at constant velocity and ]sines at frequencies an octave apart: a delay stays constant in "
           "ms",
       .kin = kin,
+      .contrasts = contrasts,
   };
 
   template <class T>

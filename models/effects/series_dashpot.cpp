@@ -20,6 +20,7 @@ struct SeriesDashpot {
   };
   static constexpr std::string_view kin[] = {"compliance"};
   static constexpr PartOfLaw part_of[] = {{"modified-bouc-wen", "bouc-wen", "c1"}};
+  static constexpr ContrastSense contrasts[] = {{ContrastKind::rest_relaxation, Sense::positive}};
   static constexpr Knowledge knowledge = {
       .family = families::series,
       .in_words = "a series dashpot (roll-off at low speed)",
@@ -27,6 +28,7 @@ struct SeriesDashpot {
       .experiment = "slow triangles from 1 to 20 mm/s, and a hold after a fast stroke to see the force relax",
       .kin = kin,
       .part_of = part_of,
+      .contrasts = contrasts,
   };
 
   template <class T>

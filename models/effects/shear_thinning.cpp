@@ -23,6 +23,7 @@ struct ShearThinning {
   static constexpr Limit holds[] = {{"coulomb-friction", "m"}};
   // Damping that thins out entirely is a friction.
   static constexpr BoxLimit ends_as[] = {{"coulomb-friction", "m", BoxEnd::lower}};
+  static constexpr ContrastSense contrasts[] = {{ContrastKind::speed_bend, Sense::negative}};
   static constexpr Knowledge knowledge = {
       .family = families::fluid,
       .in_words = "shear thinning",
@@ -31,6 +32,7 @@ struct ShearThinning {
       .kin = kin,
       .holds = holds,
       .ends_as = ends_as,
+      .contrasts = contrasts,
   };
 
   template <class T>

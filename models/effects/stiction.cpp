@@ -20,6 +20,7 @@ struct Stiction {
   static constexpr std::string_view kin[] = {"self-heating", "degradation"};
   // What has not faded over all of the travel is a loss for good.
   static constexpr BoxLimit ends_as[] = {{"degradation", "L", BoxEnd::upper}};
+  static constexpr ContrastSense contrasts[] = {{ContrastKind::pause_recovery, Sense::positive}, {ContrastKind::first_travel, Sense::either}};
   static constexpr Knowledge knowledge = {
       .family = families::slow_loss,
       .in_words = "first-travel stiction",
@@ -27,6 +28,7 @@ struct Stiction {
       .experiment = "the same run after rests of different length",
       .kin = kin,
       .ends_as = ends_as,
+      .contrasts = contrasts,
   };
 
   template <class T>

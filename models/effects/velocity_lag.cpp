@@ -19,6 +19,7 @@ struct VelocityLag {
   };
   static constexpr Need needs[] = {Need::lagging_velocity};
   static constexpr std::string_view kin[] = {"inertia", "sensor-delay"};
+  static constexpr ContrastSense contrasts[] = {{ContrastKind::velocity_delay, Sense::either}};
   static constexpr Knowledge knowledge = {
       .family = families::phase,
       .in_words = "a lag of the velocity channel",
@@ -28,6 +29,7 @@ struct VelocityLag {
           "shows the lag of the velocity channel",
       .needs = needs,
       .kin = kin,
+      .contrasts = contrasts,
   };
 
   template <class T>

@@ -16,6 +16,7 @@ struct ViscousDamping {
       {.name = "c", .unit = "N s/m", .meaning = "viscous damping", .box = {0, 2e4}, .initial = 0, .linear = true, .role = PhysicalRole::damping},
   };
   static constexpr std::string_view kin[] = {"quadratic-damping", "shear-thinning"};
+  static constexpr ContrastSense contrasts[] = {{ContrastKind::viscous, Sense::positive}};
   static constexpr Knowledge knowledge = {
       .family = families::fluid,
       .in_words = "viscous damping",
@@ -23,6 +24,7 @@ struct ViscousDamping {
       .experiment = "constant-velocity runs over at least a decade of speed",
       .one_form = true,
       .kin = kin,
+      .contrasts = contrasts,
   };
 
   template <class T>

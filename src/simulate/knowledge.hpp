@@ -9,6 +9,8 @@
 #include <span>
 #include <string_view>
 
+#include "core/contrast_kind.hpp"
+
 namespace hysteron {
 
 // Effects of which one may be told to be there where the recordings do not tell which.
@@ -43,6 +45,8 @@ struct Limit {
 
 // With `parameter` at one end of its box an effect is `other`, or a plain form of itself.
 enum class BoxEnd { lower, upper };
+// "lower" or "upper", in result files and sentences.
+constexpr std::string_view word_of(BoxEnd end) { return end == BoxEnd::lower ? "lower" : "upper"; }
 struct BoxLimit {
   std::string_view other;
   std::string_view parameter;
@@ -84,6 +88,7 @@ struct Knowledge {
   std::span<const BoxLimit> ends_as = {};          // effects that it is at an end of its own box
   std::span<const PartOfLaw> part_of = {};         // damper laws that have it as a part of their own
   std::span<const KindredParameter> kindred = {};  // parameters of its own that stand for others
+  std::span<const ContrastSense> contrasts = {};   // what only it does to the force, and with which sign
 };
 
 // Families of the catalogue. One that none of them describes is declared beside its effect.

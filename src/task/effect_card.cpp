@@ -61,12 +61,18 @@ json effect_card_json(const std::string& effect) {
   for (const Relation& row : relations_of(effect)) {
     related.push_back({{"id", row.id}, {"how", or_null(row.how)}});
   }
+  json told_by = json::array();
+  for (const ContrastSense& row : known.contrasts) {
+    const ContrastCard& card = card_of(row.contrast);
+    told_by.push_back({{"id", card.id}, {"what", card.what}, {"unit", card.unit}, {"sign", sign_of(row.sense)}});
+  }
   return {{"family",
            known.family.id.empty() ? json(nullptr) : json{{"id", known.family.id}, {"title", known.family.title}}},
           {"shows", or_null(known.shows)},
           {"acts", words_of(known.acts)},
           {"needs", needs_of(known)},
           {"related", related},
+          {"contrasts", told_by},
           {"experiment", or_null(known.experiment)}};
 }
 
@@ -78,6 +84,16 @@ std::string effect_card_text(const std::string& effect) {
   }
   if (!known.shows.empty()) {
     text += wrapped("It shows: " + worded(known.shows, DriveKind::current), 2);
+  }
+  std::vector<std::string> told_by;
+  for (const ContrastSense& row : known.contrasts) {
+    const std::string_view sign = row.sense == Sense::positive   ? " (> 0)"
+                                  : row.sense == Sense::negative ? " (< 0)"
+                                                                 : "";
+    told_by.push_back(fmt::format("{}{}", card_of(row.contrast).what, sign));
+  }
+  if (!told_by.empty()) {
+    text += wrapped(fmt::format("Shown by: {}", fmt::join(told_by, "; ")), 2);
   }
   std::vector<std::string> related;
   for (const Relation& row : relations_of(effect)) {

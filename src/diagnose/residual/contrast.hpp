@@ -9,40 +9,11 @@
 #include <string_view>
 #include <vector>
 
+#include "core/contrast_kind.hpp"
 #include "core/recording.hpp"
 #include "diagnose/residual/residuals.hpp"
 
 namespace hysteron {
-
-enum class ContrastKind {
-  rest_relaxation,
-  reversal_travel,
-  force_travel,
-  force_delay,
-  velocity_delay,
-  acceleration,
-  drive_lag,
-  drive_memory,
-  drive_bend,
-  mean_force,
-  stiffness,
-  stiffness_bend,
-  stiffness_cubic,
-  stroke_end,
-  middle_loss,
-  energy_fade,
-  pause_recovery,
-  first_travel,
-  drift,
-  direction,
-  one_sided_limit,
-  dry_friction,
-  low_speed,
-  viscous,
-  speed_bend,
-  pre_yield,
-};
-constexpr std::size_t contrast_kinds = static_cast<std::size_t>(ContrastKind::pre_yield) + 1;
 
 struct ContrastOfRecording {
   std::size_t recording = 0;  // index in the span that was given
@@ -65,22 +36,6 @@ struct Contrast {
   std::size_t placebos = 0;       // how many there were
   std::vector<ContrastOfRecording> of_recordings;
 };
-
-// One line for a contrast: "travel without force after a reversal", its unit, and the identifier used in result files.
-struct ContrastCard {
-  ContrastKind kind{};
-  std::string_view id;
-  std::string_view what;
-  std::string_view unit;
-  // Recordings of one motion tell it each for itself: it is no misfit that a motion repeats.
-  bool by_recording = false;
-};
-const ContrastCard& card_of(ContrastKind kind);
-
-// Ids of the effects (CONTRACT) that a contrast speaks for, nearest first.
-std::span<const std::string_view> speaks_for(ContrastKind kind);
-// The sign that its value has where that effect acts: 1, -1, or 0 where both occur or it does not speak for it.
-int sign_for(ContrastKind kind, std::string_view effect);
 
 enum class Placebos { none, all };
 

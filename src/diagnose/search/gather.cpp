@@ -162,9 +162,9 @@ std::vector<Signature> signatures_of(const std::vector<Contrast>& contrasts) {
     row.consistency = contrast.consistency;
     row.placebo_quantile = contrast.placebo_quantile;
     row.recordings = contrast.recordings;
-    for (const std::string_view effect : speaks_for(contrast.kind)) {
-      row.speaks_for.emplace_back(effect);
-      row.sign.push_back(sign_for(contrast.kind, effect));
+    for (const Voice& voice : voices_of(contrast.kind)) {
+      row.speaks_for.emplace_back(voice.effect);
+      row.sign.push_back(sign_of(voice.sense));
     }
     result.push_back(std::move(row));
   }

@@ -165,4 +165,14 @@ std::vector<Relation> relations_of(const std::string& effect) {
   return result;
 }
 
+std::vector<Voice> voices_of(ContrastKind kind) {
+  std::vector<Voice> result;
+  for (const Part* effect : effect_catalogue()) {
+    for (const ContrastSense& told : knowledge_of(effect->id).contrasts) {
+      if (told.contrast == kind) result.push_back({effect->id, told.sense});
+    }
+  }
+  return result;
+}
+
 }  // namespace hysteron

@@ -63,4 +63,12 @@ struct Relation {
 // Its relatives, then what else it ends as or ends as it.
 std::vector<Relation> relations_of(const std::string& effect);
 
+// An effect that a contrast speaks for, and the sign that its value has where the effect acts.
+struct Voice {
+  std::string_view effect;
+  Sense sense = Sense::either;
+};
+// Those whose cards say so, plugins' included, in the order of the catalogue.
+std::vector<Voice> voices_of(ContrastKind kind);
+
 }  // namespace hysteron
