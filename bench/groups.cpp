@@ -64,8 +64,8 @@ std::string said(const Examined& of) {
   if (!of.belonging) {
     return "one";
   }
-  return (of.belonging->explained_by.empty() ? std::string("PARTED: ") : "by " + of.belonging->explained_by + ": ") +
-         sentence_of(*of.belonging) + fmt::format(" (chance {:.4f})", of.belonging->chance);
+  return std::string(of.belonging->explained ? "explained: " : "PARTED: ") + sentence_of(*of.belonging) +
+         fmt::format(" (chance {:.4f})", of.belonging->chance);
 }
 
 void run_campaign(const std::string& folder) {
@@ -182,7 +182,7 @@ void study(std::size_t seeds, const std::string& only, double factor) {
               const Examined found = examine(campaign, "bouc-wen", layout);
               if (found.belonging) {
                 const bool true_groups = right(*found.belonging, campaign, states);
-                const bool told = found.belonging->explained_by.empty();
+                const bool told = !found.belonging->explained;
                 ++count[told ? (true_groups && factors.back() > 1.0 ? 0U : 2U) : 1U];
               }
             }

@@ -98,7 +98,7 @@ void tell(const FitResult& fit, const FitData& data, const FitOptions& options) 
   table_rows.clear();
   for (const Estimate& estimate : result.estimates) {
     std::string remark = estimate.at_limit   ? "at its limit"
-                         : estimate.at_bound ? "at " + *estimate.at_bound + " bound"
+                         : estimate.at_bound ? fmt::format("at {} bound", word_of(*estimate.at_bound))
                                              : "";
     if (!estimate.identifiable) {
       remark += (remark.empty() ? "" : ", ") + std::string("not identifiable");

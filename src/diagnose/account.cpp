@@ -40,8 +40,8 @@ std::string interval_text(const ParameterInterval& p) {
   constexpr int digits = 3;
   const std::string value = size_text(p.value, p.unit, digits);
   if (!p.half_width) {
-    return value +
-           (p.bound.empty() ? " (not determined by these recordings)" : " (at the " + p.bound + " end of its box)");
+    return value + (p.bound ? fmt::format(" (at the {} end of its box)", word_of(*p.bound))
+                            : " (not determined by these recordings)");
   }
   auto [low, high] = interval_ends(p.value - *p.half_width, p.value + *p.half_width, digits,
                                    [&](double end, int digits_of_it) { return size_text(end, p.unit, digits_of_it); });

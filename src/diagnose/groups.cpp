@@ -64,20 +64,19 @@ double squares_of(const std::vector<Quadratic>& quadratics, const std::vector<Gr
   return result;
 }
 
-// What is known that parts two groups of which each holds more than one recording; empty where two stand that nothing
-// parts.
-std::string parted_by_conditions(const std::vector<RecordedCondition>& conditions, const std::vector<Group>& groups) {
-  std::string result;
+// Whether something known parts every two groups of which each holds more than one recording; not where there are no
+// two of them.
+bool parted_by_conditions(const std::vector<RecordedCondition>& conditions, const std::vector<Group>& groups) {
+  bool result = false;
   for (std::size_t a = 0; a < groups.size(); ++a) {
     for (std::size_t b = a + 1; b < groups.size(); ++b) {
       if (groups[a].size() < 2 || groups[b].size() < 2) {
         continue;
       }
-      const RecordedCondition* condition = parted_by(conditions, groups[a], groups[b]);
-      if (condition == nullptr) {
-        return {};
+      if (parted_by(conditions, groups[a], groups[b]) == nullptr) {
+        return false;
       }
-      result = condition->name;
+      result = true;
     }
   }
   return result;
@@ -104,7 +103,7 @@ double mean_frequency(const std::vector<Recording>& recordings) {
 // A partition, and what that is recorded explains it.
 struct Parted {
   Partition partition;
-  std::string explained_by;
+  bool explained = false;
   bool by_repeats = false;
 };
 
@@ -114,12 +113,9 @@ std::optional<Parted> parted_clearly(const std::optional<Partition>& clearest, c
   if (!clearest || clearest->chance > surely) {
     return {};
   }
-  Parted result{*clearest, parted_by_conditions(conditions, clearest->groups), false};
-  if (const Followed law = followed(quadratics, conditions);
-      result.explained_by.empty() && law.squares <= clearest->apart) {
-    result.explained_by = law.name;
-  }
-  return result;
+  const bool explained =
+      parted_by_conditions(conditions, clearest->groups) || squares_followed(quadratics, conditions) <= clearest->apart;
+  return Parted{*clearest, explained, false};
 }
 
 // Recordings of the same motion and drive whose forces differ by more than tests of one device do: no function of what
@@ -139,11 +135,8 @@ std::optional<Parted> parted_by_repeats(const std::vector<Quadratic>& quadratics
   if (unexplained < std::max(larger_part * all, squared(repeatability))) {
     return {};
   }
-  Parted result{*partition, "", true};
-  if (const Followed law = followed(quadratics, conditions); partition->together - law.squares > larger_part * all) {
-    result.explained_by = law.name;
-  }
-  return result;
+  const bool explained = partition->together - squares_followed(quadratics, conditions) > larger_part * all;
+  return Parted{*partition, explained, true};
 }
 
 void fit_groups(Belonging& result, const Workbench& bench, const Fit& joint, const std::vector<Quadratic>& quadratics,
@@ -208,7 +201,7 @@ std::optional<Belonging> belonging_of(const Workbench& bench, const ByRecording&
     clearest = finite(quadratics) ? clearest_partition(quadratics) : std::nullopt;
   }
   if (const std::optional<Parted> clear = parted_clearly(clearest, quadratics, conditions);
-      clear && (!parted || clear->explained_by.empty())) {
+      clear && (!parted || !clear->explained)) {
     parted = clear;
   } else if (parted) {
     quadratics = base.quadratics;
@@ -218,7 +211,7 @@ std::optional<Belonging> belonging_of(const Workbench& bench, const ByRecording&
   }
   Belonging result;
   result.chance = parted->partition.chance;
-  result.explained_by = parted->explained_by;
+  result.explained = parted->explained;
   result.by_repeats = parted->by_repeats;
   result.together = joint.cost;
   fit_groups(result, bench, joint, quadratics, handles, parted->partition);
@@ -226,17 +219,17 @@ std::optional<Belonging> belonging_of(const Workbench& bench, const ByRecording&
   if (squared(result.together) - squared(result.apart) < larger_part * (squared(result.together) - floor)) {
     return {};
   }
-  if (result.explained_by.empty() && !augmented.what.effects.empty()) {
+  if (!result.explained && !augmented.what.effects.empty()) {
     const std::vector<Quadratic> left = quadratics_of(bench, augmented, handles_of(augmented));
     const double joined = common_of(left, everything(left.size())).squares;
     if (finite(left) && joined - squares_of(left, parted->partition.groups) < larger_part * (joined - floor)) {
-      result.explained_by = "effects";
+      result.explained = true;
     }
   }
   return result;
 }
 
-bool mixed(const std::optional<Belonging>& belonging) { return belonging && belonging->explained_by.empty(); }
+bool mixed(const std::optional<Belonging>& belonging) { return belonging && !belonging->explained; }
 
 std::string sentence_of(const Belonging& belonging) {
   std::vector<std::string> groups;

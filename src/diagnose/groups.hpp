@@ -30,8 +30,7 @@ struct Belonging {
   bool by_repeats = false;  // told by repeated motions whose forces differ, else by how well the groups hold together
   double chance = 1.0;      // that parameters which scatter from recording to recording hold together so
   std::vector<Difference> differences;  // what parts the groups most comes first
-  // What parts the recordings as well as another state of the device; empty where nothing that is known does.
-  std::string explained_by;
+  bool explained = false;               // something known parts the recordings as well as another state of the device
 };
 
 // `bench` holds all recordings, those held out too. `base` is of the damper law alone on them, `augmented` the best

@@ -136,13 +136,13 @@ void add_estimates(Identification& result, const Uncertainty& uncertainty, const
     const std::size_t count = law.count();
     bool law_open = false;
     bool law_free = false;
-    std::optional<std::string> bound;
+    std::optional<BoxEnd> bound;
     bool limit = true;
     for (std::size_t k = 0; k < count; ++k) {
       const double position = u[law.first + k];
       law_open = law_open || uncertainty.open[law.first + k];
       if (on_bound(position)) {
-        bound = position < 0.5 ? "lower" : "upper";
+        bound = on_upper(position) ? BoxEnd::upper : BoxEnd::lower;
         limit = limit && is_limit(layout.cards()[law.parameter], on_upper(position));
       } else {
         law_free = true;

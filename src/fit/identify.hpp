@@ -11,6 +11,7 @@
 #include "fit/driver.hpp"
 #include "fit/objective.hpp"
 #include "fit/sensitivity.hpp"
+#include "simulate/knowledge.hpp"
 
 namespace hysteron {
 
@@ -31,9 +32,9 @@ struct Estimate {
   std::string unit;       // as stored
   std::string unit_text;  // as people read it
   std::string meaning;
-  std::optional<double> std_error;      // absent when the data do not determine it
-  std::optional<double> half_width;     // of the 95 % interval, at least 1.96 std_error; absent likewise
-  std::optional<std::string> at_bound;  // "lower" or "upper": the node value that sits on the box
+  std::optional<double> std_error;   // absent when the data do not determine it
+  std::optional<double> half_width;  // of the 95 % interval, at least 1.96 std_error; absent likewise
+  std::optional<BoxEnd> at_bound;    // the end of the box that a node value sits on
   bool at_limit = false;  // the bound is the end of what the parameter can be at all, not of its search range only
   bool identifiable = true;
   double lower;

@@ -114,7 +114,7 @@ json model_json(const Identification& result, const Campaign& campaign, const Id
                           {"value", estimate.term.value},
                           {"unit", estimate.unit},
                           {"std_error", estimate.std_error ? json(*estimate.std_error) : json(nullptr)},
-                          {"at_bound", estimate.at_bound ? json(*estimate.at_bound) : json(nullptr)},
+                          {"at_bound", estimate.at_bound ? json(word_of(*estimate.at_bound)) : json(nullptr)},
                           {"identifiable", estimate.identifiable}});
     if (json powers = powers_json(estimate.term, result.layout); !powers.empty()) {
       parameters.back()["condition_powers"] = std::move(powers);

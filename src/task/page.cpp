@@ -117,7 +117,7 @@ json estimate_json(const Estimate& estimate, const Layout& layout) {
               {"value", estimate.term.value},
               {"std_error", nullptr},
               {"ci95", nullptr},
-              {"at_bound", estimate.at_bound ? json(*estimate.at_bound) : json(nullptr)},
+              {"at_bound", estimate.at_bound ? json(word_of(*estimate.at_bound)) : json(nullptr)},
               {"identifiable", estimate.identifiable}};
   row["lower"] = constant ? json(estimate.lower) : json(nullptr);
   row["upper"] = constant ? json(estimate.upper) : json(nullptr);

@@ -367,8 +367,8 @@ TEST(AtBound, IsRaisedWhenTheTruthIsOutsideAndOnlyThen) {
   options.budget = 1000;
   options.layout.bounds = {{"c0", {0.0, 1000.0}}, {"k0", {20000.0, 30000.0}}};
   const Identification result = identify(viscous_campaign(5.0), "viscous", options, {});
-  EXPECT_EQ(estimate_of(result, "c0").at_bound, "upper");
-  EXPECT_EQ(estimate_of(result, "k0").at_bound, "lower");
+  EXPECT_EQ(estimate_of(result, "c0").at_bound, BoxEnd::upper);
+  EXPECT_EQ(estimate_of(result, "k0").at_bound, BoxEnd::lower);
   EXPECT_FALSE(estimate_of(result, "f0").at_bound.has_value());
   EXPECT_FALSE(estimate_of(result, "c0").std_error.has_value());
   EXPECT_FALSE(estimate_of(result, "c0").at_limit);
@@ -412,7 +412,7 @@ TEST(AtBound, TheEndOfWhatAParameterCanBeIsNoMatterOfTheRange) {
   IdentifyOptions options;
   options.budget = 1000;
   const Identification result = identify(viscous_campaign(5.0, -100.0), "viscous", options, {});
-  EXPECT_EQ(estimate_of(result, "c0").at_bound, "lower");
+  EXPECT_EQ(estimate_of(result, "c0").at_bound, BoxEnd::lower);
   EXPECT_TRUE(estimate_of(result, "c0").at_limit);
   EXPECT_NE(result.bounds_met.plain().find("c0 is 0 N s/m, the least it can be"), std::string::npos)
       << result.bounds_met.plain();
@@ -448,8 +448,8 @@ TEST(Identifiable, AccumulatorDeflectionBesideAnOffsetForceIsFlagged) {
   for (const Estimate* estimate : {&estimate_of(result, "x0"), &result.estimates.back()}) {
     EXPECT_FALSE(estimate->identifiable && !estimate->at_bound)
         << estimate->name << " = " << estimate->term.value << " is called identified; x0 is at the "
-        << estimate_of(result, "x0").at_bound.value_or("inside") << ", f0 at the "
-        << result.estimates.back().at_bound.value_or("inside");
+        << (estimate_of(result, "x0").at_bound ? "bound" : "inside") << ", f0 at the "
+        << (result.estimates.back().at_bound ? "bound" : "inside");
   }
   EXPECT_TRUE(estimate_of(result, "alpha").identifiable);
   EXPECT_TRUE(estimate_of(result, "k1").identifiable);

@@ -192,26 +192,23 @@ std::vector<Group> cells_of(const std::vector<RecordedCondition>& conditions, st
   return result;
 }
 
-Followed followed(const std::vector<Quadratic>& quadratics, const std::vector<RecordedCondition>& conditions) {
+double squares_followed(const std::vector<Quadratic>& quadratics, const std::vector<RecordedCondition>& conditions) {
   const auto count = static_cast<Eigen::Index>(quadratics.size());
   std::vector<RecordedCondition> all = conditions;
   RecordedCondition order{"order of the recordings", std::vector<double>(quadratics.size()), false, 0.0, false};
   std::iota(order.value.begin(), order.value.end(), 0.0);
   all.push_back(std::move(order));
   Eigen::MatrixXd plane = Eigen::MatrixXd::Ones(count, 1);
-  Followed best{"", std::numeric_limits<double>::infinity()};
-  const auto keep = [&](const std::string& name, const Eigen::MatrixXd& regressors) {
+  double best = std::numeric_limits<double>::infinity();
+  const auto keep = [&](const Eigen::MatrixXd& regressors) {
     // As many functions as recordings follow anything.
-    const double squares = regressors.cols() < count - 1 ? along(quadratics, regressors).squares : best.squares;
-    if (squares < best.squares) {
-      best = {name, squares};
-    }
+    if (regressors.cols() < count - 1) best = std::min(best, along(quadratics, regressors).squares);
   };
   for (const RecordedCondition& condition : all) {
     const Eigen::VectorXd column = column_of(condition);
     Eigen::MatrixXd regressors(count, 3);
     regressors << Eigen::VectorXd::Ones(count), column, column.cwiseProduct(column);
-    keep(condition.name, regressors);
+    keep(regressors);
     // Levels that repeat allow for any function.
     const std::vector<Group> levels = cells_of({condition}, quadratics.size());
     if (2 * levels.size() <= quadratics.size()) {
@@ -221,14 +218,14 @@ Followed followed(const std::vector<Quadratic>& quadratics, const std::vector<Re
           steps(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(level)) = 1.0;
         }
       }
-      keep(condition.name, steps);
+      keep(steps);
     }
     if (condition.name == "drive" || condition.name == "stroke" || condition.name == "frequency") {
       plane.conservativeResize(Eigen::NoChange, plane.cols() + 1);
       plane.col(plane.cols() - 1) = column;
     }
   }
-  keep("drive, stroke and frequency", plane);
+  keep(plane);
   return best;
 }
 

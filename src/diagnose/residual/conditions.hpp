@@ -35,13 +35,8 @@ const RecordedCondition* parted_by(const std::vector<RecordedCondition>& conditi
 std::vector<Group> cells_of(const std::vector<RecordedCondition>& conditions, std::size_t recordings);
 
 // Least squares when the parameters follow a condition, or the order of the recordings, by a parabola, a condition of
-// few levels (at most half as many as recordings) by any function, or drive, stroke and frequency together by a plane;
-// and what they follow.
-struct Followed {
-  std::string name;
-  double squares = 0.0;
-};
-Followed followed(const std::vector<Quadratic>& quadratics, const std::vector<RecordedCondition>& conditions);
+// few levels (at most half as many as recordings) by any function, or drive, stroke and frequency together by a plane.
+double squares_followed(const std::vector<Quadratic>& quadratics, const std::vector<RecordedCondition>& conditions);
 
 // A column that no model uses and that the parameters follow from recording to recording.
 struct FollowedColumn {

@@ -55,7 +55,7 @@ bool ends_as(const Fit& fit, const std::string& effect, const std::string& other
   if (at == intervals.end()) {
     return false;
   }
-  return limit->end == BoxEnd::upper ? at->bound == "upper"
+  return limit->end == BoxEnd::upper ? at->bound == BoxEnd::upper
                                      : !at->half_width || at->value - *at->half_width <= at->lower;
 }
 
@@ -317,9 +317,8 @@ Candidate candidate_found(std::size_t k, const Search& search, const Workbench& 
   }
   const std::vector<ParameterInterval> intervals = known.intervals(search.augmented, one.id);
   one.parameters = static_cast<int>(intervals.size());
-  one.on_bound = static_cast<int>(std::ranges::count_if(intervals, [&](const ParameterInterval& p) {
-    return !p.bound.empty() && !is_plain_end(one.id, p.name, p.bound == "upper" ? BoxEnd::upper : BoxEnd::lower);
-  }));
+  one.on_bound = static_cast<int>(std::ranges::count_if(
+      intervals, [&](const ParameterInterval& p) { return p.bound && !is_plain_end(one.id, p.name, *p.bound); }));
   one.signatures = signatures_of(found.contrasts);
   one.of_law = found.of_law.has_value();
   one.as_channels = found.told || (one.id == channel_lag && as_channels_show(search.augmented, known));

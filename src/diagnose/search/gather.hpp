@@ -12,6 +12,7 @@
 #include "diagnose/search/observe.hpp"
 #include "diagnose/search/search.hpp"
 #include "io/channel_lag.hpp"
+#include "simulate/knowledge.hpp"
 
 namespace hysteron {
 
@@ -20,7 +21,7 @@ struct ParameterInterval {
   std::string unit;
   double value = 0.0;
   std::optional<double> half_width;  // of the 95 % interval; absent on a bound and where the data do not tell it
-  std::string bound = {};            // "lower" or "upper" where the value sits on its box
+  std::optional<BoxEnd> bound = {};  // end of its box that the value sits on
   double lower = -1e300;             // of its box
 };
 
