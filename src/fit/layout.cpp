@@ -89,16 +89,6 @@ double offset_of_springs(const std::vector<Parameter>& cards, const DataScale& s
 // A length or a time so far below those of the device has more steps in it than can be marched.
 constexpr double far_below_the_box = 1e-3;
 
-// "more than 0", "from 0 to 1": what a parameter can be, in its unit.
-std::string limits_text(const Parameter& card, double least) {
-  const std::string unit = card.unit == "1" ? "" : " " + std::string(card.unit);
-  if (least > 0.0) return "at least " + number_text(least) + unit;
-  if (!card.limits.zero) return "more than " + number_text(card.limits.lower) + unit;
-  if (std::isinf(card.limits.lower)) return "at most " + number_text(card.limits.upper) + unit;
-  if (std::isinf(card.limits.upper)) return "at least " + number_text(card.limits.lower) + unit;
-  return number_text(card.limits.lower) + " to " + number_text(card.limits.upper) + unit;
-}
-
 // `given` is the option with the value. The box is the device's.
 void refuse_impossible(const Parameter& card, const Box& box, double value, const Message& given) {
   const bool divides = card.scale == Scale::logarithmic && !card.limits.zero;
@@ -109,6 +99,15 @@ void refuse_impossible(const Parameter& card, const Box& box, double value, cons
 }
 
 }  // namespace
+
+std::string limits_text(const Parameter& card, double least) {
+  const std::string unit = card.unit == "1" ? "" : " " + std::string(card.unit);
+  if (least > 0.0) return "at least " + number_text(least) + unit;
+  if (!card.limits.zero) return "more than " + number_text(card.limits.lower) + unit;
+  if (std::isinf(card.limits.lower)) return "at most " + number_text(card.limits.upper) + unit;
+  if (std::isinf(card.limits.upper)) return "at least " + number_text(card.limits.lower) + unit;
+  return number_text(card.limits.lower) + " to " + number_text(card.limits.upper) + unit;
+}
 
 std::size_t ParameterLaw::count() const {
   std::size_t result = drive_nodes.size() * frequency_nodes.size();
@@ -372,8 +371,7 @@ std::vector<T> Layout::weights(const ParameterLaw& law, const T& drive, double f
 }
 template std::vector<double> Layout::weights(const ParameterLaw&, const double&, double, std::span<const double>);
 template std::vector<Lanes> Layout::weights(const ParameterLaw&, const Lanes&, double, std::span<const double>);
-template std::vector<WideLanes> Layout::weights(const ParameterLaw&, const WideLanes&, double,
-                                                 std::span<const double>);
+template std::vector<WideLanes> Layout::weights(const ParameterLaw&, const WideLanes&, double, std::span<const double>);
 template std::vector<LaneDual> Layout::weights(const ParameterLaw&, const LaneDual&, double, std::span<const double>);
 
 namespace {

@@ -156,4 +156,8 @@ std::string term_unit(std::string_view unit, const Term& term, const std::vector
 std::string term_unit_text(std::string_view unit, const Term& term, const std::vector<ConditionRange>& conditions,
                            DriveKind drive);
 
+// "more than 0", "0 to 1", "at least 0.001 m": what a parameter can be, in its unit; not below `least` where that is
+// above zero.
+std::string limits_text(const Parameter& card, double least = 0.0);
+
 }  // namespace hysteron

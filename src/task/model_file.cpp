@@ -9,8 +9,10 @@
 
 #include "core/error.hpp"
 #include "core/message.hpp"
+#include "core/number_text.hpp"
 #include "core/suggest.hpp"
 #include "core/unit_text.hpp"
+#include "fit/layout.hpp"
 #include "io/conditions.hpp"
 #include "io/file.hpp"
 #include "io/json_reader.hpp"
@@ -229,9 +231,15 @@ std::optional<int> stated_order(const json& root, const char* key, const std::st
   return order.get<int>();
 }
 
+void refuse_impossible(const Parameter& card, const std::string& name, double value) {
+  if (card.limits.hold(value)) return;
+  throw InputError("parameter '" + name + "' is " + number_text(value) + ", expected " + limits_text(card));
+}
+
 // The terms of every parameter fill the grid of its powers, and are as many as its stated laws say.
 void check_terms(const json& root, const StoredModel& stored) {
   const std::vector<std::string> names = stored.model.parameter_names();
+  const std::vector<Parameter> cards = stored.model.parameters();
   for (std::size_t k = 0; k < names.size(); ++k) {
     // Highest power in drive, frequency and every condition: as found, then as stated.
     std::vector<int> highest(2 + stored.conditions.size(), -1);
@@ -261,6 +269,7 @@ void check_terms(const json& root, const StoredModel& stored) {
       count *= static_cast<std::size_t>(stated[axis] + 1);
       if (count > most_terms) throw InputError("parameter '" + names[k] + "' has a law of too many terms");
     }
+    if (count == 1) refuse_impossible(cards[k], names[k], std::ranges::find(stored.terms, k, &Term::parameter)->value);
     for (std::size_t n = 0; n < count; ++n) {
       Term wanted{k, 0, 0, 0.0, {}};
       std::size_t rest = n;

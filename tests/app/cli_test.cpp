@@ -511,6 +511,11 @@ void erase_term(json& model, const std::string& name) {
   }
 }
 
+json& value_of(json& model, const std::string& name) {
+  json& rows = model["parameters"];
+  return (*std::ranges::find_if(rows, [&](const json& row) { return row.at("name") == name; }))["value"];
+}
+
 TEST_F(Refusal, OfWrongModelFiles) {
   fit();
   const std::string good = read(folder_ / "fitted/model.json");
@@ -547,6 +552,7 @@ TEST_F(Refusal, OfWrongModelFiles) {
       {"value is null", changed([](json& m) { m["parameters"][0]["value"] = nullptr; })},
       {"value is text", changed([](json& m) { m["parameters"][0]["value"] = "big"; })},
       {"parameter is a number", changed([](json& m) { m["parameters"][0] = 7; })},
+      {"value that cannot be", changed([](json& m) { value_of(m, "x_y") = -0.001; })},
       {"power too high", changed([](json& m) { m["parameters"][0]["drive_power"] = 99; })},
       {"parameter given twice", changed([](json& m) { m["parameters"].push_back(m["parameters"][0]); })},
       {"power is broken", changed([](json& m) { m["parameters"][1]["drive_power"] = 1.5; })},
@@ -691,14 +697,14 @@ TEST_F(Program, EveryCommandTakesTheCommonOptions) {
     return run(words);
   };
   ASSERT_EQ(with_common({"fit", "data", "--model", "viscous", "--budget", "50", "--out", "out"}).status, 0);
-  for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
-           {"simulate", "out/model.json", "data/r1.csv", "--out", "force.csv"},
-           {"score", "out/model.json", "data"},
-           {"compare", "out/model.json", "data", "--out", "compared"},
-           {"export", "out/model.json", "--to", "c", "--out", "c"},
-           {"list", "models"},
-           {"describe", "bouc-wen"},
-           {"generate", "rd8040-twin", "--only", "0.4Hz_0.0A", "--out", "twin"}}) {
+  for (const std::vector<std::string>& words :
+       std::vector<std::vector<std::string>>{{"simulate", "out/model.json", "data/r1.csv", "--out", "force.csv"},
+                                             {"score", "out/model.json", "data"},
+                                             {"compare", "out/model.json", "data", "--out", "compared"},
+                                             {"export", "out/model.json", "--to", "c", "--out", "c"},
+                                             {"list", "models"},
+                                             {"describe", "bouc-wen"},
+                                             {"generate", "rd8040-twin", "--only", "0.4Hz_0.0A", "--out", "twin"}}) {
     const Outcome outcome = with_common(words);
     EXPECT_EQ(outcome.status, 0) << words[0] << ": " << outcome.err;
   }
