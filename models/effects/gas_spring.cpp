@@ -25,6 +25,8 @@ struct GasSpring {
   static constexpr BoxLimit ends_as[] = {{id, "kappa", BoxEnd::lower}, {id, "kappa", BoxEnd::upper}};
   // A large gas force with hardly any gas swept is a spring.
   static constexpr Limit holds[] = {{"offset-force", "g"}, {"linear-stiffness", ""}};
+  // Gas pushes back harder the further it is compressed.
+  static constexpr SameSign same_sign[] = {{"f_g", "g"}};
   static constexpr ContrastSense contrasts[] = {{ContrastKind::mean_force, Sense::either}, {ContrastKind::stiffness, Sense::positive}, {ContrastKind::stiffness_bend, Sense::either}};
   static constexpr Knowledge knowledge = {
       .family = families::place,
@@ -35,6 +37,7 @@ struct GasSpring {
       .kin = kin,
       .holds = holds,
       .ends_as = ends_as,
+      .same_sign = same_sign,
       .contrasts = contrasts,
   };
 

@@ -53,6 +53,12 @@ struct BoxLimit {
   BoxEnd end;
 };
 
+// Two parameters of an effect of which one sign goes with the other.
+struct SameSign {
+  std::string_view parameter;
+  std::string_view other;
+};
+
 // `parameter` stands for `factor` times it as `its` of `effect`: a fit with one tells where to start one with the
 // other.
 struct KindredParameter {
@@ -88,6 +94,7 @@ struct Knowledge {
   std::span<const BoxLimit> ends_as = {};          // effects that it is at an end of its own box
   std::span<const PartOfLaw> part_of = {};         // damper laws that have it as a part of their own
   std::span<const KindredParameter> kindred = {};  // parameters of its own that stand for others
+  std::span<const SameSign> same_sign = {};        // pairs of parameters of its own that are of one sign
   std::span<const ContrastSense> contrasts = {};   // what only it does to the force, and with which sign
 };
 

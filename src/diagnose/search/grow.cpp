@@ -7,6 +7,7 @@
 #include "diagnose/search/left_out.hpp"
 #include "diagnose/search/of_fit.hpp"
 #include "diagnose/search/relatives.hpp"
+#include "diagnose/search/signs.hpp"
 
 namespace hysteron {
 namespace {
@@ -99,8 +100,12 @@ void grow(Course& course, const std::vector<Extension>& effects, int most_effect
       return;
     }
     course.current = *chosen->fit;
-    course.stands(course.current);
     before = std::move(*after);
+    if (std::optional<Fit> possible = turned_round(course.bench, course.current)) {
+      course.current = std::move(*possible);
+      before = left_out(course.bench, course.current);
+    }
+    course.stands(course.current);
     added += chosen->part.is_law() ? 0 : 1;
     if (!cannot_be_missed(chosen->part)) {
       course.strongest = std::max(course.strongest, chosen->gain);

@@ -7,6 +7,7 @@
 #include "diagnose/search/left_out.hpp"
 #include "diagnose/search/of_fit.hpp"
 #include "diagnose/search/relatives.hpp"
+#include "diagnose/search/signs.hpp"
 
 namespace hysteron {
 namespace {
@@ -177,6 +178,10 @@ std::vector<Found> settled(Course& course, const std::vector<Extension>& candida
     }
   }
   while (true) {
+    if (std::optional<Fit> possible = turned_round(course.bench, course.current)) {
+      course.current = std::move(*possible);
+      course.stands(course.current);
+    }
     std::vector<Found> result = worth_their_place(course);
     bool swapped = false;
     double done = 0.0;
