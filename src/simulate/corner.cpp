@@ -6,8 +6,11 @@
 namespace hysteron {
 namespace {
 
-// Change of velocity over a corner: of the larger speed beside it at least.
+// Change of velocity over a corner: at least so much of the largest speed around, as for derived velocities
+// (io/velocity.cpp). Less is the noise of a held rod.
 constexpr double least_bend = 0.2;
+// Samples to each side that are around: no more, so that the cost of a corner is bounded.
+constexpr std::size_t around = 10000;
 // What the velocity of either side may change by from sample to sample, over the bend.
 constexpr double steady = 0.05;
 // Where the lines may meet outside the interval, as theta: noise moves them.
@@ -30,8 +33,13 @@ struct Lines {
   [[nodiscard]] bool meet_sharply() const {
     if (left < 1 || right + 1 >= t.size()) return false;
     const double size = std::fabs(bend());
-    return size > least_bend * std::max(std::fabs(v[left]), std::fabs(v[right])) &&
-           std::fabs(v[left] - v[left - 1]) <= steady * size && std::fabs(v[right + 1] - v[right]) <= steady * size;
+    return size > 0.0 && std::fabs(v[left] - v[left - 1]) <= steady * size &&
+           std::fabs(v[right + 1] - v[right]) <= steady * size && is_large(size);
+  }
+  [[nodiscard]] bool is_large(double size) const {
+    const auto from = v.begin() + static_cast<std::ptrdiff_t>(left - std::min(left, around));
+    const auto to = v.begin() + static_cast<std::ptrdiff_t>(std::min(right + around, v.size() - 1));
+    return std::none_of(from, to + 1, [&](double speed) { return least_bend * std::fabs(speed) > size; });
   }
   // When they meet, s.
   [[nodiscard]] double meet() const {

@@ -18,8 +18,9 @@ struct VelocityCorner {
   double at;
 };
 
-// The corner in the interval from sample n to n + 1, or on one of the two. Where the velocity changes by as much as a
-// corner asks for and is steady on both sides. Spans of equal length, time in s strictly increasing, m, m/s.
+// The corner in the interval from sample n to n + 1, or on one of the two. Where the velocity changes by a good
+// part of the largest speed around and is steady on both sides. Spans of equal length, time in s strictly increasing,
+// m, m/s.
 std::optional<VelocityCorner> corner_of(std::span<const double> time, std::span<const double> displacement,
                                         std::span<const double> velocity, std::size_t n);
 

@@ -99,6 +99,22 @@ TEST(Corner, IsNotSeenInSmoothMotion) {
   }
 }
 
+// Steps of the noise of a held rod between samples that agree by chance, beside a motion that is fast.
+TEST(Corner, IsNotSeenInTheNoiseOfAHeldRod) {
+  Recorded r = triangles(0.01, 0.003, 0.95);
+  for (std::size_t n = 0; n < r.time.size(); ++n) {
+    if (r.time[n] < 0.5) continue;
+    r.x[n] = 0.0;
+    r.v[n] = n % 4 < 2 ? 1e-4 : -1e-4;
+  }
+  for (std::size_t n = 51; n + 3 < r.time.size(); ++n) EXPECT_FALSE(corner_in(r, n).has_value()) << n;
+  // The same alone is a motion with corners.
+  for (double& v : r.v) v = std::clamp(v, -1e-4, 1e-4);
+  int found = 0;
+  for (std::size_t n = 51; n + 3 < r.time.size(); ++n) found += corner_in(r, n).has_value() ? 1 : 0;
+  EXPECT_GT(found, 0);
+}
+
 // Largest difference between the force of samples `step` apart and that of 64 times as many, of peak force, away from
 // samples on a corner, where the speed and with it the force has two values.
 double error_of(const CompositeModel& model, double step, double begin, const std::function<Motion(Motion)>& as) {
