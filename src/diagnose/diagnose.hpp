@@ -80,7 +80,8 @@ std::string without_outliers(Campaign& campaign);
 // of them alone, and a zero that is another looks like it.
 Campaign without_apart(const Campaign& campaign);
 
-// Of the recordings that without_apart leaves. Throws InputError for an unknown model or a campaign that leaves nothing to fit.
+// Of the recordings that without_apart leaves. Throws InputError for an unknown model or a campaign that leaves nothing
+// to fit.
 std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const DiagnoseOptions& options,
                                     const SearchProgress& progress);
 

@@ -1,5 +1,7 @@
 // Corners of a motion: displacement on two straight lines that meet between or on samples, as triangle waves and ramps
-// have. Interpolating the velocity across one would turn hysteresis up to half a sample's travel early.
+// have. Interpolating the velocity across one would turn hysteresis up to half a sample's travel early. Told from the
+// samples that are marched and not carried from where velocities are derived (io/velocity.hpp): thinned recordings and
+// those with a velocity of their own have corners too.
 #pragma once
 
 #include <cstddef>
