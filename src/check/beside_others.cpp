@@ -159,8 +159,9 @@ void tell_of_zeros(const std::vector<Recording>& recordings, std::vector<Remark>
     remarks.push_back(
         {recordings[apart.recording].file, Remark::Kind::implausible, "zero of displacement",
          fmt::format(
-             "a displacement of {:.4g} to {:.4g} mm, and of {:.4g} to {:.4g} mm in all other recordings: if its "
-             "zero is another, correct it; a stiffness, a gas spring or an end stop would be read from it",
+             "a displacement of {:.4g} to {:.4g} mm, and of {:.4g} to {:.4g} mm in all other recordings: if the "
+             "sensor's zero was set differently, correct it; a stiffness, a gas spring or an end stop would be read "
+             "from it",
              1e3 * apart.own.low, 1e3 * apart.own.high, 1e3 * apart.others.low, 1e3 * apart.others.high)});
   }
 }

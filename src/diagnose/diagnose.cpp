@@ -171,8 +171,8 @@ std::string note_of_apart(const Campaign& campaign) {
   }
   if (files.empty()) return {};
   return fmt::format(
-      "{} left out: the rod was where it is in no other recording, so that a spring or a stop there and a zero of the "
-      "sensor that is another look alike; with a second recording there, or the zero corrected, it counts",
+      "{} left out: no other recording has the rod at these positions, so a spring or a stop there looks like a sensor "
+      "zero that was set differently; correct the zero, or add a second recording there, and it counts",
       joined(files, " and ") + (files.size() == 1 ? " was" : " were"));
 }
 

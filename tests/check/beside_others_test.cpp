@@ -62,8 +62,9 @@ Recording moved_by(double shift, const std::string& file) {
 
 TEST(BesideOthers, AZeroFarFromThatOfAllOthers) {
   EXPECT_EQ(said_of({moved_by(0.0, "a"), moved_by(0.003, "b"), moved_by(0.1, "c")}),
-            Lines{"c: a displacement of 90 to 110 mm, and of -10 to 13 mm in all other recordings: if its zero is "
-                  "another, correct it; a stiffness, a gas spring or an end stop would be read from it"});
+            Lines{"c: a displacement of 90 to 110 mm, and of -10 to 13 mm in all other recordings: if the "
+                  "sensor's zero was set differently, correct it; a stiffness, a gas spring or an end stop would be "
+                  "read from it"});
   // Nearer than the length that the others cover; at several positions; of two, either may be right.
   EXPECT_EQ(said_of({moved_by(0.0, "a"), moved_by(0.003, "b"), moved_by(0.04, "c")}), Lines{});
   EXPECT_EQ(said_of({moved_by(-0.05, "a"), moved_by(0.0, "b"), moved_by(0.05, "c")}), Lines{});
