@@ -91,7 +91,7 @@ void tell(const FitResult& fit, const FitData& data, const FitOptions& options) 
     table_rows.push_back({outcome.run.solver, format_number(outcome.run.cost, 4),
                           outcome.nrmse_heldout ? format_number(*outcome.nrmse_heldout, 4) : "-",
                           std::to_string(outcome.run.evaluations), std::to_string(outcome.run.diverged),
-                          outcome.run.stopped});
+                          outcome.run.stopped()});
   }
   say(fmt::format("{}\n",
                   narrow_table({"solver", "NRMSE fit", "held out", "evaluations", "diverged", "stopped"}, table_rows)));
@@ -134,14 +134,14 @@ void tell(const FitResult& fit, const FitData& data, const FitOptions& options) 
   }
   if (result.final_run) {
     say(wrapped(fmt::format("{} by {}: {} further evaluations, {}", result.final_stage, result.final_run->solver,
-                            result.final_run->evaluations, result.final_run->stopped),
+                            result.final_run->evaluations, result.final_run->stopped()),
                 2));
   }
   if (fit.response) {
     say(wrapped(fmt::format("lm on the motion of the mass: NRMSE of the displacement {} after {} evaluations, {} with "
                             "the parameters of the equation of motion; {}",
                             format_number(fit.response->cost, 4), fit.response->run.evaluations,
-                            format_number(fit.response->before, 4), fit.response->run.stopped),
+                            format_number(fit.response->before, 4), fit.response->run.stopped()),
                 2));
     say("force of the equation of motion: ");
   }

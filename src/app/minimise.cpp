@@ -123,7 +123,7 @@ json record_of(const RunResult& run, const Objective& objective, const std::vect
           {"parameters", found ? parameters : json::object()},
           {"evaluations", run.evaluations},
           {"without_cost", run.diverged},
-          {"stopped", run.stopped},
+          {"stopped", run.stopped()},
           {"trace", trace}};
 }
 

@@ -65,6 +65,18 @@ void add_solver(const SolverEntry* entry) {
   catalogue().push_back(entry);
 }
 
+std::string RunResult::stopped() const {
+  switch (ended_by) {
+    case EndedBy::budget:
+      return "budget";
+    case EndedBy::interruption:
+      return "interrupted";
+    case EndedBy::solver:
+      break;
+  }
+  return reason;
+}
+
 RunResult run_solver(const SolverEntry& entry, const Problem& problem, const Evaluate& evaluate,
                      const Observer& observer) {
   const auto solver = entry.make(problem);
@@ -109,12 +121,12 @@ RunResult run_solver(const SolverEntry& entry, const Problem& problem, const Eva
   };
   const std::size_t budget = problem.budget * samples;
   // What is reported is never the result of a screening alone.
-  const auto end = [&](const std::string& why) {
+  const auto end = [&](EndedBy by) {
     if (result.best.empty() && !screened.empty() && spent + samples <= budget) {
       const Request request{screened, false};
       record(request, evaluate(request));
     }
-    result.stopped = why;
+    result.ended_by = by;
     result.track = solver->track();
     result.ends = solver->ends();
     return result;
@@ -124,29 +136,30 @@ RunResult run_solver(const SolverEntry& entry, const Problem& problem, const Eva
     try {
       request = solver->ask();
     } catch (const Stopped&) {  // while a program of the user's own was waited for
-      return end("interrupted");
+      return end(EndedBy::interruption);
     }
     if (request.points.empty()) {
-      return end(solver->stopped_because());
+      result.reason = solver->stopped_because();
+      return end(EndedBy::solver);
     }
     const std::size_t affordable = (budget - spent) / price_of(request);
     if (affordable == 0) {
-      return end("budget");
+      return end(EndedBy::budget);
     }
     request.points.resize(std::min(request.points.size() / d, affordable) * d);
     Response response;
     try {
       response = evaluate(request);
     } catch (const Stopped&) {
-      result.stopped = "interrupted";
+      result.ended_by = EndedBy::interruption;
       return result;
     }
     record(request, response);
     if (observer && !observer(result)) {
-      return end("interrupted");
+      return end(EndedBy::interruption);
     }
     if (spent >= budget) {
-      return end("budget");
+      return end(EndedBy::budget);
     }
     solver->tell(request, response);
   }

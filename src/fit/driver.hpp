@@ -14,6 +14,9 @@ struct TracePoint {
   double best;
 };
 
+// What ended a run: the solver, which has a reason of its own, the budget, or an interruption from outside.
+enum class EndedBy { solver, budget, interruption };
+
 struct RunResult {
   std::string solver;
   std::vector<double> best;  // unit coordinates
@@ -22,9 +25,13 @@ struct RunResult {
   std::size_t budget = 0;
   std::size_t diverged = 0;
   std::vector<TracePoint> trace;  // at every improvement
-  std::string stopped;            // "budget", the solver's own reason, or "interrupted"
-  std::vector<Tracked> track;     // Solver::track
-  Ends ends;                      // Solver::ends
+  EndedBy ended_by = EndedBy::solver;
+  std::string reason;          // of the solver, where that ended the run
+  std::vector<Tracked> track;  // Solver::track
+  Ends ends;                   // Solver::ends
+
+  // "budget", the solver's own reason, or "interrupted".
+  [[nodiscard]] std::string stopped() const;
 };
 
 using Evaluate = std::function<Response(const Request&)>;

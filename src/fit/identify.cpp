@@ -207,7 +207,7 @@ Identification identify(const Campaign& campaign, const std::string& model, cons
     for (TracePoint& point : run.trace) {
       point.evaluations += start.evaluations;
     }
-    if (run.best.empty() && run.stopped == "interrupted") {
+    if (run.best.empty() && run.ended_by == EndedBy::interruption) {
       if (!result.solvers.empty()) {
         break;
       }
@@ -241,7 +241,7 @@ Identification identify(const Campaign& campaign, const std::string& model, cons
   if (refit) {
     objective.emplace(layout, refer_to(campaign.recordings, all), with);
   }
-  if (refit || (!descends && result.solvers[result.chosen].run.stopped != "interrupted")) {
+  if (refit || (!descends && result.solvers[result.chosen].run.ended_by != EndedBy::interruption)) {
     // From what was found; other starts only where the chosen solver descends too. Without recordings to add, a solver
     // that does not descend still leaves the bottom of the valley to a descent.
     const SolverEntry* entry = find_solver(refit && descends ? "multistart-lm" : "lm");

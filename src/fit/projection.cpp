@@ -159,7 +159,7 @@ RunResult run_projected(const SolverEntry& entry, const Problem& problem, const 
       projected({});
       result.evaluations = 1;
     }
-    result.stopped = "every coordinate is affine: solved in closed form";
+    result.reason = "every coordinate is affine: solved in closed form";
   } else {
     Problem reduced = problem;
     reduced.dimension = searched.size();
@@ -179,7 +179,7 @@ RunResult run_projected(const SolverEntry& entry, const Problem& problem, const 
   for (TracePoint& point : result.trace) point.evaluations *= price;
   result.best = best;
   result.cost = best_cost;
-  if (best.empty() || result.stopped == "interrupted") return result;
+  if (best.empty() || result.ended_by == EndedBy::interruption) return result;
   Request last;
   last.points = best;
   result.cost = evaluate(last).cost.front();

@@ -99,13 +99,13 @@ std::optional<RunRecord> do_run(const Plan& plan, const PlannedRun& run, const O
   const RunResult result = run_it(
       *entry, solved, [&](const Request& request) { return objectives.search.evaluate(request); },
       [&](const RunResult&) { return !stop || !stop(); });
-  if (result.stopped == "interrupted") return {};
+  if (result.ended_by == EndedBy::interruption) return {};
   RunRecord record;
   record.key = run.key;
   record.config = run.config;
   record.evaluations = result.evaluations;
   record.diverged = result.diverged;
-  record.stopped = result.stopped;
+  record.stopped = result.stopped();
   for (const TracePoint& point : result.trace) {
     if (point.best < diverged_cost) record.trace.push_back(point);
   }

@@ -52,7 +52,7 @@ json solver_json(const Identification& result, const Campaign& campaign, std::si
           {"evaluations", outcome.run.evaluations},
           {"budget", outcome.run.budget},
           {"diverged", outcome.run.diverged},
-          {"stopped", outcome.run.stopped},
+          {"stopped", outcome.run.stopped()},
           {"chosen", k == result.chosen},
           {"trace", trace_json(outcome.run)},
           {"starts", starts_json(outcome.run)},
@@ -65,7 +65,7 @@ json final_json(const Identification& result) {
   }
   const RunResult& run = *result.final_run;
   return {{"stage", result.final_stage},    {"solver", run.solver}, {"cost", run.cost},
-          {"evaluations", run.evaluations}, {"budget", run.budget}, {"stopped", run.stopped},
+          {"evaluations", run.evaluations}, {"budget", run.budget}, {"stopped", run.stopped()},
           {"starts", starts_json(run)}};
 }
 
@@ -98,7 +98,7 @@ json response_json(const ResponseFit& fit, const Rig& rig) {
   result.update({{"nrmse_of_equation_of_motion", finite(fit.before)},
                  {"nrmse", finite(fit.cost)},
                  {"evaluations", fit.run.evaluations},
-                 {"stopped", fit.run.stopped},
+                 {"stopped", fit.run.stopped()},
                  {"recordings", rows}});
   return result;
 }
@@ -144,9 +144,9 @@ json summary_json(const FitResult& fit, const Names& names) {
   summary.push_back(
       {{"label", "Evaluations"},
        {"value", std::to_string(chosen.evaluations + (fit.response ? fit.response->run.evaluations : 0))},
-       {"note", chosen.solver + ": " + chosen.stopped +
+       {"note", chosen.solver + ": " + chosen.stopped() +
                     (fit.response ? fmt::format("; of these {} of the motion by lm: {}", fit.response->run.evaluations,
-                                                fit.response->run.stopped)
+                                                fit.response->run.stopped())
                                   : "") +
                     (result.final_run ? fmt::format("; and {} in the {} by {}", result.final_run->evaluations,
                                                     result.final_stage, result.final_run->solver)

@@ -112,7 +112,7 @@ TEST(Projection, AllAffineIsSolvedAtOnce) {
   const RunResult run = run_projected(*find_solver("pso"), problem_of(100, {true, true, true, true}), evaluate);
   EXPECT_EQ(run.evaluations, 6U);
   EXPECT_LT(run.cost, 1e-9);
-  EXPECT_FALSE(run.stopped.empty());
+  EXPECT_FALSE(run.stopped().empty());
 }
 
 TEST(Projection, SolversThatProjectByThemselvesAreRefused) {

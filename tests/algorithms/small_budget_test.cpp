@@ -77,7 +77,7 @@ TEST(SmallBudget, OfOneDescentIsThatFromTheStart) {
                       [](const Request& request) { return testing::evaluate(request, dimension, curved); });
   };
   const RunResult one = run("lm");
-  ASSERT_EQ(one.stopped, "budget");
+  ASSERT_EQ(one.ended_by, EndedBy::budget);
   const RunResult many = run("multistart-lm");
   EXPECT_EQ(many.best, one.best);
   EXPECT_EQ(many.cost, one.cost);

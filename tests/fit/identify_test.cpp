@@ -81,7 +81,7 @@ TEST_P(EveryModel, FindsItselfAgain) {
   const Identification result = identify(campaign_of(recordings), std::string(part.id), options,
                                          [](const std::string&, const RunResult& run) { return run.cost > 1e-8; });
   SCOPED_TRACE("seed " + std::to_string(seed));
-  EXPECT_LT(result.cost, 1e-4) << result.solvers[0].run.stopped;
+  EXPECT_LT(result.cost, 1e-4) << result.solvers[0].run.stopped();
   ASSERT_EQ(result.estimates.size(), layout.dimension());
   std::size_t compared = 0;
   for (std::size_t c = 0; c < layout.dimension(); ++c) {
@@ -187,7 +187,7 @@ TEST_P(Resume, ReplayedAnswersGiveTheUninterruptedRun) {
   });
   EXPECT_EQ(counted, whole.evaluations);
   EXPECT_LE(whole.evaluations, problem.budget);
-  if (whole.stopped == "budget") {
+  if (whole.ended_by == EndedBy::budget) {
     const std::size_t price = asked.back().derivatives ? 1 + layout.dimension() : 1;
     EXPECT_GT(whole.evaluations + price, problem.budget);
   }
@@ -203,7 +203,7 @@ TEST_P(Resume, ReplayedAnswersGiveTheUninterruptedRun) {
     EXPECT_EQ(resumed.best, whole.best);
     EXPECT_EQ(resumed.cost, whole.cost);
     EXPECT_EQ(resumed.evaluations, whole.evaluations);
-    EXPECT_EQ(resumed.stopped, whole.stopped);
+    EXPECT_EQ(resumed.stopped(), whole.stopped());
   }
   // The cost reported is that of the point reported.
   EXPECT_EQ(objective.evaluate({whole.best, asked.back().derivatives}).cost[0], whole.cost);
@@ -230,7 +230,7 @@ TEST(Budget, IsSpentToTheLastEvaluationAndNotPassed) {
           return true;
         });
     EXPECT_EQ(result.solvers.at(0).run.evaluations, budget);
-    EXPECT_EQ(result.solvers.at(0).run.stopped, "budget");
+    EXPECT_EQ(result.solvers.at(0).run.ended_by, EndedBy::budget);
     EXPECT_EQ(last, budget);
   }
 }
@@ -243,7 +243,7 @@ TEST(Identify, StopsWhenTheObserverSaysSoAndKeepsTheBest) {
   const Identification result = identify(viscous_campaign(10.0), "viscous", options,
                                          [&](const std::string&, const RunResult&) { return ++calls < 5; });
   EXPECT_EQ(calls, 5U);
-  EXPECT_EQ(result.solvers.at(0).run.stopped, "interrupted");
+  EXPECT_EQ(result.solvers.at(0).run.ended_by, EndedBy::interruption);
   EXPECT_LT(result.cost, 1.0);
 }
 
@@ -257,7 +257,7 @@ TEST(Identify, StopsWithinAnEvaluationAndKeepsTheBest) {
     int asked = 0;
     options.objective.stopped = [&] { return ++asked > asked_until; };
     const Identification result = identify(viscous_campaign(10.0), "viscous", options, {});
-    EXPECT_EQ(result.solvers.at(0).run.stopped, "interrupted");
+    EXPECT_EQ(result.solvers.at(0).run.ended_by, EndedBy::interruption);
     EXPECT_LT(result.cost, asked_until > 100 ? 1.0 : 10.0);
     EXPECT_FALSE(result.estimates.empty());
     EXPECT_FALSE(result.estimates.front().std_error);
@@ -280,7 +280,7 @@ TEST(Identify, AFinalFitThatIsInterruptedIsNoWorseThanWhatItStartedFrom) {
           return stage.find("final fit") == std::string::npos || calls++ < calls_allowed;
         });
     ASSERT_TRUE(result.final_run);
-    EXPECT_EQ(result.final_run->stopped, "interrupted");
+    EXPECT_EQ(result.final_run->ended_by, EndedBy::interruption);
     EXPECT_LT(result.cost, 1.1 * result.solvers.at(result.chosen).run.cost);
     EXPECT_DOUBLE_EQ(result.cost, predicted_nrmse(result.layout, result.terms, refer_to(recordings), {}));
   }
