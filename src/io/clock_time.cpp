@@ -5,6 +5,7 @@
 #include <charconv>
 #include <chrono>
 #include <string>
+#include <utility>
 
 #include "io/text.hpp"
 
@@ -27,16 +28,8 @@ bool take(std::string_view& text, std::string_view one_of) {
   return true;
 }
 
-}  // namespace
-
-std::optional<double> clock_time(std::string_view text) {
-  text = trimmed(text);
-  const auto year = number(text, 4);
-  if (!year || !take(text, "-")) return std::nullopt;
-  const auto month = number(text, 2);
-  if (!month || !take(text, "-")) return std::nullopt;
-  const auto day = number(text, 2);
-  if (!day || !take(text, "T ")) return std::nullopt;
+// Two digits each of hours and minutes, and of seconds where they follow, also with decimals; s since midnight.
+std::optional<double> time_of_day(std::string_view& text) {
   const auto hour = number(text, 2);
   if (!hour || !take(text, ":")) return std::nullopt;
   const auto minute = number(text, 2);
@@ -53,6 +46,44 @@ std::optional<double> clock_time(std::string_view text) {
       }
     }
   }
+  return 3600.0 * *hour + 60.0 * *minute + second;
+}
+
+// s since 1970 at its midnight; nothing where there is no such day.
+std::optional<double> start_of_day(int year, int month, int day) {
+  const std::chrono::year_month_day date{std::chrono::year(year), std::chrono::month(static_cast<unsigned>(month)),
+                                         std::chrono::day(static_cast<unsigned>(day))};
+  if (!date.ok()) return std::nullopt;
+  return 86400.0 * static_cast<double>(std::chrono::sys_days(date).time_since_epoch().count());
+}
+
+// "12-Jan-2020"
+std::optional<double> date_with_month(std::string_view text) {
+  constexpr std::array<std::string_view, 12> months = {"jan", "feb", "mar", "apr", "may", "jun",
+                                                       "jul", "aug", "sep", "oct", "nov", "dec"};
+  const auto day = number(text, text.find('-') == 1 ? 1 : 2);
+  if (!day || !take(text, "-")) return std::nullopt;
+  const auto month = std::ranges::find(months, lower_case(text.substr(0, 3)));
+  if (month == months.end()) return std::nullopt;
+  text.remove_prefix(3);
+  if (!take(text, "-")) return std::nullopt;
+  const auto year = number(text, 4);
+  if (!year || !text.empty()) return std::nullopt;
+  return start_of_day(*year, static_cast<int>(month - months.begin()) + 1, *day);
+}
+
+}  // namespace
+
+std::optional<double> clock_time(std::string_view text) {
+  text = trimmed(text);
+  const auto year = number(text, 4);
+  if (!year || !take(text, "-")) return std::nullopt;
+  const auto month = number(text, 2);
+  if (!month || !take(text, "-")) return std::nullopt;
+  const auto day = number(text, 2);
+  if (!day || !take(text, "T ")) return std::nullopt;
+  const auto time = time_of_day(text);
+  if (!time) return std::nullopt;
   double offset = 0.0;
   if (!text.empty() && !take(text, "Z")) {
     const double sign = text.front() == '-' ? -1.0 : 1.0;
@@ -63,11 +94,33 @@ std::optional<double> clock_time(std::string_view text) {
     if (!hours || !minutes || *hours > 15 || *minutes > 59) return std::nullopt;
     offset = sign * (3600.0 * *hours + 60.0 * *minutes);
   }
-  const std::chrono::year_month_day date{std::chrono::year(*year), std::chrono::month(static_cast<unsigned>(*month)),
-                                         std::chrono::day(static_cast<unsigned>(*day))};
-  if (!text.empty() || !date.ok()) return std::nullopt;
-  const auto days = std::chrono::sys_days(date).time_since_epoch().count();
-  return 86400.0 * static_cast<double>(days) + 3600.0 * *hour + 60.0 * *minute + second - offset;
+  const auto date = start_of_day(*year, *month, *day);
+  if (!text.empty() || !date) return std::nullopt;
+  return *date + *time - offset;
+}
+
+std::optional<double> clock_time_with_month(std::string_view text) {
+  text = trimmed(text);
+  const std::size_t space = text.find(' ');
+  if (space == std::string_view::npos) return std::nullopt;
+  std::string_view time = text.substr(0, space);
+  std::string_view date = trimmed(text.substr(space));
+  if (time.find(':') == std::string_view::npos) std::swap(time, date);
+  const auto midnight = date_with_month(date);
+  const auto since_midnight = time_of_day(time);
+  if (!midnight || !since_midnight || !time.empty()) return std::nullopt;
+  return *midnight + *since_midnight;
+}
+
+std::optional<double> clock_time(double seconds) {
+  constexpr double end_of_9999 = 253'402'300'800.0;
+  return seconds >= 0.0 && seconds < end_of_9999 ? std::optional(seconds) : std::nullopt;
+}
+
+bool announces_start(std::string_view word) {
+  constexpr std::array<std::string_view, 7> words = {"start", "started",       "start time", "date",
+                                                     "time",  "date and time", "recorded"};
+  return std::ranges::find(words, lower_case(trimmed(word))) != words.end();
 }
 
 std::optional<double> clock_time_in(std::string_view comment) {
@@ -75,10 +128,7 @@ std::optional<double> clock_time_in(std::string_view comment) {
   if (!take(comment, "#")) return std::nullopt;
   const std::size_t colon = comment.find(':');
   if (colon == std::string_view::npos) return std::nullopt;
-  const std::string word = lower_case(trimmed(comment.substr(0, colon)));
-  constexpr std::array<std::string_view, 7> words = {"start", "started",       "start time", "date",
-                                                     "time",  "date and time", "recorded"};
-  return std::ranges::find(words, word) == words.end() ? std::nullopt : clock_time(comment.substr(colon + 1));
+  return announces_start(comment.substr(0, colon)) ? clock_time(comment.substr(colon + 1)) : std::nullopt;
 }
 
 }  // namespace hysteron

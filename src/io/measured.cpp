@@ -12,6 +12,7 @@
 #include "core/error.hpp"
 #include "core/message.hpp"
 #include "io/block_means.hpp"
+#include "io/clock_time.hpp"
 #include "io/conditions.hpp"
 #include "io/plausible.hpp"
 #include "io/resample.hpp"
@@ -60,12 +61,15 @@ class RecordingMaker {
     check();
     if (options_.remark) remark_on_times();
     const std::vector<UnusedColumn> others = unused();
+    std::optional<double> started;
+    if (epoch_) started = clock_time(*epoch_ + values_[time_at].front());
     const std::size_t samples = values_[time_at].size();
     thin(values_, sources_, options_, file_);
     thin_conditions(condition_values_, samples, options_);
     std::vector<ConditionChannel> conditions = make_conditions(conditions_, std::move(condition_values_), values_);
     Recording recording = make_recording(std::move(values_));
     recording.conditions = std::move(conditions);
+    recording.started = started;
     recording.unused.insert(recording.unused.end(), others.begin(), others.end());
     remark_on_sizes(recording, sources_, columns_, options_, file_);
     return recording;
@@ -305,9 +309,11 @@ class RecordingMaker {
     }
     last_ = values_[time_at].size();
     if (last_ < fewest_rows) too_few(last_);
+    const MeasuredChannel& base = channel_at(base_);
+    if (base.times) epoch_ = channels_[*base.times].epoch;
+    if (!epoch_ && base.began) epoch_ = *base.began - values_[time_at].front();
     if (times_are_a_column_) return;
     // Remarks name it.
-    const MeasuredChannel& base = channel_at(base_);
     Column column;
     if (base.times) column = column_of(channels_[*base.times]);
     if (!base.times)
@@ -458,6 +464,7 @@ class RecordingMaker {
   Sources sources_;
   bool times_are_a_column_ = false;
   Quantity base_ = Quantity::time;  // whose times are those of the recording
+  std::optional<double> epoch_;     // when they are zero, s since 1970
   Channels values_;
   std::vector<ConditionSource> conditions_;
   std::vector<std::vector<double>> condition_values_;  // of those with a column

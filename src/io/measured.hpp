@@ -3,7 +3,8 @@
 // The times of a recording are those of the force channel (of the displacement where there is no force). A channel of
 // other times is put on them: motions as smooth curves, drive and temperature by straight lines (io/resample.hpp). What
 // lies outside of a motion's own times is left out; a drive and a temperature hold their first and last value for one
-// of their own steps. A remark says which channels were put on the times of which.
+// of their own steps. A remark says which channels were put on the times of which. The recording was started with its
+// first sample, where the channel of its times or the one they are taken from tells when that was.
 #pragma once
 
 #include <cstddef>
@@ -33,6 +34,8 @@ struct MeasuredChannel {
   std::function<std::vector<double>()> values;
   std::optional<Clock> clock;
   std::optional<std::size_t> times;  // the channel that holds its times
+  std::optional<double> began;       // when its first value was measured, s since 1970
+  std::optional<double> epoch;       // of one that holds times: when they are zero, s since 1970
 };
 
 // The channels of one file, or, where options.group is given, of one group. A channel named time serves those of its

@@ -443,6 +443,47 @@ TEST(Tdms, StartTimesShiftChannels) {
   EXPECT_EQ(r.displacement[0], 6.0);
 }
 
+// The force begins 1.5 s after the displacement: the recording starts with it.
+TEST(Tdms, TheStartOfAWaveformIsThatOfItsFirstValue) {
+  using namespace tdms;
+  constexpr std::int64_t from_1904 = 2'082'844'800;
+  std::vector<double> ramp;
+  for (int k = 0; k < 40; ++k) ramp.push_back(k);
+  const auto file = [&](const std::string& root, std::int64_t start) {
+    const auto channel = [](const std::string& name, std::int64_t seconds, std::uint64_t fraction) {
+      return object("/'G'/'" + name + "'", index(f64, 40),
+                    {property("wf_increment", 0.25), time_property("wf_start_time", seconds, fraction)});
+    };
+    return segment(metadata | new_list | numbers,
+                   objects({root, channel("disp", start, 0),
+                            channel("force", start == 0 ? 0 : start + 1, start == 0 ? 0 : std::uint64_t{1} << 63U)}),
+                   bytes_of(ramp) + bytes_of(ramp));
+  };
+  const std::string bare = object("/", no_numbers(), {});
+  const std::string dated = object("/", no_numbers(), {time_property("DateTime", 1'700'000'100 + from_1904, 0)});
+  EXPECT_EQ(read("TDMS", file(bare, 1'700'000'000 + from_1904)).started, 1'700'000'001.5);
+  EXPECT_EQ(read("TDMS", file(dated, 1'700'000'000 + from_1904)).started, 1'700'000'001.5);
+  // Zero stands for times without a date: that of the file counts, where it has one.
+  EXPECT_EQ(read("TDMS", file(dated, 0)).started, 1'700'000'100.0);
+  EXPECT_FALSE(read("TDMS", file(bare, 0)).started);
+  EXPECT_FALSE(read("TDMS", file(object("/", no_numbers(), {property("DateTime", "yesterday")}), 0)).started);
+}
+
+TEST(Tdms, TheFirstTimeStampIsTheStart) {
+  using namespace tdms;
+  constexpr std::int64_t from_1904 = 2'082'844'800;
+  const std::vector<double> values = damper(20).channels[0].values;
+  std::string stamps;
+  for (int k = 0; k < 20; ++k) stamps += bytes_of(std::uint64_t{1} << 62U) + bytes_of(1'700'000'000 + from_1904 + k);
+  const Recording r =
+      read("TDMS", segment(metadata | new_list | numbers,
+                           objects({object("/'G'/'Time'", index(time_type, 20), {}),
+                                    object("/'G'/'x'", index(f64, 20), {}), object("/'G'/'F'", index(f64, 20), {})}),
+                           stamps + bytes_of(values) + bytes_of(values)));
+  EXPECT_EQ(r.started, 1'700'000'000.25);
+  EXPECT_EQ(r.time[1], 1.0);
+}
+
 TEST(Tdms, LinearScalesAreApplied) {
   using namespace tdms;
   const std::vector<double> values = damper(20).channels[0].values;
@@ -663,6 +704,28 @@ TEST(Mdf4, AVirtualMasterCountsRecords) {
   EXPECT_EQ(read("MDF 4", w.bytes()).time[3], 0.5 + 0.01 * 3.0);
 }
 
+// Times count from the start of the measurement, which is told in UTC, with or without the offsets to local time, or in
+// local time.
+TEST(Mdf4, TheStartIsThatOfTheMeasurementAndTheFirstTime) {
+  const auto started = [](std::uint64_t moment, std::uint8_t flags) {
+    Mdf4Writer w;
+    std::string records;
+    for (int k = 0; k < 20; ++k) records += bytes_of(2.5 + 0.25 * k) + bytes_of(1.0 * k) + bytes_of(2.0 * k);
+    const std::uint64_t channels = w.chain({{.name = "t", .kind = 2, .counts = 1},
+                                            {.name = "disp", .unit = "mm", .byte = 8},
+                                            {.name = "force", .unit = "N", .byte = 16}});
+    w.data_group(w.channel_group("", channels, 20, 24), w.block("DT", {}, records));
+    w.start(moment, -300, 60, flags);
+    return read("MDF 4", w.bytes()).started;
+  };
+  constexpr std::uint64_t moment = 1'700'000'000'500'000'000;
+  EXPECT_EQ(started(moment, 0), 1'700'000'003.0);
+  EXPECT_EQ(started(moment, 1), 1'700'000'003.0);
+  EXPECT_EQ(started(moment, 2), 1'700'000'003.0 - 240.0 * 60.0);
+  EXPECT_EQ(started(moment, 3), 1'700'000'003.0);
+  EXPECT_FALSE(started(0, 2));
+}
+
 TEST(Mdf4, UnitsMayBeComments) {
   Mdf4Writer w;
   std::string records;
@@ -750,15 +813,62 @@ TEST(Rpc3, UnitsOfWindowsAreUnderstood) {
   EXPECT_DOUBLE_EQ(read("RPC III", rpc3::file_of(table)).displacement[1], 1e-6 * table.channels[0].values[1]);
 }
 
-TEST(Rpc3, WithoutTheNumberOfSamplesFramesAreWhole) {
+TEST(Rpc3, WithoutTheNumberOfSamplesTheFillOfTheLastFrameIsLeftOut) {
+  const auto read_whole = [](const FileTable& table, std::vector<std::string>& lines) {
+    rpc3::Entries entries = rpc3::entries_of(table, 32, 64, "FLOATING_POINT");
+    std::erase_if(entries, [](const auto& entry) { return entry.first == "SAMPLES"; });
+    Told told;
+    Recording r = read("RPC III", rpc3::header_of("BINARY_IEEE_LITTLE_END", entries) + rpc3::data_of(table, 64, false),
+                       told.options);
+    lines = told.lines;
+    std::erase_if(lines, [](const std::string& line) { return !line.starts_with("the header has no SAMPLES"); });
+    return r;
+  };
+  const auto left_out = [](const std::string& count) {
+    return std::vector<std::string>{"the header has no SAMPLES: the last " + count +
+                                    ", in which no channel changes, are taken as what fills up the last frame and left "
+                                    "out"};
+  };
   const FileTable table = damper(100);
-  rpc3::Entries entries = rpc3::entries_of(table, 32, 64, "FLOATING_POINT");
-  std::erase_if(entries, [](const auto& entry) { return entry.first == "SAMPLES"; });
-  const std::string header = rpc3::header_of("BINARY_IEEE_LITTLE_END", entries);
-  const Recording r = read("RPC III", header + rpc3::data_of(table, 64, false));
-  ASSERT_EQ(r.size(), 128U);
+  std::vector<std::string> lines;
+  // Filled with the last value, which was measured once.
+  Recording r = read_whole(table, lines);
+  ASSERT_EQ(r.size(), 100U);
   EXPECT_EQ(r.force[99], 1e3 * table.channels[1].values[99]);
-  EXPECT_EQ(r.force[127], 1e3 * table.channels[1].values[99]);
+  EXPECT_EQ(lines, left_out("28 samples"));
+  // Filled with zeros.
+  FileTable zeros = table;
+  for (FileChannel& channel : zeros.channels) channel.values.resize(128, 0.0);
+  r = read_whole(zeros, lines);
+  ASSERT_EQ(r.size(), 100U);
+  EXPECT_EQ(r.force[99], 1e3 * table.channels[1].values[99]);
+  EXPECT_EQ(lines, left_out("28 samples"));
+  // One channel at rest is no fill, nor are more zeros than the last frame holds.
+  FileTable full = damper(128);
+  std::ranges::fill(full.channels[1].values, 0.0);
+  EXPECT_EQ(read_whole(full, lines).size(), 128U);
+  EXPECT_TRUE(lines.empty());
+  for (FileChannel& channel : full.channels) std::fill(channel.values.begin() + 80, channel.values.end(), 0.0);
+  EXPECT_EQ(read_whole(full, lines).size(), 97U);
+  EXPECT_EQ(lines, left_out("31 samples"));
+}
+
+TEST(Rpc3, TheDateIsTheStart) {
+  const FileTable table = damper(64);
+  const auto started = [&](const std::string& date) {
+    rpc3::Entries entries = rpc3::entries_of(table, 32, 64, "FLOATING_POINT");
+    entries.emplace_back("DATE", date);
+    return read("RPC III", rpc3::header_of("BINARY", entries) + rpc3::data_of(table, 64, false)).started;
+  };
+  for (const std::string date :
+       {"12:30:05 12-JAN-2020", "12-Jan-2020  12:30:05", "\"12:30:05 12-Jan-2020\"", "2020-01-12T12:30:05"}) {
+    EXPECT_EQ(started(date), 1'578'832'205.0) << date;
+  }
+  // Day or month first, a century that is not told, no time of day, no day of the calendar.
+  for (const std::string date : {"12:30:05 12-01-2020", "12:30:05 12-JAN-20", "12-JAN-2020", "12:30:05 31-FEB-2020",
+                                 "12:30:05 PM 12-JAN-2020", "12:30:05 12-JNA-2020", ""}) {
+    EXPECT_FALSE(started(date)) << date;
+  }
 }
 
 // 3 frames of 32 points, groups of 64: some programs fill the second group, others end the file.
@@ -922,8 +1032,11 @@ TEST(Xlsx, WrongCellsAreToldByTheirRow) {
 }
 
 // A workbook of one sheet with formats of cells: 0 General, 1 a built-in date, then one of each code.
-std::string workbook_with_formats(const std::string& sheet, const std::vector<std::string>& codes) {
+std::string workbook_with_formats(const std::string& sheet, const std::vector<std::string>& codes,
+                                  const std::string& properties = "") {
   auto parts = workbook_parts({{"A", sheet}});
+  std::string& workbook = parts[parts.size() - 2].second;
+  workbook.insert(workbook.find("<sheets>"), properties);
   const std::string target = "http://schemas.openxmlformats.org/officeDocument/2006/relationships/styles";
   std::string& relations = parts.back().second;
   relations.insert(relations.find("</Relationships>"),
@@ -976,6 +1089,44 @@ TEST(Xlsx, DatesAreReadInSecondsSinceTheFirst) {
        {"0.00", "0.000 s", "0.0&quot; days&quot;", "[Red]0.00", "General&quot; s&quot;", "\\s0"}) {
     const Recording r = read("xlsx", workbook_with_formats(dated_sheet(head, 2), {code}));
     EXPECT_EQ(r.time[0], 46353.5) << code;
+  }
+}
+
+TEST(Xlsx, TheFirstDateIsTheStart) {
+  const std::string head = row({cell("Time"), cell("disp [mm]"), cell("force [N]")});
+  EXPECT_EQ(read("xlsx", workbook_with_formats(dated_sheet(head, 1), {})).started, 1'795'780'800.0);
+  // The same numbers in a workbook that counts days from 1904 are 1462 days later.
+  const std::string since_1904 = workbook_with_formats(dated_sheet(head, 1), {}, "<workbookPr date1904=\"1\"/>");
+  EXPECT_EQ(read("xlsx", since_1904).started, 1'795'780'800.0 + 1462.0 * 86400.0);
+  // Times of day have no date.
+  std::string times = head;
+  for (int k = 0; k < 20; ++k) {
+    times += row({"<c s=\"1\"><v>" + digits_of(0.5 + 1e-6 * k) + "</v></c>", cell(1.0 * k), cell(2.0 * k)});
+  }
+  EXPECT_FALSE(read("xlsx", workbook_with_formats(times, {})).started);
+}
+
+TEST(Xlsx, ARowAboveTheNamesTellsTheStart) {
+  const std::string table = row({cell("time"), cell("disp"), cell("force")}) + rows_of_numbers(20);
+  const auto date = [](double days) { return "<c s=\"1\"><v>" + digits_of(days) + "</v></c>"; };
+  Told told;
+  const auto started = [&](const std::string& above) {
+    told.lines.clear();
+    return read("xlsx", workbook_with_formats(above + table, {}), told.options).started;
+  };
+  for (const std::string& above :
+       {row({cell("Started"), date(46353.5)}), row({cell("Start:"), cell("2026-11-27 12:00")}),
+        row({cell("Damper 7")}) + row({cell("Date"), cell("2026-11-27T12:00:00"), cell("J. Doe")}),
+        row({cell("# start: 2026-11-27T12:00:00")})}) {
+    EXPECT_EQ(started(above), 1'795'780'800.0) << above;
+    EXPECT_NE(told.lines.at(0).find(", of the rows before it the start alone is read"), std::string::npos);
+  }
+  // A date without its time of day, a number, a date of something else, a date that is not beside the word.
+  for (const std::string& above :
+       {row({cell("Date"), date(46353.0)}), row({cell("Start"), cell(46353.5)}),
+        row({cell("Calibrated"), date(46353.5)}), row({cell("Start"), cell("by hand"), date(46353.5)})}) {
+    EXPECT_FALSE(started(above)) << above;
+    EXPECT_NE(told.lines.at(0).find(", rows before it are not read"), std::string::npos);
   }
 }
 

@@ -192,6 +192,11 @@ class Mdf4Writer {
                  "DT" + bytes_of(method) + '\0' + bytes_of(columns) + bytes_of(size) +
                      bytes_of(std::uint64_t{packed.size()}) + packed);
   }
+  // When the measurement was started, in ns since 1970; offsets in minutes.
+  void start(std::uint64_t moment, std::int16_t time_zone, std::int16_t summer_time, std::uint8_t flags) {
+    const std::string about = bytes_of(moment) + bytes_of(time_zone) + bytes_of(summer_time) + bytes_of(flags);
+    bytes_.replace(header_ + 72, about.size(), about);
+  }
   std::string bytes() {
     std::string result = bytes_;
     result.replace(header_ + 24, 8, bytes_of(first_));

@@ -16,6 +16,7 @@
 
 #include "core/error.hpp"
 #include "io/bytes.hpp"
+#include "io/clock_time.hpp"
 #include "io/format.hpp"
 #include "io/measured.hpp"
 #include "io/text.hpp"
@@ -98,7 +99,9 @@ class Mdf4Reader {
   std::vector<MeasuredChannel> run() {
     try {
       check_identification();
-      read_groups(block(identification, "HD").link(0));
+      const Block header = block(identification, "HD");
+      start_ = start_of(header);
+      read_groups(header.link(0));
     } catch (const BeyondTheEnd&) {
       fail("names bytes that are not there, the file is cut off or damaged, expected a complete MDF file");
     }
@@ -187,6 +190,25 @@ class Mdf4Reader {
       return {};  // a comment
     }
     return std::string(trimmed(result));
+  }
+
+  // The moment from which the time masters count. It is told in UTC or local time. Local time is taken where it is
+  // known, as the clock on the wall that a start in a text names; else UTC.
+  [[nodiscard]] static std::optional<double> start_of(const Block& header) {
+    constexpr std::size_t size = 13;  // bytes that tell it
+    constexpr std::uint64_t nanoseconds = 1'000'000'000;
+    constexpr unsigned is_local = 1;
+    constexpr unsigned offsets_are_valid = 2;
+    if (header.data.size() < size) return std::nullopt;
+    const auto moment = number_at<std::uint64_t>(header.data, 0);
+    if (moment == 0) return std::nullopt;
+    double start = static_cast<double>(moment / nanoseconds) + 1e-9 * static_cast<double>(moment % nanoseconds);
+    const auto flags = number_at<std::uint8_t>(header.data, 12);
+    if ((flags & is_local) == 0 && (flags & offsets_are_valid) != 0) {
+      // Of the time zone and of summer time, in minutes.
+      start += 60.0 * number_at<std::int16_t>(header.data, 8) + 60.0 * number_at<std::int16_t>(header.data, 10);
+    }
+    return clock_time(start);
   }
 
   void read_groups(std::uint64_t at) {
@@ -490,8 +512,9 @@ class Mdf4Reader {
       one.unit = channel.unit;
       one.count = static_cast<std::size_t>(records_[channel.records]->count);
       one.values = [this, k] { return numbers_of(channels_[k]); };
-      if (const auto found = master_of.find(channel.records); found != master_of.end() && found->second != k) {
-        one.times = found->second;
+      if (const auto found = master_of.find(channel.records); found != master_of.end()) {
+        if (found->second == k) one.epoch = start_;
+        if (found->second != k) one.times = found->second;
       }
       result.push_back(std::move(one));
     }
@@ -502,6 +525,7 @@ class Mdf4Reader {
   const std::string& file_;
   std::set<std::uint64_t> seen_;  // places of blocks
   std::uint64_t unpacked_ = 0;    // bytes
+  std::optional<double> start_;   // of the measurement, s since 1970
   std::vector<std::unique_ptr<Records>> records_;
   std::vector<Channel> channels_;
 };

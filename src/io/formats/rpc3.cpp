@@ -4,7 +4,9 @@
 // NUL. The first three are FORMAT, NUM_HEADER_BLOCKS and NUM_PARAMS. Behind it lie groups: PTS_PER_GROUP points of the
 // first channel, then of the second, and so on; all channels have one rate, 1 / DELTA_T. FRAMES frames of PTS_PER_FRAME
 // points are valid; the last group is filled up, or, by some programs, cut off. Integers are multiplied by
-// SCALE.CHAN_n. SAMPLES, where a program writes it, is the number of points before the last frame is filled up.
+// SCALE.CHAN_n. SAMPLES, where a program writes it, is the number of points before the last frame is filled up, with
+// zeros or the last value. DATE is when the file or its header was created.
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <map>
@@ -12,6 +14,7 @@
 #include "core/error.hpp"
 #include "core/printable.hpp"
 #include "io/bytes.hpp"
+#include "io/clock_time.hpp"
 #include "io/format.hpp"
 #include "io/mat_variable.hpp"
 #include "io/measured.hpp"
@@ -28,7 +31,8 @@ constexpr std::uint64_t most_channels = 4096;
 
 class Rpc3Reader {
  public:
-  Rpc3Reader(std::string_view bytes, const std::string& file) : bytes_(bytes), file_(file) {}
+  Rpc3Reader(std::string_view bytes, const std::string& file, const ReadOptions& options)
+      : bytes_(bytes), file_(file), options_(options) {}
 
   std::vector<MeasuredChannel> run() {
     try {
@@ -41,6 +45,9 @@ class Rpc3Reader {
     if (!(step > 0.0 && std::isfinite(step))) {
       fail("DELTA_T is " + in_quotes(text("DELTA_T")) + ", expected a time in s above zero");
     }
+    const std::string date = without_quotes(text_or_none("DATE"));
+    auto began = clock_time_with_month(date);
+    if (!began) began = clock_time(date);
     std::vector<MeasuredChannel> channels;
     for (std::uint64_t c = 0; c < channels_; ++c) {
       const std::string number_of_it = std::to_string(c + 1);
@@ -50,6 +57,7 @@ class Rpc3Reader {
       channel.unit = without_quotes(text_or_none("UNITS.CHAN_" + number_of_it));
       channel.count = static_cast<std::size_t>(samples_);
       channel.clock = Clock{0.0, step};
+      channel.began = began;
       channel.values = [this, c] { return numbers_of(c); };
       channels.push_back(std::move(channel));
     }
@@ -140,7 +148,44 @@ class Rpc3Reader {
            std::to_string(there) + " are there, the file is cut off or damaged, expected a complete RPC III file");
     }
     groups_ = groups;
-    samples_ = text_or_none("SAMPLES").empty() ? points : count("SAMPLES", 0, points);
+    if (!text_or_none("SAMPLES").empty()) {
+      samples_ = count("SAMPLES", 0, points);
+      return;
+    }
+    const std::uint64_t fill = filled(points, frame);
+    samples_ = points - fill;
+    if (fill > 0 && options_.remark) {
+      options_.remark({file_, Remark::Kind::dialect, "filled frame",
+                       "the header has no SAMPLES: the last " +
+                           (fill == 1 ? "sample, in which no channel changes, is"
+                                      : std::to_string(fill) + " samples, in which no channel changes, are") +
+                           " taken as what fills up the last frame and left out"});
+    }
+  }
+
+  // Points that fill up the last frame, less than all of it: they are zero in all channels, or go on with the last
+  // value of each, the first of which was measured.
+  [[nodiscard]] std::uint64_t filled(std::uint64_t points, std::uint64_t frame) const {
+    std::vector<double> last;
+    for (std::uint64_t c = 0; c < channels_; ++c) last.push_back(stored(c, points - 1));
+    const auto is_as_last = [&](std::uint64_t point) {
+      for (std::uint64_t c = 0; c < channels_; ++c) {
+        if (stored(c, point) != last[static_cast<std::size_t>(c)]) return false;
+      }
+      return true;
+    };
+    std::uint64_t count = 1;
+    while (count < frame && is_as_last(points - 1 - count)) ++count;
+    const bool is_zero = std::ranges::all_of(last, [](double value) { return value == 0.0; });
+    return is_zero ? std::min(count, frame - 1) : count - 1;
+  }
+
+  // A point of a channel, unscaled.
+  [[nodiscard]] double stored(std::uint64_t channel, std::uint64_t point) const {
+    const std::uint64_t group = point / group_;
+    const std::uint64_t stride = group + 1 == groups_ ? last_group_ : group_;
+    return value_at(bytes_, data_at_ + (group * group_ * channels_ + channel * stride + point % group_) * layout_.size,
+                    layout_);
   }
 
   [[nodiscard]] std::vector<double> numbers_of(std::uint64_t channel) const {
@@ -148,13 +193,7 @@ class Rpc3Reader {
     if (is_integer_) scale = number("SCALE.CHAN_" + std::to_string(channel + 1));
     std::vector<double> values;
     values.reserve(static_cast<std::size_t>(samples_));
-    for (std::uint64_t g = 0; g < groups_ && values.size() < samples_; ++g) {
-      const std::uint64_t stored = g + 1 == groups_ ? last_group_ : group_;
-      std::uint64_t at = data_at_ + (g * group_ * channels_ + channel * stored) * layout_.size;
-      for (std::uint64_t k = 0; k < stored && values.size() < samples_; ++k, at += layout_.size) {
-        values.push_back(scale * value_at(bytes_, at, layout_));
-      }
-    }
+    for (std::uint64_t k = 0; k < samples_; ++k) values.push_back(scale * stored(channel, k));
     return values;
   }
 
@@ -193,6 +232,7 @@ class Rpc3Reader {
 
   std::string_view bytes_;
   const std::string& file_;
+  const ReadOptions& options_;
   std::map<std::string, std::string_view> entries_;
   std::uint64_t data_at_ = 0;
   NumberLayout layout_;
@@ -210,7 +250,7 @@ constexpr Ending endings[] = {{".rsp"}, {".rpc"}, {".rpc3"}, {".drv", InFolders:
 bool begins(std::string_view head) { return head.starts_with(std::string_view("FORMAT\0", 7)); }
 
 Recording parse(std::string_view bytes, const std::string& file, const ReadOptions& options) {
-  Rpc3Reader reader(bytes, file);
+  Rpc3Reader reader(bytes, file, options);
   return recording_of(reader.run(), file, options);
 }
 

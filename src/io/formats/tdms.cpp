@@ -14,6 +14,7 @@
 
 #include "core/error.hpp"
 #include "io/bytes.hpp"
+#include "io/clock_time.hpp"
 #include "io/format.hpp"
 #include "io/measured.hpp"
 #include "io/text.hpp"
@@ -104,6 +105,12 @@ double between(const Moment& from, const Moment& to) {
   return (static_cast<double>(to.seconds) - static_cast<double>(from.seconds)) + fractions;
 }
 
+// s since 1970, UTC as all moments of these files; nothing for zero, which stands for times without a date.
+std::optional<double> since_1970(const Moment& moment) {
+  constexpr double from_1904 = 2'082'844'800.0;
+  return clock_time(static_cast<double>(moment.seconds) - from_1904 + static_cast<double>(moment.fraction) * 0x1p-64);
+}
+
 using Property = std::variant<double, std::string, Moment>;
 
 struct Object {
@@ -121,8 +128,9 @@ struct Object {
 };
 
 bool is_asked_for(std::string_view property) {
-  constexpr std::string_view names[] = {"unit_string",   "NI_UnitDescription", "wf_increment",       "wf_start_offset",
-                                        "wf_start_time", "NI_Scaling_Status",  "NI_Number_Of_Scales"};
+  constexpr std::string_view names[] = {"unit_string",         "NI_UnitDescription", "wf_increment",
+                                        "wf_start_offset",     "wf_start_time",      "NI_Scaling_Status",
+                                        "NI_Number_Of_Scales", "DateTime",           "datetime"};
   return std::ranges::find(names, property) != std::end(names) || property.starts_with("NI_Scale[");
 }
 
@@ -174,17 +182,21 @@ class TdmsReader {
     if (result.unit.empty()) result.unit = text_property(object, "NI_UnitDescription");
     // Times of day are counted from the first.
     if (object.type == type_time) result.unit = "s";
+    if (object.type == type_time && object.first) result.epoch = since_1970(*object.first);
     result.count = static_cast<std::size_t>(object.total);
+    const double offset = number_property(object, "wf_start_offset").value_or(0.0);
+    const std::optional<Moment> moment = moment_property(object, "wf_start_time");
     if (const auto step = number_property(object, "wf_increment"); step && *step > 0.0) {
-      double begin = number_property(object, "wf_start_offset").value_or(0.0);
-      if (const auto found = object.properties.find("wf_start_time"); found != object.properties.end()) {
-        if (const auto* moment = std::get_if<Moment>(&found->second)) {
-          if (!start_) start_ = *moment;
-          begin += between(*start_, *moment);
-        }
+      double begin = offset;
+      if (moment) {
+        if (!start_) start_ = *moment;
+        begin += between(*start_, *moment);
       }
       result.clock = Clock{begin, *step};
     }
+    std::optional<double> start = moment ? since_1970(*moment) : std::nullopt;
+    if (!start) start = start_of_file();
+    if (start) result.began = clock_time(*start + offset);
     return result;
   }
 
@@ -378,6 +390,22 @@ class TdmsReader {
     const auto found = object.properties.find(name);
     const auto* text = found == object.properties.end() ? nullptr : std::get_if<std::string>(&found->second);
     return text == nullptr ? std::string() : *text;
+  }
+
+  [[nodiscard]] static std::optional<Moment> moment_property(const Object& object, const char* name) {
+    const auto found = object.properties.find(name);
+    const auto* moment = found == object.properties.end() ? nullptr : std::get_if<Moment>(&found->second);
+    return moment == nullptr ? std::nullopt : std::optional(*moment);
+  }
+
+  // As LabVIEW and DIAdem write it.
+  [[nodiscard]] std::optional<double> start_of_file() const {
+    const auto root = by_path_.find("/");
+    if (root == by_path_.end()) return std::nullopt;
+    const Object& object = objects_[root->second];
+    auto moment = moment_property(object, "DateTime");
+    if (!moment) moment = moment_property(object, "datetime");
+    return moment ? since_1970(*moment) : std::nullopt;
   }
 
   [[nodiscard]] static std::optional<double> number_property(const Object& object, const std::string& name) {

@@ -20,6 +20,7 @@
 #include "core/error.hpp"
 #include "core/message.hpp"
 #include "io/bytes.hpp"
+#include "io/clock_time.hpp"
 #include "io/csv.hpp"
 #include "io/format.hpp"
 #include "io/header_row.hpp"
@@ -36,6 +37,9 @@ constexpr std::size_t longest_cell = 32'767;  // characters
 constexpr std::uint64_t most_growth = 100;
 constexpr std::uint64_t growth_allowed = std::uint64_t{1} << 20U;  // bytes that may grow by any factor
 constexpr std::uint64_t largest_part = std::uint64_t{2} << 30U;    // unpacked
+constexpr double seconds_a_day = 86'400.0;
+// Workbooks count days from either year.
+constexpr double days_from_1900_to_1904 = 1462.0;
 
 // A part of a workbook that is not what it should be, without the name of the file.
 class Damage : public std::runtime_error {
@@ -624,6 +628,10 @@ class WorkbookReader {
     }
     XmlEvents events;
     events.begin = [&](std::string_view element, const XmlAttributes& attributes) {
+      if (element == "workbookPr") {
+        const std::string_view from_1904 = attribute(attributes, "date1904");
+        if (from_1904 == "1" || from_1904 == "true") days_at_1970_ -= days_from_1900_to_1904;
+      }
       if (element != "sheet") return;
       const std::string_view id = attribute(attributes, "*:id");
       for (const Relation& relation : relations) {
@@ -653,8 +661,35 @@ class WorkbookReader {
     throw OptionError(file_, static_cast<int>(row), message);
   }
 
-  // Dates of a time column become seconds since its first; dates of any other channel are refused.
-  void read_dates(Sheet& sheet, const Table& table) const {
+  // s since 1970 of the number of days that a date cell holds; nothing for a time of day without its date.
+  [[nodiscard]] std::optional<double> clock_of(double days) const {
+    return clock_time((days - days_at_1970_) * seconds_a_day);
+  }
+
+  // A row above the names may say when the recording was started: in a comment as a CSV file does, or in a cell "start"
+  // with a date and its time of day beside it, formatted as one or as text.
+  [[nodiscard]] std::optional<double> start_above(const Sheet& sheet, const Table& table) const {
+    for (std::size_t r = 0; r < table.header; ++r) {
+      if (sheet.rows[r].number <= skip()) continue;
+      const std::span<const Cell> cells = sheet.cells_of(sheet.rows[r]);
+      for (std::size_t k = 0; k < cells.size(); ++k) {
+        std::string_view word = sheet.text(cells[k]);
+        if (const auto start = clock_time_in(word)) return start;
+        if (k + 1 == cells.size()) break;
+        if (word.ends_with(':')) word.remove_suffix(1);
+        if (cells[k].kind != Cell::Kind::text || !announces_start(word)) continue;
+        const std::string_view text = sheet.text(cells[k + 1]);
+        const std::optional<double> days = cells[k + 1].date ? number_of(text) : std::nullopt;
+        const bool has_time = days && *days != std::floor(*days);
+        if (const auto start = has_time ? clock_of(*days) : clock_time(text)) return start;
+      }
+    }
+    return std::nullopt;
+  }
+
+  // Dates of a time column become seconds since its first, which is given; dates of any other channel are refused.
+  std::optional<double> read_dates(Sheet& sheet, const Table& table) const {
+    std::optional<double> start;
     std::vector<Column> columns;
     for (const std::uint32_t at : table.columns) {
       const Cell* name = cell_of(sheet, sheet.rows[table.header], at);
@@ -669,8 +704,9 @@ class WorkbookReader {
         fail_at(date->second, "the " + std::string(quantity_name(*quantity)) + " in column " +
                                   in_quotes(columns[k].text) + " is formatted as a date, expected a number");
       }
-      dates_to_seconds(sheet, table, columns[k], table.columns[k]);
+      start = dates_to_seconds(sheet, table, columns[k], table.columns[k]);
     }
+    return start;
   }
 
   static const Cell* cell_of(const Sheet& sheet, const SheetRow& row, std::uint32_t column) {
@@ -701,8 +737,9 @@ class WorkbookReader {
     return quantity_of_last_word(column.name) == Quantity::time ? std::optional(Quantity::time) : std::nullopt;
   }
 
-  void dates_to_seconds(Sheet& sheet, const Table& table, const Column& column, std::uint32_t at) const {
-    constexpr double seconds_a_day = 86400.0;
+  // Gives the first of them.
+  std::optional<double> dates_to_seconds(Sheet& sheet, const Table& table, const Column& column,
+                                         std::uint32_t at) const {
     std::optional<double> first;
     std::uint32_t before = 0;  // the last row with a date
     for (std::size_t r = table.header; r < sheet.rows.size(); ++r) {
@@ -734,6 +771,7 @@ class WorkbookReader {
                        "the times of column " + in_quotes(column.text) +
                            " are dates or times of day: they are read in seconds since the first"});
     }
+    return first ? clock_of(*first) : std::nullopt;
   }
 
   void refuse_other_unit(std::string_view unit, const Column& column, std::uint32_t row) const {
@@ -744,18 +782,22 @@ class WorkbookReader {
   }
 
   [[nodiscard]] Recording read_table(Sheet& sheet, const Table& table) const {
-    read_dates(sheet, table);
+    const std::optional<double> first_date = read_dates(sheet, table);
+    const std::optional<double> start = first_date ? first_date : start_above(sheet, table);
     const std::uint32_t row = sheet.rows[table.header].number;
     if (options_.remark && table.header > 0 && row > skip() + 1) {
       options_.remark({file_, Remark::Kind::dialect, "header",
                        "the header is taken from row " + std::to_string(row) + " of sheet " + in_quotes(sheet.name) +
-                           ", rows before it are not read"});
+                           (start && !first_date ? ", of the rows before it the start alone is read"
+                                                 : ", rows before it are not read")});
     }
     const TableText table_text = text_of(sheet, table);
     for (const std::string& remark : table_text.remarks) {
       if (options_.remark) options_.remark({file_, Remark::Kind::dialect, "empty row", remark});
     }
-    return parse_csv(table_text.text, file_, options_);
+    Recording recording = parse_csv(table_text.text, file_, options_);
+    if (start) recording.started = start;
+    return recording;
   }
 
   Archive archive_;
@@ -765,6 +807,7 @@ class WorkbookReader {
   std::vector<bool> dates_;         // of the styles of cells, whether they show a date
   std::vector<std::string> names_;  // of the sheets
   std::vector<std::string> paths_;
+  double days_at_1970_ = 25'569.0;  // the number that stands for the first of January 1970
 };
 
 constexpr Ending endings[] = {{".xlsx", InFolders::without_others}, {".xlsm", InFolders::without_others}};
