@@ -284,6 +284,7 @@ std::vector<Forces> hide_causes(Concealed& c, const Workshop& workshop, const St
     HiddenTruth truth;
     truth.id = task.effects[k];
     truth.form = what.form->id;
+    if (!what.form->also.empty()) c.acceptable.emplace_back(what.form->also);
     truth.excited = task.level != Level::unexcited;
     double wanted = draw_share(size, task.level, c.chain.noise);
     if (beside && first_share > 0.0) wanted = first_share * size.log_uniform(0.3, 1.0);

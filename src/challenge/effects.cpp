@@ -47,8 +47,8 @@ HiddenForm form(std::string id, std::string_view words, Make make) {
   return {std::move(id), words, InSeries::none, make};
 }
 template <class Make>
-HiddenForm in_series(std::string id, std::string_view words, InSeries chain, Make make) {
-  return {std::move(id), words, chain, make};
+HiddenForm in_series(std::string id, std::string_view words, InSeries chain, Make make, std::string_view also = {}) {
+  return {std::move(id), words, chain, make, also};
 }
 
 double knee_of(const D& d) { return std::clamp(4e-3 * d.amplitude, 2e-5, 1.2e-4); }
@@ -466,12 +466,14 @@ void add_series(Effects& list) {
                   return part<HardeningCompliance>(d.force / (give * (1.0 + part_of_cube)),
                                                    give / std::sqrt(part_of_cube));
                 }),
-      in_series("compliance/aerated-oil", "bulk modulus that rises with pressure", InSeries::elastic,
-                [](const D& d, double s, Draws shape) {
-                  const double give = s * d.amplitude;
-                  const double bend = shape.uniform(0.7, 1.8);
-                  return part<AeratedOil>(d.force * bend / (give * std::expm1(bend)), give / bend);
-                }),
+      in_series(
+          "compliance/aerated-oil", "bulk modulus that rises with pressure", InSeries::elastic,
+          [](const D& d, double s, Draws shape) {
+            const double give = s * d.amplitude;
+            const double bend = shape.uniform(0.7, 1.8);
+            return part<AeratedOil>(d.force * bend / (give * std::expm1(bend)), give / bend);
+          },
+          "entrapped-gas"),
       in_series("compliance/kelvin-voigt", "with viscous loss", InSeries::whole,
                 [](const D& d, double s, Draws shape) {
                   return part<KelvinVoigtCompliance>(d.force / (s * d.amplitude), shape.uniform(0.002, 0.008));

@@ -33,6 +33,8 @@ struct HiddenForm {
   InSeries chain;
   // At a strength; shape parameters are drawn from the stream, the same for every strength.
   PartPointer (*make)(const Device& device, double strength, Draws shape);
+  // Another effect of the catalogue that is this physics too: naming it is no mistake, and counts as no find.
+  std::string_view also = {};
 };
 
 struct HiddenEffect {

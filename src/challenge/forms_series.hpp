@@ -78,7 +78,8 @@ struct HardeningCompliance final : ElasticElement {
 };
 
 // compliance/aerated-oil: F = k d sgn(y) (exp(|y| / d) - 1): the bulk modulus rises with the pressure.
-// Source: tangent modulus in proportion to pressure, Merritt, Hydraulic Control Systems, Wiley 1967, section 2.
+// Source: tangent modulus in proportion to pressure, Merritt, Hydraulic Control Systems, Wiley 1967, section 2. It is
+// the air in the oil that does so: entrapped gas is a right name, too.
 struct AeratedOil final : ElasticElement {
   double stiffness = 1e6, length = 1e-3;
   AeratedOil(double k, double d) : stiffness(k), length(d) {}

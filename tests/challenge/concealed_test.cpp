@@ -56,6 +56,13 @@ TEST(Concealed, ChangesTheForceByTheDrawnShare) {
   }
 }
 
+TEST(Concealed, PhysicsOfTwoEffectsHasBothNames) {
+  Task task{1, Level::plain, {"compliance"}, {"compliance/aerated-oil"}};
+  EXPECT_EQ(make_concealed(task, 3).acceptable, std::vector<std::string>{"entrapped-gas"});
+  task.forms = {"compliance/hardening"};
+  EXPECT_TRUE(make_concealed(task, 3).acceptable.empty());
+}
+
 TEST(Concealed, RecordingsEndAtRestWhereTheyAreToStop) {
   Task task{1, Level::plain, {"series-dashpot"}};
   const Concealed going = make_concealed(task, 5);
