@@ -1,7 +1,8 @@
 // The force falls for good with the work done, as of wear, leakage or fluid breakdown.
 //   F <- F / (1 + d E),   E' = F v
 // E is the work done on the damper so far: its dissipated energy but for what springs hold. Unlike self-heating it does
-// not recover. It acts on all of the force below, so nothing below is linear. 1 + d E is kept above 0.1.
+// not recover: where the starts of the recordings are told, E goes on from one to the next. It acts on all of the force
+// below, so nothing below is linear. 1 + d E is kept above 0.1.
 // Source: the strength degradation 1 / nu of Baber, Noori, J. Eng. Mech. 111 (1985) 1010-1026, applied to the
 // whole force.
 #include "simulate/compile.hpp"
@@ -25,12 +26,20 @@ struct Degradation {
       .family = families::slow_loss,
       .in_words = "a degradation with the work done",
       .shows = "the force falls with the work done and does not come back after a pause",
-      .experiment = "the first recording again at the end of the campaign, cold",
+      .experiment = "the first recording again at the end of the campaign, cold, each file with its start",
       .kin = kin,
       .part_of = part_of,
       .contrasts = contrasts,
   };
 
+  template <class T>
+  static std::array<T, 1> begin(const std::array<T, 1>& /*p*/, std::span<const EarlierWork> earlier) {
+    T E(0.0);
+    for (const EarlierWork& stretch : earlier) {
+      E += T(stretch.work);
+    }
+    return {E};
+  }
   template <class T>
   static std::array<T, 1> loaded_rate(const std::array<T, 1>& p, const std::array<T, 1>& s, const Input<T>& in,
                                       const T& below) {

@@ -2,8 +2,10 @@
 //   F <- (F - c_h v) exp(-y b q) + c_h v exp(-b q),   q' = F v - q / tau
 // q is the heat stored above the surroundings: the power of the warm damper, lost with the thermal time constant tau. b
 // is the relative loss of viscosity per kelvin over the heat capacity, y the share of it that the other forces lose,
-// c_h the damping that thins. It acts on all of the force below, so nothing below is linear. Source: exponential
-// temperature law of viscosity, c ~ exp(-b (T - T0)).
+// c_h the damping that thins. It acts on all of the force below, so nothing below is linear. Where the starts of the
+// recordings are told, each begins with what is left of the heat of those before it,
+//   q(0) = sum w exp(-t / tau),  w the work measured a time t before.
+// Source: exponential temperature law of viscosity, c ~ exp(-b (T - T0)).
 #include "simulate/compile.hpp"
 
 namespace hysteron {
@@ -33,7 +35,7 @@ struct SelfHeating {
       .family = families::slow_loss,
       .in_words = "self-heating",
       .shows = "the force falls as the damper warms up, its viscous part most, and comes back after a pause",
-      .experiment = "a long run of constant severity, a pause, and the first recording again",
+      .experiment = "a long run of constant severity, a pause, and the first recording again, each file with its start",
       .kin = kin,
       .ends_as = ends_as,
       .contrasts = contrasts,
@@ -47,6 +49,16 @@ struct SelfHeating {
     return (below - viscous) * exp(-y * loss) + viscous * exp(-loss);
   }
 
+  template <class T>
+  static std::array<T, 1> begin(const std::array<T, 4>& p, std::span<const EarlierWork> earlier) {
+    const auto& [b, tau, y, c_h] = p;
+    const T rate = T(1.0) / tau;
+    T q(0.0);
+    for (const EarlierWork& stretch : earlier) {
+      q += T(stretch.work) * exp(T(-stretch.ago) * rate);
+    }
+    return {q};
+  }
   template <class T>
   static std::array<T, 1> loaded_rate(const std::array<T, 4>& p, const std::array<T, 1>& s, const Input<T>& in,
                                       const T& below) {

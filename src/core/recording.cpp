@@ -32,7 +32,8 @@ Recording every_kth(const Recording& recording, std::size_t k) {
   };
   // A member that is added and forgotten here does not compile.
   const auto& [file, sha256, time, displacement, velocity, force, acceleration, derived_acceleration, drive,
-               temperature, base, unused, conditions, drive_kind, velocity_measured, started, timed, start] = recording;
+               temperature, base, unused, conditions, drive_kind, velocity_measured, started, earlier, timed, start] =
+      recording;
   std::vector<ConditionChannel> kept_conditions;
   for (const ConditionChannel& condition : conditions) {
     kept_conditions.push_back({condition.name, condition.unit, kept(condition.values)});
@@ -53,6 +54,7 @@ Recording every_kth(const Recording& recording, std::size_t k) {
           drive_kind,
           velocity_measured,
           started,
+          earlier,
           timed,
           start};
 }

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "core/earlier_work.hpp"
+
 namespace hysteron {
 
 // What the drive channel of a recording measures. `none` when the recording has neither.
@@ -51,6 +53,7 @@ struct Recording {
   DriveKind drive_kind = DriveKind::none;
   bool velocity_measured = false;
   std::optional<double> started;  // s since 1970 by the clock that the file or campaign.toml names
+  std::vector<EarlierWork> earlier;  // of the recordings made before it, oldest first; empty where that is not known
   bool timed = true;  // else the file has no time, and one was made for a law that does not depend on the rate
   Start start = Start::unknown;  // known of copies with fewer samples, which no longer show it
 

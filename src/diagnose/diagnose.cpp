@@ -186,6 +186,10 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const Split& split
   auto result = std::make_unique<Diagnosis>(std::move(benches.whole), std::move(notes));
   Diagnosis& diagnosis = *result;
   diagnosis.notes.push_back(split.how);
+  if (std::ranges::any_of(campaign.recordings, [](const Recording& recording) { return !recording.earlier.empty(); })) {
+    diagnosis.notes.emplace_back(
+        "the starts of the recordings are told: heat and wear go on from one to the next, by the measured force");
+  }
 
   SearchOptions searching;
   const std::string doubt = doubt_of_velocity(diagnosis.bench.split().fit);

@@ -30,8 +30,8 @@ class Marcher {
         out_(block_samples),
         excitation_(model) {}
 
-  // Goes to sample `first`: at 0 from rest, whatever `state` held, over the period marched beforehand, which `before`
-  // is handed; elsewhere `state` is that at the sample.
+  // Goes to sample `first`: at 0 to the start of the recording, whatever `state` held, over the period marched
+  // beforehand, which `before` is handed; elsewhere `state` is that at the sample.
   template <class Before>
   void start(std::size_t first, std::vector<T>& state, Before&& before) {
     if (!target_.inputs_vary) {
@@ -39,7 +39,7 @@ class Marcher {
       parameters_of({{&instant, 1}, {&target_.drive, 1}, 0}, p_.data());
     }
     if (first == 0) {
-      std::ranges::fill(state, T(0.0));
+      begins_ = true;
       for (std::size_t begin = 0; begin < target_.preroll; begin += block_samples) {
         const std::size_t end = std::min(begin + block_samples, target_.preroll);
         march(target_.lead_in, begin, end, state, begin > 0);
@@ -86,6 +86,10 @@ class Marcher {
         parameters_of({motion.time, motion.drive, n}, p_.data() + (n - begin) * width_);
       }
     }
+    if (begins_) {
+      model_.begin<T>(p_.data(), target_.earlier, state.data());
+      begins_ = false;
+    }
     const std::size_t stride = target_.inputs_vary ? width_ : 0;
     if (!is_lean(motion)) {
       model_.march<T>(motion, p_.data(), stride, begin, end, state.data(), out_.data());
@@ -107,11 +111,12 @@ class Marcher {
   MarchInputs<T> excitation_;
   Motion piece_;
   bool goes_on_ = false;
+  bool begins_ = false;
 };
 
 // Marches samples [first, last) of a target block by block and hands (first sample, count, force) to the sink, those of
 // the period marched beforehand to the other one. `state` holds max_states: those at the first sample, then those at
-// the last; a march that begins the target starts from rest, whatever it held.
+// the last; a march that begins the target starts as the recording does, whatever it held.
 template <class T, class Parameters, class Sink, class Before>
 void march_window(const CompositeModel& model, const Target& target, const Parameters& parameters_at, std::size_t first,
                   std::size_t last, std::vector<T>& state, Sink&& sink, Before&& before) {

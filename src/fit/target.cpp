@@ -28,7 +28,9 @@ Motion motion_of(const Recording& recording, double tolerance, bool lean) {
                                                  std::move(drive), tolerance, recording.derived_acceleration);
 }
 
-void take_conditions(const Recording& recording, Target& target) {
+// What a march takes from the recording beside its motion.
+void take_circumstances(const Recording& recording, Target& target) {
+  target.earlier = recording.earlier;
   for (const ConditionChannel& condition : recording.conditions) {
     target.conditions.push_back(condition.values);
   }
@@ -172,7 +174,7 @@ Target make_target(const Recording& recording, const ObjectiveOptions& options, 
     target.drive = mean_of(recording.drive);
     target.inputs_vary = drive_varies(recording);
   }
-  take_conditions(recording, target);
+  take_circumstances(recording, target);
   target.inputs_vary = target.inputs_vary || conditions_vary(recording);
   lead_in(target, recording);
   if (options.comparing) {
@@ -192,7 +194,7 @@ Target make_screening_target(const Target& full, const Recording& whole, const O
   target.weight = full.weight;
   target.frequency = full.frequency;
   target.drive = full.drive;
-  take_conditions(recording, target);
+  take_circumstances(recording, target);
   target.inputs_vary = full.inputs_vary;
   target.motion = motion_of(recording, options.tolerance, false);
   target.fastest = fastest_of(target.motion);

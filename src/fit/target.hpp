@@ -38,6 +38,7 @@ struct Target {
   double drive = 0.0;      // mean level; used when the drive is constant
   // Those of the recording, in its order: one value a sample, or one where it does not vary.
   std::vector<std::vector<double>> conditions;
+  std::vector<EarlierWork> earlier;  // of the recording
   bool inputs_vary = false;  // the drive, or a condition: parameters may differ from sample to sample
   std::size_t run_in = 0;    // samples at the start that do not count
   std::size_t preroll = 0;   // samples of the first period marched beforehand when the recording starts in motion

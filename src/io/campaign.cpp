@@ -7,6 +7,7 @@
 #include <string_view>
 #include <utility>
 
+#include "core/earlier_work.hpp"
 #include "core/error.hpp"
 #include "core/printable.hpp"
 #include "io/block_means.hpp"
@@ -226,10 +227,12 @@ void follow_clock(std::vector<Recording>& recordings) {
   if (std::ranges::all_of(recordings, has_clock)) return;
   for (const Recording& recording : recordings) {
     if (recording.started && !has_clock(recording)) continue;
-    throw InputError(recording.file + (recording.started ? ": has a column 'clock', and other recordings have none"
-                                                         : ": says no start, and parameters follow the clock") +
-                     "; expected a column 'clock' in all of them, or a comment `# start: 2026-11-24T14:50:58` above the "
-                     "rows, or starts in campaign.toml");
+    throw InputError(
+        recording.file +
+        (recording.started ? ": has a column 'clock', and other recordings have none"
+                           : ": says no start, and parameters follow the clock") +
+        "; expected a column 'clock' in all of them, or a comment `# start: 2026-11-24T14:50:58` above the "
+        "rows, or starts in campaign.toml");
   }
   const double first = first_start(recordings);
   for (Recording& recording : recordings) {
@@ -281,6 +284,9 @@ Campaign load_campaign(const std::vector<std::string>& data, const ReadOptions& 
     follow_clock(campaign.recordings);
   }
   agree_on_units(campaign.recordings);
+  if (const auto contradiction = carry_work(campaign.recordings); contradiction && options.remark) {
+    options.remark({campaign.recordings.front().file, Remark::Kind::dialect, *contradiction, *contradiction});
+  }
   return campaign;
 }
 

@@ -48,6 +48,10 @@ concept HasLoadedRate = requires {
   &M::template loaded_rate<double>;
 };
 template <class M>
+concept HasBegin = requires {
+  &M::template begin<double>;
+};
+template <class M>
 concept HasStiffness = requires {
   &M::template stiffness<double>;
 };
@@ -218,6 +222,12 @@ constexpr PartOperations<T> operations() {
     } else {
       result.rate = [](const T* p, const T* s, const Input<T>& in, T* rates) { Fused<M>::rate(p, s, in, rates); };
     }
+    if constexpr (HasBegin<M> && !std::is_same_v<T, Trace>) {
+      result.begin = [](const T* p, std::span<const EarlierWork> earlier, T* s) {
+        const auto values = M::begin(as_array<T, parameter_count<M>>(p), earlier);
+        std::copy(values.begin(), values.end(), s);
+      };
+    }
     result.stiffness = [](const T* p, double speed) { return Fused<M>::stiffness(p, speed); };
     if constexpr (Settles<M>) {
       result.settles = M::settles;
@@ -294,6 +304,7 @@ constexpr Part compile() {
     static_assert((M::states > 0) == (HasRate<M> || HasLoadedRate<M>), "states have a rate, and rates a state");
     static_assert(!(HasRate<M> && HasLoadedRate<M>), "rate and loaded_rate say the same");
     static_assert((M::states > 0) == HasStiffness<M>, "states have a stiffness");
+    static_assert(M::states > 0 || !HasBegin<M>, "only states begin");
   }
   if constexpr (Settles<M>) {
     static_assert(HasRate<M> && M::settles >= 0 && M::settles < M::states, "settles is one of the states of a rate");

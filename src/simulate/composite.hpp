@@ -1,6 +1,8 @@
 // A damper law with the effects put behind it, composed at run time.
 #pragma once
 
+#include <algorithm>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -43,6 +45,16 @@ struct CompositeModel {
   // Whether march takes WideLanes.
   [[nodiscard]] bool has_wide_march() const { return wide_lanes_pay && !balances(); }
 
+  // States at the start of a recording, from the parameters there: zero but for what earlier recordings left.
+  template <class T>
+  void begin(const T* p, std::span<const EarlierWork> earlier, T* state) const {
+    for_links([&](const Link& link) {
+      std::fill_n(state + link.state, link.part->states, T(0.0));
+      if (const auto begin = link.part->on<T>().begin; begin != nullptr && !earlier.empty()) {
+        begin(p + link.parameter, earlier, state + link.state);
+      }
+    });
+  }
   // As PartOperations::march, over the whole chain.
   template <class T>
   void march(const Motion& motion, const T* p, std::size_t stride, std::size_t begin, std::size_t end, T* state,

@@ -15,6 +15,8 @@
 // A part with states has besides
 //   rate(p, s, in) -> array<T, states>         their time derivatives, or, where they depend on the force below,
 //   loaded_rate(p, s, in, below) -> array<T, states>
+//   begin(p, earlier) -> array<T, states>      optional: the states at the start of a recording after the work that
+//                                      recordings before it did; else they are zero
 //   stiffness(p, speed) -> T           bound of |d rate / d state| in 1/s at |velocity| <= speed: linear in the speed,
 //                                      or rising ever less with it, which marches build on
 //                                      (simulate/march.hpp)
@@ -40,6 +42,7 @@
 #include <span>
 #include <string_view>
 
+#include "core/earlier_work.hpp"
 #include "scalar/math.hpp"
 #include "simulate/command.hpp"
 #include "simulate/parameter.hpp"
@@ -92,6 +95,8 @@ struct PartOperations {
   int settles = -1;
   void (*rest)(const T* p, const T* s, const Input<T>& in, T* rates) = nullptr;
   Value (*slack)(const T* p) = nullptr;
+  // The part's states at the start of a recording, where it has a past; nullptr: they are zero.
+  void (*begin)(const T* p, std::span<const EarlierWork> earlier, T* s) = nullptr;
   // As rate, with the force below.
   void (*loaded_rate)(const T* p, const T* s, const Input<T>& in, const T& below, T* rates) = nullptr;
   void (*yield)(const T* p, const T& q, Yield<T>& result) = nullptr;

@@ -145,6 +145,15 @@ json problem_config(const ModelSpec& model, const StudyProblem& problem, const O
     for (const Recording& recording : recordings) rows.push_back(recording.sha256);
     return rows;
   };
+  // Starts may stand in campaign.toml, beside the files.
+  json earlier = json::array();
+  for (const std::vector<Recording>* recordings : {&problem.recordings, &problem.heldout}) {
+    for (const Recording& recording : *recordings) {
+      for (const EarlierWork& stretch : recording.earlier) {
+        earlier.push_back({recording.sha256, stretch.ago, stretch.work});
+      }
+    }
+  }
   json box = json::array();
   for (const Coordinate& coordinate : problem.layout.coordinates()) {
     box.push_back({{"parameter", problem.layout.names()[coordinate.parameter]},
@@ -159,16 +168,18 @@ json problem_config(const ModelSpec& model, const StudyProblem& problem, const O
                     {"drive", law.drive_nodes},
                     {"frequency", law.frequency_nodes}});
   }
-  return {{"recordings", files(problem.recordings)},
-          {"heldout", files(problem.heldout)},
-          {"model", model.model},
-          {"effects", model.effects},
-          {"box", box},
-          {"laws", laws},
-          {"held", problem.layout.held()},
-          {"normalisation", word_of(options.normalisation)},
-          {"weighting", options.weighting == Weighting::pooled ? "pooled" : "per-recording"},
-          {"tolerance", options.tolerance}};
+  json config = {{"recordings", files(problem.recordings)},
+                 {"heldout", files(problem.heldout)},
+                 {"model", model.model},
+                 {"effects", model.effects},
+                 {"box", box},
+                 {"laws", laws},
+                 {"held", problem.layout.held()},
+                 {"normalisation", word_of(options.normalisation)},
+                 {"weighting", options.weighting == Weighting::pooled ? "pooled" : "per-recording"},
+                 {"tolerance", options.tolerance}};
+  if (!earlier.empty()) config["earlier_work"] = std::move(earlier);
+  return config;
 }
 
 }  // namespace

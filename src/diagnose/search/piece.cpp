@@ -16,6 +16,10 @@ void add_recording(ByteWriter& key, const Recording& recording) {
     key.text(condition.name);
     key.numbers(condition.values);
   }
+  for (const EarlierWork& stretch : recording.earlier) {
+    key.number(stretch.ago);
+    key.number(stretch.work);
+  }
   key.whole(static_cast<std::uint64_t>(recording.drive_kind));
   key.whole(recording.velocity_measured ? 1 : 0);
   key.whole(static_cast<std::uint64_t>(recording.start));

@@ -1,0 +1,23 @@
+// What recordings made before one did to the damper: heat that is not yet lost when it begins, and wear that stays.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace hysteron {
+
+struct Recording;
+
+// Work of a stretch of time before a recording began.
+struct EarlierWork {
+  double ago = 0.0;   // s, from the middle of the stretch to the first sample, not negative
+  double work = 0.0;  // J, integral of the measured force over the displacement
+};
+
+// Gives every recording the work of those that were started before it, oldest first, where all say when they were
+// started and hold a force; else none has any. Stretches are short beside their age, so that what fades with time may
+// take each at its middle. Returns why nothing can be carried where starts are told and contradict the recordings.
+std::optional<std::string> carry_work(std::vector<Recording>& recordings);
+
+}  // namespace hysteron
