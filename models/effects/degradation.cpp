@@ -21,7 +21,7 @@ struct Degradation {
   };
   static constexpr std::string_view kin[] = {"self-heating", "stiction"};
   static constexpr PartOfLaw part_of[] = {{"baber-noori"}};
-  static constexpr ContrastSense contrasts[] = {{ContrastKind::energy_fade, Sense::positive}};
+  static constexpr ContrastSense contrasts[] = {{ContrastKind::energy_fade, Sense::positive}, {ContrastKind::carried_fade, Sense::positive}};
   static constexpr Knowledge knowledge = {
       .family = families::slow_loss,
       .in_words = "a degradation with the work done",

@@ -24,6 +24,7 @@ enum class ContrastKind {
   stroke_end,
   middle_loss,
   energy_fade,
+  carried_fade,
   pause_recovery,
   first_travel,
   drift,

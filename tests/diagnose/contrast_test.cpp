@@ -12,7 +12,9 @@
 #include <set>
 
 #include "core/drive.hpp"
+#include "core/earlier_work.hpp"
 #include "core/random.hpp"
+#include "diagnose/residual/contrast_parts.hpp"
 #include "diagnose/search/relatives.hpp"
 #include "simulate/knowledge.hpp"
 #include "simulate/part.hpp"
@@ -387,6 +389,68 @@ TEST(Contrast, WhatFadesInTheCourseOfARecordingHasItsOwnValue) {
                ContrastKind::energy_fade, 5e-4, 0.15);
   expect_value(scene_of([](const Recording& r, const auto&, std::size_t n) { return 4.0 * r.time[n]; }).found(),
                ContrastKind::drift, 4.0, 0.05);
+}
+
+// Tests in an order that no circumstance has, with what their files tell of the work before.
+Scene started(const Noise& noise = {}) {
+  Scene scene = scene_of([](const Recording&, const auto&, std::size_t) { return 0.0; }, usual, noise);
+  constexpr std::array<double, 8> starts = {2100.0, 900.0, 3300.0, 0.0, 2700.0, 1500.0, 300.0, 4000.0};
+  for (std::size_t k = 0; k < starts.size(); ++k) {
+    scene.recordings[k].started = starts[k];
+  }
+  EXPECT_EQ(carry_work(scene.recordings), std::nullopt);
+  return scene;
+}
+
+// The force of each recording times a factor of its own.
+void scale(Scene& scene, const std::function<double(const Recording& recording, std::size_t k)>& factor) {
+  for (std::size_t k = 0; k < scene.recordings.size(); ++k) {
+    Recording& recording = scene.recordings[k];
+    const double by = factor(recording, k) - 1.0;
+    for (std::size_t n = 0; n < recording.size(); ++n) {
+      const double more = by * recording.force[n];
+      recording.force[n] += more;
+      scene.residuals[k].force[n] -= more;
+    }
+  }
+}
+
+TEST(Contrast, WhatEarlierRecordingsDidHasItsOwnValue) {
+  for (const double tau : {std::numeric_limits<double>::infinity(), 600.0}) {
+    Scene scene = started();
+    scale(scene, [&](const Recording& recording, std::size_t) {
+      double work = 0.0;
+      for (const EarlierWork& stretch : recording.earlier) {
+        work += stretch.work * std::exp(-stretch.ago / tau);
+      }
+      return 1.0 - 5e-4 * work;
+    });
+    expect_value(scene.found(), ContrastKind::carried_fade, 5e-4, 0.1);
+  }
+  Scene silent = started();
+  for (Recording& recording : silent.recordings) recording.earlier.clear();
+  EXPECT_EQ(find(silent.found(), ContrastKind::carried_fade), nullptr) << "no starts, no contrast";
+}
+
+TEST(Contrast, RecordingsOfSizesByChanceAreNoWear) {
+  int loud = 0;
+  int beyond = 0;
+  constexpr int draws = 400;
+  for (int draw = 0; draw < draws; ++draw) {
+    Scene scene = started();
+    const Stream stream = Stream(static_cast<std::uint64_t>(draw)).child("sizes");
+    scale(scene, [&](const Recording&, std::size_t k) { return 1.0 + 0.01 * stream.normal(k); });
+    std::vector<Contrast> found;
+    contrast::add_carried_contrast(contrast::tracks_of(scene.recordings, scene.residuals), contrast::all_placebos,
+                                   found);
+    ASSERT_EQ(found.size(), 1U);
+    loud += std::fabs(found[0].z) > 2.58 ? 1 : 0;
+    beyond += found[0].placebo_quantile >= 0.95 ? 1 : 0;
+  }
+  // The best of three time constants: up to three times 1 %, and 5 % of placebos that choose likewise.
+  EXPECT_LE(loud, 16);
+  EXPECT_LE(beyond, 36);
+  EXPECT_GE(beyond, 4) << "placebos are no harder than chance";
 }
 
 // Recordings with a step of the drive every 0.31 s, the force's drive being another than the recorded one.

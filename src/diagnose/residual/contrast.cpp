@@ -17,6 +17,7 @@ std::vector<Contrast> contrasts(std::span<const Recording> recordings, std::span
   contrast::add_reversal_contrasts(tracks, draws, result);
   contrast::add_motion_contrasts(tracks, draws, result);
   contrast::add_slow_contrasts(tracks, draws, result);
+  contrast::add_carried_contrast(tracks, draws, result);
   contrast::add_drive_contrasts(tracks, draws, result);
   contrast::add_channel_contrasts(tracks, draws, result);
   std::ranges::stable_sort(result, {}, &Contrast::kind);

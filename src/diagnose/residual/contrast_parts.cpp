@@ -15,8 +15,6 @@ constexpr double least_weight = 0.1;
 constexpr std::size_t fewest_clusters = 3;
 // A part with more of the weight than this is nearly all there is.
 constexpr double most_weight = 0.9;
-// Of the value: standard errors below it are those of rounding.
-constexpr double least_error = 1e-6;
 // Fewest degrees of freedom of Student's t.
 constexpr double least_degrees = 2.0;
 constexpr double margin = 0.08;           // of a recording, that a shift stays away from none at all
@@ -33,12 +31,6 @@ double squared_error(std::span<const Part> parts, double value, double total) {
     sum += score * score / std::max(1.0 - part.weight / total, 1.0 - most_weight);
   }
   return sum;
-}
-
-// The standard normal's value that is as rare as Student's t (Wallace 1959, within 0.02 up to 4 from three degrees on).
-double normal_of(double t, double degrees) {
-  const double size = (8.0 * degrees + 1.0) / (8.0 * degrees + 3.0) * std::sqrt(degrees * std::log1p(t * t / degrees));
-  return std::copysign(size, t);
 }
 
 // Recordings of one motion as one part.
@@ -63,6 +55,11 @@ const Stream& stream() {
 }
 
 }  // namespace
+
+double normal_of(double t, double degrees) {
+  const double size = (8.0 * degrees + 1.0) / (8.0 * degrees + 3.0) * std::sqrt(degrees * std::log1p(t * t / degrees));
+  return std::copysign(size, t);
+}
 
 std::size_t placebo_shift(std::size_t placebo, std::size_t recording, std::size_t size, double period) {
   const auto counted = static_cast<double>(size);

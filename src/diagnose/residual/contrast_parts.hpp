@@ -35,6 +35,11 @@ std::optional<Contrast> pooled(ContrastKind kind, std::span<const Part> recordin
 // How many parts of equal weight would be worth as much: (sum w)^2 / sum w^2.
 double effective_number(std::span<const Part> parts);
 
+// The standard normal's value that is as rare as Student's t (Wallace 1959, within 0.02 up to 4 from three degrees on).
+double normal_of(double t, double degrees);
+// Of the value: standard errors below it are those of rounding.
+constexpr double least_error = 1e-6;
+
 // Events of single recordings: each recording has the mean of its own.
 struct Event {
   std::size_t recording = 0;
@@ -53,6 +58,7 @@ void add_rest_contrasts(std::span<const Track> tracks, std::size_t placebos, std
 void add_reversal_contrasts(std::span<const Track> tracks, std::size_t placebos, std::vector<Contrast>& result);
 void add_motion_contrasts(std::span<const Track> tracks, std::size_t placebos, std::vector<Contrast>& result);
 void add_slow_contrasts(std::span<const Track> tracks, std::size_t placebos, std::vector<Contrast>& result);
+void add_carried_contrast(std::span<const Track> tracks, std::size_t placebos, std::vector<Contrast>& result);
 void add_drive_contrasts(std::span<const Track> tracks, std::size_t placebos, std::vector<Contrast>& result);
 void add_channel_contrasts(std::span<const Track> tracks, std::size_t placebos, std::vector<Contrast>& result);
 

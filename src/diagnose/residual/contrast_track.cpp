@@ -124,6 +124,7 @@ std::optional<Track> track_of(const Recording& recording, const Residual& residu
   track.a = recording.derived_acceleration.size() == size ? recording.derived_acceleration
                                                           : slope_of(recording.time, recording.velocity);
   track.drive = quiet_drive(recording.drive);
+  track.earlier = recording.earlier;
   track.force = recording.force;
   track.simulated = recording.force;
   track.missing.assign(size, 0.0);

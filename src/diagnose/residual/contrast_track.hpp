@@ -44,7 +44,8 @@ struct Track {
   Values at_reversal;  // simulated force at the reversal, N
   Values direction;    // 1 or -1, 0 before the first motion
   Values travelled;    // m since the first sample
-  Values work;         // J done on the damper since the first sample
+  std::vector<EarlierWork> earlier;  // of the recording
+  Values work;                       // J done on the damper since the first sample
   Values slip;      // recorded velocity less the slope of the displacement, m/s; empty unless the velocity was recorded
   Values duration;  // s that a sample stands for
   std::vector<std::size_t> half_cycle;  // number of the reversal before

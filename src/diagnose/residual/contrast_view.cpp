@@ -32,6 +32,7 @@ Look look_at(ContrastKind kind) {
       return {ForceOver::time, Part::first_cycles};
     case drive_memory:
     case energy_fade:
+    case carried_fade:
     case drift:
       return {ForceOver::time, Part::whole};
     case force_delay:
