@@ -121,8 +121,11 @@ Chain draw_chain(Draws& draws, Level level, std::string& disturbance) {
 
 Forces clean_forces(const Physics& physics, const std::vector<Run>& tests, double rate, int decimation) {
   Forces forces;
+  std::vector<double> before;
   for (const Run& test : tests) {
-    forces.push_back(clean_force(physics, simulate(physics, test, rate), decimation));
+    Track track = simulate(physics, test, rate, before);
+    forces.push_back(clean_force(physics, track, decimation));
+    before = std::move(track.end);
   }
   return forces;
 }
@@ -356,6 +359,20 @@ Task with_forms(const Task& task, const Stream& stream) {
   return result;
 }
 
+// Half of the campaigns say when their tests were made: the damper then goes on from one to the next, its heat and its
+// wear with it. Starts are whole seconds.
+void draw_pauses(Excitation& excitation, Draws draws) {
+  if (!draws.chance(0.5)) return;
+  double start = 0.0;
+  excitation.tests.front().started = start;
+  for (std::size_t r = 1; r < excitation.tests.size(); ++r) {
+    const double end = start + excitation.tests[r - 1].duration;
+    start = std::ceil(end + draws.log_uniform(20.0, 1500.0));
+    excitation.tests[r].pause = start - end;
+    excitation.tests[r].started = start;
+  }
+}
+
 // None where `strict` and a foreign cause cannot have its power.
 std::optional<Concealed> attempt(const Task& asked, const Stream& stream, bool strict) {
   Draws draws(stream, "campaign");
@@ -392,6 +409,7 @@ std::optional<Concealed> attempt(const Task& asked, const Stream& stream, bool s
       c.drive_is_voltage ? std::round(draws.uniform(2.0, 5.0)) : std::round(10.0 * draws.uniform(0.8, 3.0)) / 10.0;
   needs.stops = task.stops;
   c.excitation = draw_excitation(stream, c.design, needs, device.amplitude, device.level);
+  draw_pauses(c.excitation, Draws(stream, "clock"));
   device.amplitude = c.excitation.amplitude;
   device.smallest_amplitude = c.excitation.smallest_amplitude;
   device.speed = c.excitation.speed;
@@ -441,7 +459,8 @@ std::optional<Concealed> attempt(const Task& asked, const Stream& stream, bool s
   std::vector<Track> tracks;
   c.range.force = 0.0;
   for (std::size_t r = 0; r < per_test.size(); ++r) {
-    tracks.push_back(simulate(per_test[r], c.excitation.tests[r], rate));
+    const std::vector<double> before = r > 0 ? tracks.back().end : std::vector<double>{};
+    tracks.push_back(simulate(per_test[r], c.excitation.tests[r], rate, before));
     c.range.force = std::max(c.range.force, peak_of(clean_force(per_test[r], tracks[r], c.decimation)));
   }
   c.range.amplitude = device.amplitude + std::abs(device.middle);

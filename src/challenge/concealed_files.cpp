@@ -33,6 +33,13 @@ std::string_view design_name(Design design) {
   return "";
 }
 
+// On a day in March: "# start: 2026-03-02T08:41:07".
+std::string start_line(double seconds) {
+  const auto all = std::lround(seconds) + 8 * 3600;
+  return fmt::format("# start: 2026-03-{:02d}T{:02d}:{:02d}:{:02d}\n", 2 + all / 86400, all / 3600 % 24, all / 60 % 60,
+                     all % 60);
+}
+
 }  // namespace
 
 void write_recordings(const Concealed& concealed, const std::string& folder, std::uint64_t seed) {
@@ -68,7 +75,8 @@ void write_recordings(const Concealed& concealed, const std::string& folder, std
   std::filesystem::create_directories(path);
   for (std::size_t r = 0; r < concealed.recordings.size(); ++r) {
     const Measured& recording = concealed.recordings[r];
-    std::string text;
+    const std::optional<double>& started = concealed.excitation.tests[r].started;
+    std::string text = started ? start_line(*started) : "";
     for (std::size_t c = 0; c < columns.size(); ++c) text += (c > 0 ? std::string(1, separator) : "") + columns[c].name;
     text += '\n';
     for (std::size_t k = 0; k < recording.time.size(); ++k) {

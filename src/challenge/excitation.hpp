@@ -2,6 +2,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -57,6 +58,9 @@ struct Run {
   bool held_out = false;
   std::string kind;        // "sine", "multisine", "triangle"
   std::size_t number = 0;  // of the test in its campaign
+  // s after the end of the test before it; none: the damper is cold and as new.
+  std::optional<double> pause = std::nullopt;
+  std::optional<double> started = std::nullopt;  // s by the clock, where the files tell it
 };
 
 enum class Design { sines, broadband, mixed };

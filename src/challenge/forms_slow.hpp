@@ -21,6 +21,8 @@ struct HeatStore : Part {
   void rate(const Moment& m, const double* s, double* d) const override {
     d[0] = heating_power(m) / energy - s[0] / cooling;
   }
+  [[nodiscard]] bool goes_on() const override { return true; }
+  void rest(double pause, double* s) const override { s[0] *= std::exp(-pause / cooling); }
 };
 
 // self-heating/damping: c exp(-b theta); the yield force stays. Source: Reynolds's law of viscosity.
@@ -67,6 +69,22 @@ struct TwoStoreHeat final : Part {
     d[0] = heating_power(m) / energy - flow;
     d[1] = ratio * flow - s[1] / cooling;
   }
+  [[nodiscard]] bool goes_on() const override { return true; }
+  // Midpoint rule in steps short beside the exchange.
+  void rest(double pause, double* s) const override {
+    const auto steps = static_cast<int>(std::ceil(20.0 * pause / std::min(exchange, cooling)));
+    const double h = pause / std::max(steps, 1);
+    const auto rates = [&](double a, double b) {
+      const double flow = (a - b) / exchange;
+      return std::array<double, 2>{-flow, ratio * flow - b / cooling};
+    };
+    for (int k = 0; k < steps; ++k) {
+      const auto half = rates(s[0], s[1]);
+      const auto all = rates(s[0] + 0.5 * h * half[0], s[1] + 0.5 * h * half[1]);
+      s[0] += h * all[0];
+      s[1] += h * all[1];
+    }
+  }
   [[nodiscard]] double damping(const Moment&, const double* s, double) const override { return std::exp(-loss * s[0]); }
   [[nodiscard]] double yield(const Moment&, const double* s) const override {
     return std::exp(-yield_part * loss * s[0]);
@@ -80,6 +98,7 @@ struct EnergyWear final : Part {
   [[nodiscard]] std::size_t states() const override { return 1; }
   void scales(const Scale&, double* s) const override { s[0] = 1.0; }
   void rate(const Moment& m, const double*, double* d) const override { d[0] = heating_power(m) / energy; }
+  [[nodiscard]] bool goes_on() const override { return true; }
   [[nodiscard]] double whole(const Moment&, const double* s, double, double f) const override {
     return f * (1.0 + loss * std::expm1(-s[0]));
   }
@@ -94,6 +113,7 @@ struct PathWear final : Part {
   void rate(const Moment& m, const double*, double* d) const override {
     d[0] = m.t < 0.0 ? 0.0 : std::abs(m.rod.v) / length;
   }
+  [[nodiscard]] bool goes_on() const override { return true; }
   [[nodiscard]] double whole(const Moment&, const double* s, double, double f) const override {
     return f * std::exp(-s[0]);
   }
@@ -115,6 +135,11 @@ struct CycleWear final : Part {
     const double sense = m.rod.v > 0.0 ? 1.0 : m.rod.v < 0.0 ? -1.0 : s[1];
     if (m.t > 0.0 && s[1] != 0.0 && sense != s[1]) s[2] += 1.0;
     s[1] = sense;
+  }
+  [[nodiscard]] bool goes_on() const override { return true; }
+  void rest(double, double* s) const override {
+    s[0] = s[2];
+    s[1] = 0.0;
   }
   [[nodiscard]] double whole(const Moment&, const double* s, double, double f) const override {
     return f / (1.0 + loss * s[0]);
@@ -157,6 +182,8 @@ struct ThixotropicStiction final : Part {
   void rate(const Moment& m, const double* s, double* d) const override {
     d[0] = m.t < 0.0 ? 0.0 : (1.0 - s[0]) / time - s[0] * std::abs(m.v) / length;
   }
+  [[nodiscard]] bool goes_on() const override { return true; }
+  void rest(double pause, double* s) const override { s[0] = 1.0 - (1.0 - s[0]) * std::exp(-pause / time); }
   [[nodiscard]] double whole(const Moment&, const double* s, double, double f) const override {
     return f * (1.0 + excess * s[0]);
   }

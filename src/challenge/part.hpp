@@ -61,6 +61,10 @@ class Part {
   }
   virtual void rate(const Moment&, const double*, double*) const {}
   virtual void settle(const Moment&, double*) const {}
+  // Where the next test is of the same damper: whether the states go on, and what becomes of them in a pause of so many
+  // seconds. Otherwise each test begins with the first values.
+  [[nodiscard]] virtual bool goes_on() const { return false; }
+  virtual void rest(double /*pause*/, double*) const {}
 
   // In the damper: factors on yield force, viscous damping at a speed and rate of the hysteresis (u drives it, `z` is
   // its state over the largest); a force beside those of the law; what becomes of the force so far.

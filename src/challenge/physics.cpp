@@ -93,12 +93,22 @@ class Plant {
     full_z_ = is_bouc_wen() ? std::pow(p_.A / (p_.beta + p_.gamma), 1.0 / p_.n) : p_.x_b;
   }
 
-  [[nodiscard]] State start() const {
+  [[nodiscard]] State start(std::span<const double> before) const {
     State s(size_);
     Moment m = moment(-test_.lead);
     s[inner] = m.rod.x;
-    for (const Placed& placed : parts_) placed.part->start(m, s.at(placed.from));
+    for (const Placed& placed : parts_) {
+      if (test_.pause && placed.part->goes_on() && !before.empty()) {
+        std::copy_n(before.data() + placed.from - plant_states, placed.part->states(), s.at(placed.from));
+        placed.part->rest(*test_.pause, s.at(placed.from));
+      } else {
+        placed.part->start(m, s.at(placed.from));
+      }
+    }
     return s;
+  }
+  [[nodiscard]] std::vector<double> of_parts(const State& s) const {
+    return {s.at(plant_states), s.at(plant_states) + (size_ - plant_states)};
   }
 
   [[nodiscard]] State scales() const {
@@ -341,7 +351,7 @@ bool can_stand_in_series(const std::vector<InSeries>& chain) {
   return all == 2 && count(InSeries::whole) == 0 && count(InSeries::dashpot) <= 1;
 }
 
-Track simulate(const Physics& physics, const Run& test, double rate) {
+Track simulate(const Physics& physics, const Run& test, double rate, std::span<const double> before) {
   Track track;
   track.rate = rate;
   track.lead = static_cast<std::size_t>(std::ceil(test.lead * rate));
@@ -351,7 +361,7 @@ Track simulate(const Physics& physics, const Run& test, double rate) {
   from.lead = static_cast<double>(track.lead) / rate;
   const MotionGrid motion(test.motion, -from.lead, rate, points);
   const Plant plant(physics, from, motion, time(points));
-  State state = plant.start();
+  State state = plant.start(before);
   const State scales = plant.scales();
   double step = 0.25 / rate;
   std::size_t steps = 0;
@@ -370,6 +380,7 @@ Track simulate(const Physics& physics, const Run& test, double rate) {
     track.drive.push_back(test.drive.at(t));
     track.force.push_back(plant.force(t, state));
   }
+  track.end = plant.of_parts(state);
   return track;
 }
 

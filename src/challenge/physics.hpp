@@ -4,6 +4,7 @@
 #pragma once
 
 #include <limits>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -56,12 +57,14 @@ struct Track {
   double rate = 0.0;
   std::size_t lead = 0;  // points before t = 0
   std::vector<double> x, v, drive, force;
+  std::vector<double> end;  // states of the parts, one part after the other
 };
 
 // Thrown where a damper takes hundreds of times as many steps as others: parts that chatter or are too stiff together.
 struct TooStiff {};
 
-// Simulates one test; `rate` is the grid's, in Hz.
-[[nodiscard]] Track simulate(const Physics& physics, const Run& test, double rate);
+// Simulates one test; `rate` is the grid's, in Hz, `before` the end of the test before it, which counts where the test
+// has a pause.
+[[nodiscard]] Track simulate(const Physics& physics, const Run& test, double rate, std::span<const double> before = {});
 
 }  // namespace hysteron::challenge

@@ -56,6 +56,34 @@ TEST(Concealed, ChangesTheForceByTheDrawnShare) {
   }
 }
 
+TEST(Concealed, HalfOfTheCampaignsSayWhenTheirTestsWereMade) {
+  int told = 0;
+  for (int number = 1; number <= 12; ++number) {
+    const Concealed c = make_concealed({number, Level::plain, {"inertia"}}, 17);
+    const std::vector<challenge::Run>& tests = c.excitation.tests;
+    if (!tests.front().started) {
+      for (const challenge::Run& test : tests) EXPECT_FALSE(test.started || test.pause);
+      continue;
+    }
+    ++told;
+    for (std::size_t r = 1; r < tests.size(); ++r) {
+      EXPECT_NEAR(*tests[r].started, *tests[r - 1].started + tests[r - 1].duration + *tests[r].pause, 1e-9);
+      EXPECT_GE(*tests[r].pause, 20.0);
+      EXPECT_LE(*tests[r].pause, 1501.0);
+    }
+    const TemporaryFolder folder;
+    write_recordings(c, folder.path().string(), 17);
+    const Campaign read = load_campaign({folder.path().string()});
+    for (std::size_t r = 0; r < tests.size(); ++r) {
+      ASSERT_TRUE(read.recordings[r].started.has_value());
+      EXPECT_EQ(*read.recordings[r].started - *read.recordings[0].started, *tests[r].started);
+      EXPECT_EQ(read.recordings[r].earlier.empty(), r == 0);
+    }
+  }
+  EXPECT_GE(told, 3);
+  EXPECT_LE(told, 9);
+}
+
 TEST(Concealed, PhysicsOfTwoEffectsHasBothNames) {
   Task task{1, Level::plain, {"compliance"}, {"compliance/aerated-oil"}};
   EXPECT_EQ(make_concealed(task, 3).acceptable, std::vector<std::string>{"entrapped-gas"});

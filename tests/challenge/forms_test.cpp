@@ -571,5 +571,45 @@ TEST(Forms, ForeignCausesDoWhatTheirWordsSay) {
   EXPECT_NEAR(ladder.stretch(1e-2), 2e-2, 1e-12);
 }
 
+// At a standstill the states go the way of their equation, whichever of the two works it out.
+void expect_rest(const Part& part, const States& from) {
+  ASSERT_TRUE(part.goes_on());
+  for (const double pause : {0.5, 40.0, 400.0}) {
+    States marched = from;
+    States scale;
+    scale.fill(1.0);
+    double step = 1e-4;
+    constexpr int pieces = 400;
+    for (int k = 0; k < pieces; ++k) {
+      advance(marched, pause * k / pieces, pause * (k + 1) / pieces, step, 1e-10, scale,
+              [&](double t, const States& s) {
+                States d{};
+                part.rate(at(0.0, 0.0, 0.0, t), s.data(), d.data());
+                return d;
+              });
+    }
+    States rested = from;
+    part.rest(pause, rested.data());
+    for (std::size_t k = 0; k < part.states(); ++k) EXPECT_NEAR(rested[k], marched[k], 2e-4) << pause << " s, " << k;
+  }
+}
+
+TEST(Pause, HeatIsLostAndStructureComesBack) {
+  expect_rest(DampingHeat(100.0, 50.0, 1.0), {1.3});
+  expect_rest(TwoStoreHeat(100.0, 3.0, 60.0, 0.2, 1.0, 0.5), {1.3, 0.4});
+  expect_rest(ThixotropicStiction(0.3, 0.01, 20.0), {0.1});
+  expect_rest(EnergyWear(0.3, 100.0), {0.7});
+  expect_rest(PathWear(2.0), {0.7});
+  EXPECT_FALSE(PathStiction(0.3, 0.01).goes_on()) << "settled anew in every pause";
+}
+
+TEST(Pause, TurnsThatWereCountedStayCounted) {
+  const CycleWear wear(0.01, 1e-3);
+  States s{6.8, 1.0, 7.0};
+  wear.rest(10.0, s.data());
+  EXPECT_EQ(s[0], 7.0);
+  EXPECT_EQ(s[1], 0.0) << "no turn is counted where the next test goes the other way";
+}
+
 }  // namespace
 }  // namespace hysteron::challenge

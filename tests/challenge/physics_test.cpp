@@ -122,6 +122,24 @@ TEST(Truth, BoucWenSaturatesAtTheYieldForce) {
   EXPECT_NEAR(track.force[fastest], 800.0 + 2000.0 * track.v[fastest], 0.5);
 }
 
+TEST(Truth, WearGoesOnAfterAPauseAndBeginsAnewWithoutOne) {
+  Physics p = bouc_wen();
+  p.parts = {std::make_shared<PathWear>(0.5)};
+  Motioned test = sine(5e-3, 2.0, 1.0);
+  const Track first = simulate(p, test, rate);
+  ASSERT_EQ(first.end.size(), 1U);
+  // Four turns of 10 mm and two of 5 mm a second.
+  EXPECT_NEAR(first.end[0], 0.04 / 0.5, 1e-4);
+  EXPECT_EQ(simulate(p, test, rate, first.end).force, first.force)
+      << "without a pause nothing is told of the test before";
+  test.pause = 100.0;
+  const Track second = simulate(p, test, rate, first.end);
+  EXPECT_NEAR(second.end[0], 2.0 * first.end[0], 1e-4);
+  for (std::size_t k = 0; k < second.force.size(); k += 100) {
+    EXPECT_NEAR(second.force[k], first.force[k] * std::exp(-first.end[0]), 1e-4 * 800.0) << k;
+  }
+}
+
 TEST(Truth, ModifiedBoucWenTurnsIntoBoucWenForAStiffDashpot) {
   Physics modified = bouc_wen();
   modified.law = Law::modified_bouc_wen;
