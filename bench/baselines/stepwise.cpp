@@ -57,13 +57,12 @@ std::vector<std::string> significant(std::vector<Step> steps, double values, dou
 std::vector<Fit> refits(const Workbench& bench, const Fit& before, const std::vector<std::string>& effects) {
   const std::vector<Scored> scores = scored(bench, before, extensions_of(effects));
   std::vector<Fit> result(effects.size());
-  const Workbench single = bench.single_threaded();
+  const Workbench each = bench.shared_by(scores.size());
   parallel_for(scores.size(), bench.options().threads, [&](std::size_t k) {
     const Starts& starts = scores[k].starts;
     const auto at = std::ranges::find(effects, scores[k].part.effect) - effects.begin();
-    result[static_cast<std::size_t>(at)] =
-        single.from_starts(with(before.what, scores[k].part), starts, screening_rounds,
-                           Workbench::starts_of_a_pack(starts.layout->dimension()));
+    result[static_cast<std::size_t>(at)] = each.from_starts(with(before.what, scores[k].part), starts, screening_rounds,
+                                                            Workbench::starts_of_a_pack(starts.layout->dimension()));
   });
   return result;
 }

@@ -200,7 +200,7 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const Split& split
   searching.laws = options.laws;
   searching.stands = options.stands;
   Judgement judgement = behind_asked_or_better({diagnosis.bench, quick, fine, benches.every, searching, doubt},
-                                               options.model, progress, diagnosis.notes);
+                                               options.model, within(progress, 0.0, 0.85), diagnosis.notes);
   diagnosis.search = std::move(judgement.search);
   diagnosis.asked = std::move(judgement.asked);
   diagnosis.surprises = std::move(judgement.surprising);
@@ -220,7 +220,7 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const Split& split
   }
   estimate_noise_floor(diagnosis, options.objective.normalisation);
 
-  progress(0.95, "locating the misfit");
+  progress(0.85, "locating the misfit");
   // Where nothing but noise is left, places of it would be those of chance.
   if (diagnosis.verdict.answer != Answer::complete &&
       (structured(diagnosis.search.base_misfit) || !diagnosis.search.found.empty())) {
@@ -263,7 +263,7 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const Split& split
   note_verdict(diagnosis);
   diagnosis.summary = summary_of(diagnosis);
 
-  progress(0.98, "final fit");
+  progress(0.88, "final fit");
   const bool roles = std::ranges::any_of(campaign.roles, [](Role role) { return role == Role::validate; });
   diagnosis.final = fine.on_all(diagnosis.search.augmented,
                                 thinned(roles ? diagnosis.bench.split().fit : campaign.recordings, fine_samples), 5);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "diagnose/doubts.hpp"
 #include "diagnose/search/law_part.hpp"
@@ -16,12 +17,15 @@ namespace {
 // Standard errors by which another law must predict recordings left out better to take the place of the one asked for.
 constexpr double replacement_errors = 2.0;
 
-Judgement judge_search(Search found, const Searching& searching) {
+Judgement judge_search(Search found, const Searching& searching, const SearchProgress& progress) {
   const Workbench& bench = searching.bench;
   const Workbench& fine = searching.fine;
   Judgement result;
   result.estimates.emplace(fine);
   result.search = std::move(found);
+  progress(0.0, "trying the effects behind other damper laws");
+  try_behind_other_laws(result.search, searching.quick);
+  progress(0.5, "weighing the evidence");
   // Of every sample: what relaxes after a stop, or lags, is over within what a thinned recording leaves out.
   result.contrasts = contrasts(bench.split().fit, bench.plain_residuals(result.search.base), bench.motions());
   for (Found& one : result.search.found) {
@@ -67,22 +71,24 @@ Judgement with_recording_checks(Judgement judgement, const Searching& searching)
 
 Judgement behind_asked_or_better(Searching searching, const std::string& asked, const SearchProgress& progress,
                                  std::vector<std::string>& notes) {
-  Judgement first = judge_search(search_behind(asked, searching, progress), searching);
-  const std::string law = better_law(first.evidence);
-  const SearchProgress behind_law = [&](double share, const std::string& stage) {
-    progress(0.9 + 0.02 * share, "behind " + law + ": " + stage);
+  Search asked_search = search_behind(asked, searching, progress);
+  double reached = asked_search.limited ? share_of_limited : 0.9;
+  // From where it came to so much of the whole.
+  const auto next = [&](double to, const std::string& before = {}) {
+    const double from = std::exchange(reached, std::max(reached, to));
+    return within(progress, from, reached, before);
   };
+  Judgement first = judge_search(std::move(asked_search), searching, next(reached + 0.05));
+  const std::string law = better_law(first.evidence);
   std::optional<Search> other;
   if (!law.empty()) {
-    other = search_behind(law, searching, behind_law);
+    other = search_behind(law, searching, next(0.65, "behind " + law + ": "));
   }
   const bool beaten = other && squared(first.search.augmented.cost) > comparable * squared(other->augmented.cost);
   if (first.search.limited && !beaten) {
     searching.options.in_full = true;
-    const SearchProgress again = [&](double share, const std::string& stage) {
-      progress(0.92 + 0.02 * share, "behind " + asked + " again: " + stage);
-    };
-    first = judge_search(search_behind(asked, searching, again), searching);
+    Search in_full = search_behind(asked, searching, next(0.85, "behind " + asked + " again: "));
+    first = judge_search(std::move(in_full), searching, next(0.9));
   }
   if (!other) {
     return with_recording_checks(std::move(first), searching);
@@ -92,10 +98,8 @@ Judgement behind_asked_or_better(Searching searching, const std::string& asked, 
       replacement_errors) {
     return with_recording_checks(std::move(first), searching);
   }
-  take_parts_of_law(
-      *other, first.search, searching.quick, searching.options,
-      [&](double share, const std::string& stage) { progress(0.94 + 0.01 * share, "behind " + law + ": " + stage); });
-  Judgement second = judge_search(std::move(*other), searching);
+  take_parts_of_law(*other, first.search, searching.quick, searching.options, next(0.75, "behind " + law + ": "));
+  Judgement second = judge_search(std::move(*other), searching, next(1.0, "behind " + law + ": "));
   second.evidence.asked_for = asked;
   second.evidence.behind_asked = {first.evidence};
   second = with_recording_checks(std::move(second), searching);

@@ -84,7 +84,9 @@ int team_size(int threads) {
 
 void parallel_for(std::size_t count, int threads, const std::function<void(std::size_t)>& body) {
   Loop loop{body};
-  run_team(count, team_size(threads), loop);
+  // A loop of one round leaves the threads to the loops within it.
+  run_team(count, std::min(team_size(threads), static_cast<int>(std::clamp<std::size_t>(count, 1, most_threads))),
+           loop);
   if (loop.failure) {
     std::rethrow_exception(loop.failure);
   }

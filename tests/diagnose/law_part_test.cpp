@@ -72,6 +72,7 @@ TEST(LawPart, IsWorthAsMuchBehindALawThatLacksIt) {
   Search behind = search(bench.quick, bench.fine, {"modified-bouc-wen", {}, {}}, options, silent);
   take_parts_of_law(behind, asked, bench.quick, options, silent);
   ASSERT_EQ(behind.found.size(), 2U);
+  try_behind_other_laws(behind, bench.quick);
   ASSERT_EQ(behind.swaps.size(), 1U);
   ASSERT_EQ(behind.swaps[0].without.size(), 2U);
   EXPECT_NEAR(behind.swaps[0].without[1] - behind.swaps[0].squares, behind.found[1].gain, 0.2 * behind.found[1].gain);

@@ -52,7 +52,8 @@ AliasMap alias_map(const Workbench& bench, const Fit& fit, const std::vector<std
   }
   const Eigen::MatrixXd basis = imitable(bench, fit, at);
   std::vector<std::optional<Eigen::VectorXd>> signatures(effects.size());
-  parallel_for(effects.size(), bench.options().threads, [&](std::size_t k) { signatures[k] = signature(bench, fit, effects[k], at, basis); });
+  parallel_for(effects.size(), bench.options().threads,
+               [&](std::size_t k) { signatures[k] = signature(bench, fit, effects[k], at, basis); });
   std::vector<Eigen::VectorXd> own;
   for (std::size_t k = 0; k < effects.size(); ++k) {
     if (signatures[k]) {

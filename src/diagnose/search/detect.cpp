@@ -89,7 +89,8 @@ Unobservable limit_of(const Workbench& bench, const Fit& fit, const Misfit& misf
     result.reason = "its parameters are all held";
     return result;
   }
-  // left^2 / squares * independent values = what the criterion asks for (worth() in stage.hpp), and a parameter's price.
+  // left^2 / squares * independent values = what the criterion asks for (worth() in stage.hpp), and a parameter's
+  // price.
   const double asked_evidence = least_evidence_of_a_place + 2.0 * std::log(candidates) + std::log(misfit.independent);
   const double asked = std::sqrt(asked_evidence * misfit.squares / misfit.independent);
   const std::vector<Probe> probes =

@@ -84,8 +84,6 @@ void take_parts_of_law(Search& behind_law, const Search& asked, const Workbench&
     }
     std::ranges::stable_sort(found.rivals, [](const Rival& a, const Rival& b) { return a.share > b.share; });
     behind_law.found.push_back(std::move(found));
-    // With the part as an effect behind laws that lack it.
-    behind_law.swaps = swaps(quick, behind_law.quick_base, behind_law.other_laws, effects_of(behind_law.found));
   }
 }
 

@@ -196,8 +196,8 @@ LeftOut left_out(const Workbench& bench, const Fit& fit) {
 
 std::vector<LeftOut> left_out(const Workbench& bench, const std::vector<const Fit*>& fits) {
   std::vector<LeftOut> result(fits.size());
-  const Workbench single = bench.single_threaded();
-  parallel_for(fits.size(), bench.options().threads, [&](std::size_t k) { result[k] = left_out(single, *fits[k]); });
+  const Workbench each = bench.shared_by(fits.size());
+  parallel_for(fits.size(), bench.options().threads, [&](std::size_t k) { result[k] = left_out(each, *fits[k]); });
   return result;
 }
 

@@ -161,9 +161,9 @@ std::vector<Scored> scored(const Workbench& bench, const Fit& before, const std:
   if (!std::ranges::all_of(keys, [&](const ByteWriter& key) { return bench.has_piece(key); })) {
     tangent = tangent_of(bench, before);
   }
-  const Workbench single = bench.single_threaded();
+  const Workbench each = bench.shared_by(extensions.size());
   parallel_for(extensions.size(), bench.options().threads, [&](std::size_t k) {
-    take(result[k], bench.piece(keys[k], [&] { return bytes_of(look(single, result[k], *tangent)); }));
+    take(result[k], bench.piece(keys[k], [&] { return bytes_of(look(each, result[k], *tangent)); }));
   });
   std::ranges::stable_sort(result, [](const Scored& a, const Scored& b) { return a.gain > b.gain; });
   return result;

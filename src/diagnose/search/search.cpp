@@ -68,13 +68,15 @@ Search search(const Workbench& bench, const Workbench& fine, const Hypothesis& b
   const double excess = std::max(left.squares - left.floor, 1e-300);
   const bool another = squared(result.quick_base.cost) - best_law > most_of_the_misfit * excess;
   result.limited = another && !options.in_full;
+  // Then the search behind the other law is the longer part.
+  const SearchProgress rest = result.limited ? within(progress, 0.05, share_of_limited) : progress;
   grow(course, effects,
-       result.limited ? std::min(options.most_effects, effects_beside_a_better_law) : options.most_effects, progress);
+       result.limited ? std::min(options.most_effects, effects_beside_a_better_law) : options.most_effects, rest);
   if (!course.stages.empty()) {
     result.first_stage = course.stages.front();
   }
 
-  result.augmented = confirmed(course, fine, result.base, effects, progress, result.found);
+  result.augmented = confirmed(course, fine, result.base, effects, rest, result.found);
   const Fit& current = course.current;
   result.independent = course.independent;
   result.quick_augmented = current;
@@ -86,14 +88,27 @@ Search search(const Workbench& bench, const Workbench& fine, const Hypothesis& b
   }
   name_laws(result);
   std::ranges::stable_sort(result.found, [](const Found& a, const Found& b) { return a.gain > b.gain; });
-  if (!result.found.empty()) {
-    progress(0.9, "trying the effects behind other damper laws");
-    // A law that does as well without them is tried with a search of its own.
-    if (best_law > squared(current.cost) || result.found.size() == 1) {
-      result.swaps = swaps(bench, result.quick_base, result.other_laws, effects_of(result.found));
-    }
-  }
   return result;
+}
+
+void try_behind_other_laws(Search& search, const Workbench& quick) {
+  double best_law = squared(search.quick_base.cost);
+  for (const Fit& law : search.other_laws) {
+    best_law = std::min(best_law, squared(law.cost));
+  }
+  const bool parts_of_law =
+      std::ranges::any_of(search.found, [](const Found& found) { return found.of_law.has_value(); });
+  // A law that does as well without them is tried with a search of its own.
+  if (search.found.size() == 1 || parts_of_law ||
+      (!search.found.empty() && best_law > squared(search.quick_augmented.cost))) {
+    search.swaps = swaps(quick, search.quick_base, search.other_laws, effects_of(search.found));
+  }
+}
+
+SearchProgress within(const SearchProgress& progress, double from, double to, const std::string& before) {
+  return [&progress, from, to, before](double share, const std::string& stage) {
+    progress(from + (to - from) * share, before + stage);
+  };
 }
 
 }  // namespace hysteron

@@ -43,9 +43,20 @@ struct SearchOptions {
   std::function<void(const Fit& fit)> stands = [](const Fit&) {};
 };
 
+// Of the whole of a search, where another law limits it.
+inline constexpr double share_of_limited = 0.2;
+
+// The progress of a part of the work that goes from one share of the whole to another; `before` opens its stages.
+// `progress` outlives it.
+SearchProgress within(const SearchProgress& progress, double from, double to, const std::string& before = {});
+
 // Hypotheses are compared on `quick` (thinned recordings, coarse integration); the base and the augmented model are
 // then fitted on `fine`, of the same box, and their costs and misfits are those there.
 Search search(const Workbench& quick, const Workbench& fine, const Hypothesis& base, const SearchOptions& options,
               const SearchProgress& progress);
+
+// What the effects found are worth behind other laws: Search::swaps. For a search that is judged, when all it has is
+// found.
+void try_behind_other_laws(Search& search, const Workbench& quick);
 
 }  // namespace hysteron

@@ -37,8 +37,7 @@ int highest_order(const std::vector<Recording>& recordings) {
   if (std::ranges::any_of(recordings, [](const Recording& recording) { return recording.drive.empty(); })) {
     return 0;
   }
-  return std::ranges::any_of(recordings, drive_varies) ? most_order
-                                                       : static_cast<int>(drive_levels(recordings)) - 1;
+  return std::ranges::any_of(recordings, drive_varies) ? most_order : static_cast<int>(drive_levels(recordings)) - 1;
 }
 
 // Which of the scored, best first, are refitted: the best, what comes near it, and kin of the very best, which the
@@ -126,25 +125,27 @@ std::vector<Tried> stage(const Workbench& bench, const Fit& before, const std::v
       scored(bench, before, open, also, elements > 0 ? starts_behind_series : std::size_t{0});
   const std::vector<bool> refit = chosen(scores, always, elements > 0 ? refitted_behind_series : refitted_at_most);
   std::vector<Tried> result(scores.size());
-  const Workbench single = bench.single_threaded();
-  // Descents of one thread each, so that their order matters to nobody.
-  const auto refitted = [&](std::size_t k) {
-    const Starts& starts = scores[k].starts;
-    return single.from_starts(with(before.what, scores[k].part), starts, screening_rounds,
-                              Workbench::starts_of_a_pack(starts.layout->dimension()));
-  };
-  parallel_for(scores.size(), bench.options().threads, [&](std::size_t k) {
+  std::vector<std::size_t> refitted;
+  for (std::size_t k = 0; k < scores.size(); ++k) {
     if (refit[k]) {
-      const std::optional<Fit> neutral = single.beside(before, scores[k].part);
-      const double squares = squared(std::min(before.cost, neutral ? neutral->cost : before.cost));
-      result[k] = weighed(scores[k].part, refitted(k), squares, before.dimension(), independent);
-    } else {
-      const double after = std::max(squared(before.cost) - scores[k].gain, 1e-12 * squared(before.cost));
-      const double more =
-          static_cast<double>(scores[k].starts.layout->dimension()) - static_cast<double>(before.dimension());
-      result[k] = {scores[k].part, squared(before.cost) - after,
-                   evidence(squared(before.cost), after, more, independent), std::nullopt};
+      refitted.push_back(k);
+      continue;
     }
+    const double after = std::max(squared(before.cost) - scores[k].gain, 1e-12 * squared(before.cost));
+    const double more =
+        static_cast<double>(scores[k].starts.layout->dimension()) - static_cast<double>(before.dimension());
+    result[k] = {scores[k].part, squared(before.cost) - after, evidence(squared(before.cost), after, more, independent),
+                 std::nullopt};
+  }
+  const Workbench each = bench.shared_by(refitted.size());
+  parallel_for(refitted.size(), bench.options().threads, [&](std::size_t task) {
+    const std::size_t k = refitted[task];
+    const Starts& starts = scores[k].starts;
+    const Fit fit = each.from_starts(with(before.what, scores[k].part), starts, screening_rounds,
+                                     Workbench::starts_of_a_pack(starts.layout->dimension()));
+    const std::optional<Fit> neutral = each.beside(before, scores[k].part);
+    const double squares = squared(std::min(before.cost, neutral ? neutral->cost : before.cost));
+    result[k] = weighed(scores[k].part, fit, squares, before.dimension(), independent);
   });
   std::ranges::stable_sort(result, better);
   std::vector<Fit> best;

@@ -21,9 +21,15 @@ Swap swapped(const Workbench& bench, const Fit& law, const std::vector<std::stri
   }
   full = bench.polished(full, comparing_rounds);
   Swap result{law.what.model, squared(law.cost), squared(full.cost), {}};
+  std::vector<Hypothesis> less;
   for (const std::string& effect : effects) {
-    const Hypothesis less = without(full.what, effect_extension(effect));
-    const Fit fit = less.effects.empty() ? law : bench.from_fit(less, full, comparing_rounds);
+    less.push_back(without(full.what, effect_extension(effect)));
+  }
+  if (less.size() == 1) {
+    result.without = {squared(law.cost)};
+    return result;
+  }
+  for (const Fit& fit : bench.from_fit(less, full, comparing_rounds)) {
     result.without.push_back(squared(fit.cost));
   }
   return result;
@@ -43,9 +49,9 @@ std::vector<Swap> swaps(const Workbench& bench, const Fit& base, const std::vect
   const bool series = std::ranges::any_of(effects, in_series);
   order.resize(std::min(order.size(), series ? laws_tried_in_series : laws_tried));
   std::vector<Swap> result(order.size());
-  const Workbench single = bench.single_threaded();
+  const Workbench each = bench.shared_by(order.size());
   parallel_for(order.size(), bench.options().threads,
-               [&](std::size_t k) { result[k] = swapped(single, *order[k], effects); });
+               [&](std::size_t k) { result[k] = swapped(each, *order[k], effects); });
   return result;
 }
 

@@ -95,9 +95,11 @@ std::size_t Workbench::starts_of_a_pack(std::size_t dimension) {
   return std::max<std::size_t>(2, static_cast<std::size_t>(lane_count) / sweeps);
 }
 
-Workbench Workbench::single_threaded() const {
+Workbench Workbench::shared_by(std::size_t tasks) const {
   Workbench result = *this;
-  result.options_.threads = 1;
+  if (tasks > 1) {
+    result.options_.threads = 1;
+  }
   return result;
 }
 
@@ -482,16 +484,16 @@ Fit Workbench::scored(const Fit& fit) const {
 std::vector<Fit> Workbench::from_fit(const std::vector<Hypothesis>& what, const Fit& warm, int rounds,
                                      const Fit* also) const {
   std::vector<Fit> fits(what.size());
-  const Workbench single = single_threaded();
+  const Workbench each = shared_by(what.size());
   parallel_for(what.size(), options_.threads,
-               [&](std::size_t k) { fits[k] = single.from_fit(what[k], warm, rounds, also); });
+               [&](std::size_t k) { fits[k] = each.from_fit(what[k], warm, rounds, also); });
   return fits;
 }
 
 std::vector<Fit> Workbench::polished(const std::vector<Fit>& fits, int rounds) const {
   std::vector<Fit> result(fits.size());
-  const Workbench single = single_threaded();
-  parallel_for(fits.size(), options_.threads, [&](std::size_t k) { result[k] = single.polished(fits[k], rounds); });
+  const Workbench each = shared_by(fits.size());
+  parallel_for(fits.size(), options_.threads, [&](std::size_t k) { result[k] = each.polished(fits[k], rounds); });
   return result;
 }
 

@@ -77,8 +77,8 @@ class Workbench {
                                           const Fit* also = nullptr) const;
   [[nodiscard]] std::vector<Fit> polished(const std::vector<Fit>& fits, int rounds) const;
 
-  // The same with one thread, for loops that share theirs.
-  [[nodiscard]] Workbench single_threaded() const;
+  // For a loop of so many tasks at a time: the same with one thread for each, or with all where there is one task.
+  [[nodiscard]] Workbench shared_by(std::size_t tasks) const;
   // Of a fit on a recording.
   [[nodiscard]] Residual residual(const Fit& fit, const Recording& recording) const;
   // Of a fit on the fitted recordings, in parallel.
