@@ -72,12 +72,25 @@ void add_fit(ByteWriter& key, const Fit& fit) {
   key.numbers(fit.point);
 }
 
+void add_parameters(ByteWriter& key, const Fit& fit) {
+  add_layout(key, *fit.layout);
+  for (const Term& term : fit.terms) {
+    key.whole(term.parameter);
+    key.whole(static_cast<std::uint64_t>(term.drive_power));
+    key.whole(static_cast<std::uint64_t>(term.frequency_power));
+    key.number(term.value);
+    for (const int power : term.condition_powers) {
+      key.whole(static_cast<std::uint64_t>(power));
+    }
+  }
+}
+
 void Workbench::keep_in(Checkpoint& checkpoint) {
   checkpoint_ = &checkpoint;
   ByteWriter all;
-  add_recordings(all, split_.fit);
-  all.whole(split_.judge.size());
-  for (const Judged& judged : split_.judge) {
+  add_recordings(all, split_->fit);
+  all.whole(split_->judge.size());
+  for (const Judged& judged : split_->judge) {
     add_recording(all, judged.recording);
     all.whole(judged.from);
   }

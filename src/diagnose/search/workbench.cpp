@@ -68,24 +68,24 @@ double halton(std::size_t index, std::size_t base) {
 Workbench::Workbench(const DataScale& scale, Split split, LayoutOptions layout, ObjectiveOptions objective,
                      std::uint64_t seed, std::function<bool()> stopped)
     : scale_(scale),
-      split_(std::move(split)),
+      split_(std::make_shared<const Split>(std::move(split))),
       layout_(std::move(layout)),
       options_(std::move(objective)),
       seed_(seed),
       stopped_(std::move(stopped)) {
-  noise_.reserve(split_.fit.size());
-  for (const Recording& recording : split_.fit) {
+  noise_.reserve(split_->fit.size());
+  for (const Recording& recording : split_->fit) {
     noise_.push_back(noise_floor(recording));
   }
-  motions_ = motions_of(split_.fit);
+  motions_ = motions_of(split_->fit);
 }
 
 void Workbench::take_noise_and_motions_of(const Workbench& whole) {
-  for (std::size_t k = 0; k < split_.fit.size(); ++k) {
-    const auto at = std::ranges::find(whole.split_.fit, split_.fit[k].file, &Recording::file);
-    if (at != whole.split_.fit.end()) {
-      noise_[k] = whole.noise_[static_cast<std::size_t>(at - whole.split_.fit.begin())];
-      motions_[k] = whole.motions_[static_cast<std::size_t>(at - whole.split_.fit.begin())];
+  for (std::size_t k = 0; k < split_->fit.size(); ++k) {
+    const auto at = std::ranges::find(whole.split_->fit, split_->fit[k].file, &Recording::file);
+    if (at != whole.split_->fit.end()) {
+      noise_[k] = whole.noise_[static_cast<std::size_t>(at - whole.split_->fit.begin())];
+      motions_[k] = whole.motions_[static_cast<std::size_t>(at - whole.split_->fit.begin())];
     }
   }
 }
@@ -163,11 +163,11 @@ Fit Workbench::finished(const Hypothesis& what, const Layout& layout, std::vecto
   fit.point = std::move(point);
   fit.cost = cost;
   double sum = 0.0;
-  for (const Judged& judged : split_.judge) {
+  for (const Judged& judged : split_->judge) {
     const double norm = normaliser(judged.recording, options_.normalisation);
     sum += residual(fit, judged.recording).mean_square(judged.from) / (norm * norm);
   }
-  fit.heldout = std::sqrt(sum / static_cast<double>(split_.judge.size()));
+  fit.heldout = std::sqrt(sum / static_cast<double>(split_->judge.size()));
   if (!std::isfinite(fit.heldout)) {
     fit.heldout = diverged_cost;
   }
@@ -254,7 +254,7 @@ Fit Workbench::descended(const Hypothesis& what, const Layout& layout, const std
   }
   return fit_piece(key, what, layout, [&] {
     const Reached best =
-        reached(layout, Objective(layout, others != nullptr ? *others : split_.fit, options_), starts, rounds);
+        reached(layout, Objective(layout, others != nullptr ? *others : split_->fit, options_), starts, rounds);
     return finished(what, layout, best.point, best.cost);
   });
 }
@@ -269,7 +269,7 @@ Fit Workbench::from_anywhere(const Hypothesis& what, std::size_t budget) const {
 }
 
 Fit Workbench::searched(const Hypothesis& what, const Layout& layout, std::size_t budget) const {
-  const Objective objective(layout, split_.fit, options_);
+  const Objective objective(layout, split_->fit, options_);
   Problem problem;
   problem.dimension = layout.dimension();
   problem.budget = budget;
@@ -374,7 +374,7 @@ std::vector<double> Workbench::under_measured_force(const Starts& starts, int ro
     options.under_measured_force = true;
     ByteWriter result;
     result.numbers(
-        reached(*starts.layout, Objective(*starts.layout, split_.fit, options), starts.points, rounds).point);
+        reached(*starts.layout, Objective(*starts.layout, split_->fit, options), starts.points, rounds).point);
     return result.bytes();
   });
   return ByteReader(bytes).numbers();
@@ -391,7 +391,7 @@ std::vector<std::vector<double>> Workbench::eased(const Starts& starts) const {
     key.numbers(start);
   }
   const std::string bytes = piece(key, [&] {
-    const Objective objective(*starts.layout, split_.fit, options_);
+    const Objective objective(*starts.layout, split_->fit, options_);
     const double nothing = objective.evaluate({starts.neutral, false}).cost[0];
     std::vector<std::vector<double>> points = starts.points;
     std::vector<double> costs(points.size(), diverged_cost);
@@ -452,7 +452,7 @@ Fit Workbench::from_starts(const Hypothesis& what, const Starts& given, int roun
   std::vector<double> reached = under_measured_force(starts, rounds);
   std::vector<double> both = starts.points.front();
   both.insert(both.end(), reached.begin(), reached.end());
-  const std::vector<double> cost = Objective(*starts.layout, split_.fit, options_).evaluate({both, false}).cost;
+  const std::vector<double> cost = Objective(*starts.layout, split_->fit, options_).evaluate({both, false}).cost;
   return descended(what, *starts.layout, {cost[1] < cost[0] ? std::move(reached) : starts.points.front()},
                    (rounds + 1) / 2);
 }
@@ -476,7 +476,7 @@ Fit Workbench::scored(const Fit& fit) const {
   key.text("costs");
   add_fit(key, fit);
   return fit_piece(key, fit.what, *fit.layout, [&] {
-    const Objective objective(*fit.layout, split_.fit, options_);
+    const Objective objective(*fit.layout, split_->fit, options_);
     return finished(fit.what, *fit.layout, fit.point, objective.evaluate({fit.point, false}).cost[0]);
   });
 }
@@ -498,6 +498,19 @@ std::vector<Fit> Workbench::polished(const std::vector<Fit>& fits, int rounds) c
 }
 
 Residual Workbench::residual(const Fit& fit, const Recording& recording) const {
+  // Recordings of the workbench are known by where they lie; others may be gone when the next one lies there.
+  const std::vector<Recording>& own = split_->fit;
+  const std::less<> before;
+  if (own.empty() || before(&recording, own.data()) || !before(&recording, own.data() + own.size())) {
+    return simulated(fit, recording);
+  }
+  ByteWriter key;
+  add_parameters(key, fit);
+  key.whole(static_cast<std::uint64_t>(&recording - own.data()));
+  return residuals_->get(key.bytes(), [&] { return simulated(fit, recording); });
+}
+
+Residual Workbench::simulated(const Fit& fit, const Recording& recording) const {
   const Target target = make_target(recording, options_);
   Residual result{predict(fit.layout->model(), fit.layout->held(), fit.terms, target), target.run_in};
   for (std::size_t n = 0; n < result.force.size(); ++n) {
@@ -507,13 +520,13 @@ Residual Workbench::residual(const Fit& fit, const Recording& recording) const {
 }
 
 std::vector<Residual> Workbench::plain_residuals(const Fit& fit) const {
-  std::vector<Residual> result(split_.fit.size());
-  parallel_for(result.size(), options_.threads, [&](std::size_t k) { result[k] = residual(fit, split_.fit[k]); });
+  std::vector<Residual> result(split_->fit.size());
+  parallel_for(result.size(), options_.threads, [&](std::size_t k) { result[k] = residual(fit, split_->fit[k]); });
   return result;
 }
 
 Residuals Workbench::residuals(const Fit& fit) const {
-  const std::vector<Recording>& recordings = split_.fit;
+  const std::vector<Recording>& recordings = split_->fit;
   Residuals result;
   result.of.resize(recordings.size());
   result.passed_on.resize(recordings.size());
@@ -557,9 +570,9 @@ std::vector<Sensitivity> Workbench::sensitivities(const Fit& fit, const Residual
         term.value *= 1.0 + step;
       }
     }
-    Sensitivity row{name, std::vector<std::vector<double>>(split_.fit.size())};
-    parallel_for(split_.fit.size(), options_.threads, [&](std::size_t k) {
-      row.slope[k] = residual(moved, split_.fit[k]).force;
+    Sensitivity row{name, std::vector<std::vector<double>>(split_->fit.size())};
+    parallel_for(split_->fit.size(), options_.threads, [&](std::size_t k) {
+      row.slope[k] = residual(moved, split_->fit[k]).force;
       for (std::size_t n = 0; n < row.slope[k].size(); ++n) {
         row.slope[k][n] = (row.slope[k][n] - residuals.of[k].force[n]) / step;
       }

@@ -12,6 +12,7 @@
 #include "diagnose/residual/drift.hpp"
 #include "diagnose/residual/residuals.hpp"
 #include "diagnose/search/hypothesis.hpp"
+#include "diagnose/search/residual_store.hpp"
 #include "diagnose/signal/split.hpp"
 #include "fit/objective.hpp"
 #include "io/checkpoint.hpp"
@@ -45,7 +46,7 @@ class Workbench {
   Workbench(const DataScale& scale, Split split, LayoutOptions layout, ObjectiveOptions objective, std::uint64_t seed,
             std::function<bool()> stopped);
 
-  [[nodiscard]] const Split& split() const { return split_; }
+  [[nodiscard]] const Split& split() const { return *split_; }
   [[nodiscard]] const ObjectiveOptions& options() const { return options_; }
 
   // Many starts over the whole box.
@@ -107,6 +108,7 @@ class Workbench {
                              double cost) const;
   [[nodiscard]] Fit searched(const Hypothesis& what, const Layout& layout, std::size_t budget) const;
   [[nodiscard]] std::string key_of(const ByteWriter& key) const;
+  [[nodiscard]] Residual simulated(const Fit& fit, const Recording& recording) const;
   // Of a piece: a point of the hypothesis' box with its costs.
   [[nodiscard]] Fit fit_piece(const ByteWriter& key, const Hypothesis& what, const Layout& layout,
                               const std::function<Fit()>& work) const;
@@ -125,7 +127,8 @@ class Workbench {
   [[nodiscard]] std::vector<double> under_measured_force(const Starts& starts, int rounds) const;
 
   DataScale scale_;
-  Split split_;
+  std::shared_ptr<const Split> split_;  // copies of the workbench share it, and what they simulate of it
+  std::shared_ptr<ResidualStore> residuals_ = std::make_shared<ResidualStore>();
   std::vector<NoiseFloor> noise_;
   std::vector<std::size_t> motions_;
   LayoutOptions layout_;
@@ -136,8 +139,9 @@ class Workbench {
   std::string identity_;  // hash of all that decides what the workbench does
 };
 
-// Parts of keys.
+// Parts of keys. The parameters of a fit need not be those of its point.
 void add_fit(ByteWriter& key, const Fit& fit);
+void add_parameters(ByteWriter& key, const Fit& fit);
 void add_layout(ByteWriter& key, const Layout& layout);
 void add_recordings(ByteWriter& key, const std::vector<Recording>& recordings);
 
