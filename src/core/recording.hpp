@@ -52,7 +52,7 @@ struct Recording {
   std::vector<ConditionChannel> conditions;  // that laws follow, in order of name, the same in all of a campaign
   DriveKind drive_kind = DriveKind::none;
   bool velocity_measured = false;
-  std::optional<double> started;  // s since 1970 by the clock that the file or campaign.toml names
+  std::optional<double> started;     // s since 1970 by the clock that the file or campaign.toml names
   std::vector<EarlierWork> earlier;  // of the recordings made before it, oldest first; empty where that is not known
   bool timed = true;  // else the file has no time, and one was made for a law that does not depend on the rate
   Start start = Start::unknown;  // known of copies with fewer samples, which no longer show it

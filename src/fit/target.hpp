@@ -39,11 +39,11 @@ struct Target {
   // Those of the recording, in its order: one value a sample, or one where it does not vary.
   std::vector<std::vector<double>> conditions;
   std::vector<EarlierWork> earlier;  // of the recording
-  bool inputs_vary = false;  // the drive, or a condition: parameters may differ from sample to sample
-  std::size_t run_in = 0;    // samples at the start that do not count
-  std::size_t preroll = 0;   // samples of the first period marched beforehand when the recording starts in motion
-  Motion lead_in;            // them, with the sample after them; empty without
-  double fastest = 0.0;      // m/s, bound of |v|
+  bool inputs_vary = false;          // the drive, or a condition: parameters may differ from sample to sample
+  std::size_t run_in = 0;            // samples at the start that do not count
+  std::size_t preroll = 0;  // samples of the first period marched beforehand when the recording starts in motion
+  Motion lead_in;           // them, with the sample after them; empty without
+  double fastest = 0.0;     // m/s, bound of |v|
 
   // Values of the conditions at a sample.
   [[nodiscard]] std::vector<double> conditions_at(std::size_t n) const;
