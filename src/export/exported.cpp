@@ -201,6 +201,7 @@ TestVector test_vector(const ExportedModel& exported, const Recording& motion) {
   Recording recording = motion;
   recording.start = start_of(recording);
   recording.force.clear();
+  recording.earlier.clear();  // exported code begins cold and as new
   ObjectiveOptions options;
   options.tolerance = exported.tolerance;
   Target target = make_target(recording, options, false);
