@@ -65,6 +65,8 @@ def main():
         rows.append(line(f"{len(campaigns)} campaigns of a challenge: median", *median, 3))
         rows.append(line(f"of these the tenth slowest with {before} ({len(slow)}): mean",
                          tenth(slow, least[before]), tenth(slow, least[now]), 5))
+    untimed = [what for part, (what, _) in parts.items() if not any(key[0] == part for key in both)]
+    untimed += [] if campaigns else ["campaigns of a challenge"]
     print("\n".join([
         "# Time of a whole diagnosis", "",
         f"Made by `scripts/diagnosis_speed.sh`: `hysteron diagnose` of commit {before} and of {commit_now}, in turn on the same",
@@ -72,6 +74,7 @@ def main():
         f"median {statistics.median(loads):.1f}, largest {max(loads):.1f}, the call before it included." if loads
         else "Nothing was timed.", "",
         f"| what | {before} s | {commit_now} s | ratio | of processor times | aim |", "|---|--:|--:|--:|--:|--:|", *rows, "",
+        *(["Not timed with this program: " + "; ".join(untimed) + ".", ""] if untimed else []),
         *(["Failed, and in no row:", "", *(f"- {one}" for one in failed), ""] if failed else [])]), end="")
 
 
