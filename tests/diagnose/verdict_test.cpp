@@ -1,3 +1,4 @@
+#include "core/probability_text.hpp"
 #include "diagnose/judge/verdict.hpp"
 
 #include <gtest/gtest.h>
@@ -449,6 +450,9 @@ TEST(Verdict, AShapeThatEverythingSpeaksAgainstIsNoName) {
   EXPECT_TRUE(verdict.effects.empty());
   EXPECT_EQ(verdict.answer, Answer::unattributed);
   EXPECT_EQ(verdict.unknown_share, 1.0) << "nothing is named or suggested";
+  ASSERT_FALSE(verdict.doubtful.empty());
+  EXPECT_EQ(verdict.reason, "the likeliest, inertia or another that does as well, is there with " +
+                                probability_text(verdict.doubtful[0].confidence) + ", and a name is given from 80 %");
 }
 
 TEST(Verdict, AFaultOfTheDataLeavesNoName) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/probability_text.hpp"
 #include "diagnose/judge/features.hpp"
 #include "diagnose/judge/speaking.hpp"
 #include "diagnose/judge/table.hpp"
@@ -189,6 +190,23 @@ std::string better_law(const Evidence& evidence) {
 namespace {
 
 // All but the share that has no name.
+// Why no effect of the augmented model is named: how likely the likeliest is.
+std::string likeliest(const Verdict& verdict) {
+  const Named* best = nullptr;
+  for (const std::vector<Named>* list : {&verdict.suggestions, &verdict.doubtful}) {
+    for (const Named& named : *list) {
+      if (best == nullptr || named.confidence > best->confidence) {
+        best = &named;
+      }
+    }
+  }
+  return best == nullptr ? "no effect of the augmented model is likely"
+                         : "the likeliest, " + best->id +
+                               (best->indistinguishable_from.empty() ? "" : " or another that does as well") +
+                               ", is there with " + probability_text(best->confidence) + ", and a name is given from " +
+                               probability_text(supported_from);
+}
+
 Verdict answer_of(const Evidence& evidence) {
   Verdict verdict;
   verdict.remaining_structure = structure_remains(evidence.augmented);
@@ -251,8 +269,8 @@ Verdict answer_of(const Evidence& evidence) {
   verdict.answer =
       verdict.missing >= suggested_from || !verdict.suggestions.empty() ? Answer::unattributed : Answer::complete;
   if (verdict.answer == Answer::unattributed) {
-    verdict.reason = evidence.candidates.empty() ? "no effect of the catalogue explains the misfit"
-                                                 : "no effect explains enough of the misfit to be named";
+    verdict.reason =
+        evidence.candidates.empty() ? "no effect of the catalogue explains the misfit" : likeliest(verdict);
   }
   return verdict;
 }
