@@ -1,6 +1,7 @@
 #include "core/earlier_work.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <numeric>
 
@@ -14,8 +15,13 @@ namespace {
 // fades with a time constant of a fifth of its age is then still within a hundredth.
 constexpr std::size_t stretches = 16;
 constexpr double longest_for_its_age = 0.1;
-// Clocks are told in whole minutes at worst.
-constexpr double clock_error = 60.0;
+// s that a start may be off: clocks are told in seconds, or all in whole minutes. Files that were written one after the
+// other, with the time of that, overlap by more.
+double clock_error(const std::vector<Recording>& recordings) {
+  constexpr double minute = 60.0;
+  const auto whole = [](const Recording& recording) { return std::fmod(*recording.started, minute) == 0.0; };
+  return std::ranges::all_of(recordings, whole) ? minute : 1.0;
+}
 
 double duration(const Recording& recording) { return recording.time.back() - recording.time.front(); }
 
@@ -66,7 +72,7 @@ std::vector<EarlierWork> seen_from(double start, const std::vector<Stretch>& bef
 
 }  // namespace
 
-std::optional<std::string> carry_work(std::vector<Recording>& recordings) {
+std::optional<WrongStart> carry_work(std::vector<Recording>& recordings) {
   for (Recording& recording : recordings) {
     recording.earlier.clear();
   }
@@ -79,13 +85,15 @@ std::optional<std::string> carry_work(std::vector<Recording>& recordings) {
   std::vector<std::size_t> order(recordings.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::stable_sort(order, {}, [&](std::size_t k) { return *recordings[k].started; });
+  const double error = clock_error(recordings);
   for (std::size_t k = 1; k < order.size(); ++k) {
     const Recording& before = recordings[order[k - 1]];
     const Recording& after = recordings[order[k]];
-    if (*after.started + clock_error < *before.started + duration(before) || *after.started == *before.started) {
-      return after.file + " was started " + number_text(*after.started - *before.started) + " s after " + before.file +
-             ", which takes " + number_text(duration(before)) +
-             " s: the starts cannot be those of the recordings, and heat and wear are not carried from one to the next";
+    if (*after.started + error < *before.started + duration(before) || *after.started == *before.started) {
+      return WrongStart{after.file, "was started " + number_text(*after.started - *before.started) + " s after " +
+                                        before.file + ", which takes " + number_text(duration(before)) +
+                                        " s: the starts cannot be those of the recordings, and heat and wear are not "
+                                        "carried from one to the next"};
     }
   }
   std::vector<Stretch> before;

@@ -15,9 +15,15 @@ struct EarlierWork {
   double work = 0.0;  // J, integral of the measured force over the displacement
 };
 
+// A recording whose start cannot be its own, and why.
+struct WrongStart {
+  std::string file;
+  std::string why;
+};
+
 // Gives every recording the work of those that were started before it, oldest first, where all say when they were
 // started and hold a force; else none has any. Stretches are short beside their age, so that what fades with time may
-// take each at its middle. Returns why nothing can be carried where starts are told and contradict the recordings.
-std::optional<std::string> carry_work(std::vector<Recording>& recordings);
+// take each at its middle. Returns the first start that contradicts the recordings; nothing is carried then.
+std::optional<WrongStart> carry_work(std::vector<Recording>& recordings);
 
 }  // namespace hysteron

@@ -284,8 +284,8 @@ Campaign load_campaign(const std::vector<std::string>& data, const ReadOptions& 
     follow_clock(campaign.recordings);
   }
   agree_on_units(campaign.recordings);
-  if (const auto contradiction = carry_work(campaign.recordings); contradiction && options.remark) {
-    options.remark({campaign.recordings.front().file, Remark::Kind::dialect, *contradiction, *contradiction});
+  if (const auto wrong = carry_work(campaign.recordings); wrong && options.remark) {
+    options.remark({wrong->file, Remark::Kind::dialect, wrong->why, wrong->why});
   }
   return campaign;
 }

@@ -398,7 +398,7 @@ Scene started(const Noise& noise = {}) {
   for (std::size_t k = 0; k < starts.size(); ++k) {
     scene.recordings[k].started = starts[k];
   }
-  EXPECT_EQ(carry_work(scene.recordings), std::nullopt);
+  EXPECT_FALSE(carry_work(scene.recordings).has_value());
   return scene;
 }
 

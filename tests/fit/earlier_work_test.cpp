@@ -81,7 +81,7 @@ void two_routes(const std::string& effect, const std::map<std::string, double>& 
   EXPECT_GT(difference(), 0.05) << "cold and new without the starts";
   parts[0].started = 1e9;
   parts[1].started = 1e9 + second;
-  ASSERT_EQ(carry_work(parts), std::nullopt);
+  ASSERT_FALSE(carry_work(parts).has_value());
   EXPECT_LT(difference(), 1e-3);
 }
 
