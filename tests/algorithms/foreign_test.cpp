@@ -71,7 +71,9 @@ TEST(Foreign, EveryOneCanBeLetGoAtAnyPoint) {
         solver->tell(request, testing::evaluate(request, 4, testing::rosenbrock));
       }
       // Let go while an answer is waited for.
-      if (rounds > 0) EXPECT_EQ(solver->ask().points.size() % 4, 0U) << entry->id;
+      if (rounds > 0) {
+        EXPECT_EQ(solver->ask().points.size() % 4, 0U) << entry->id;
+      }
     }
   }
 }
