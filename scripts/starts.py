@@ -4,7 +4,8 @@ beside each other.
 
     scripts/starts.py CHALLENGE OUT [--binary build/release/hysteron] [--jobs N] [--page results/starts.md]
 
-CHALLENGE is an --out of `hysteron challenge --generate-only`; campaigns without starts are left out. The truth is the
+CHALLENGE is an --out of `hysteron challenge --generate-only --level plain --effect self-heating degradation`; campaigns
+without starts are left out. The truth is the
 same in both columns: the damper goes on from test to test. Rerun the command to resume.
 """
 import argparse
@@ -74,6 +75,10 @@ def main():
     sealed = json.loads((arguments.challenge / "answers.sealed").read_text(encoding="utf-8"))
     answers = sealed["campaigns"]
     last, seed = len(answers), sealed["seed"]
+    causes = {effect["id"] for row in answers for effect in row["effects"]}
+    if causes != {"self-heating", "degradation"} or any(row["level"] != "plain" for row in answers):
+        sys.exit(f"error: {arguments.challenge}: holds {', '.join(sorted(causes))}, expected plain campaigns of self-heating and "
+                 "degradation")
     answers = [row for row in answers if says_its_start(arguments.challenge / row["campaign"])]
 
     def both(row):

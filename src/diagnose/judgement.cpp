@@ -71,8 +71,11 @@ Judgement with_recording_checks(Judgement judgement, const Searching& searching)
 
 Judgement behind_asked_or_better(Searching searching, const std::string& asked, const SearchProgress& progress,
                                  std::vector<std::string>& notes) {
-  Search asked_search = search_behind(asked, searching, progress);
-  double reached = asked_search.limited ? share_of_limited : 0.9;
+  double reached = 0.0;
+  Search asked_search = search_behind(asked, searching, [&](double share, const std::string& stage) {
+    reached = share;
+    progress(share, stage);
+  });
   // From where it came to so much of the whole.
   const auto next = [&](double to, const std::string& before = {}) {
     const double from = std::exchange(reached, std::max(reached, to));

@@ -189,7 +189,6 @@ std::string better_law(const Evidence& evidence) {
 
 namespace {
 
-// All but the share that has no name.
 // Why no effect of the augmented model is named: how likely the likeliest is.
 std::string likeliest(const Verdict& verdict) {
   const Named* best = nullptr;
@@ -207,6 +206,7 @@ std::string likeliest(const Verdict& verdict) {
                                probability_text(supported_from);
 }
 
+// All but the share that has no name.
 Verdict answer_of(const Evidence& evidence) {
   Verdict verdict;
   verdict.remaining_structure = structure_remains(evidence.augmented);

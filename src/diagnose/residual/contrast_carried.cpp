@@ -22,12 +22,6 @@ using Matrix = Eigen::MatrixXd;
 
 // s of the fading: wear, a warm body, a warm fluid.
 constexpr std::array<double, 3> fading = {std::numeric_limits<double>::infinity(), 600.0, 60.0};
-// Degrees of freedom that must be left.
-constexpr Eigen::Index fewest_free = 3;
-// Share of the square of s that X must leave.
-constexpr double least_left = 0.02;
-// Of what s usually is, for a recording to have a value of its own.
-constexpr double least_lever = 0.1;
 
 // How much larger the measured force is than the simulated one, beside a constant and a spring.
 double size_of(const Track& track) {
@@ -93,8 +87,8 @@ void add_carried_contrast(std::span<const Track> tracks, std::size_t placebos, s
   }
   const auto count = static_cast<Eigen::Index>(tracks.size());
   const Without without = circumstances(tracks);
-  const Eigen::Index free = count - without.rank() - 1;
-  if (free < fewest_free) {
+  const auto free = static_cast<double>(count - without.rank() - 1);
+  if (free < least_degrees) {
     return;
   }
   Vector sizes(count);
@@ -135,27 +129,24 @@ void add_carried_contrast(std::span<const Track> tracks, std::size_t placebos, s
   if (signature == nullptr || !(signature->squaredNorm() > 0.0)) {
     return;
   }
-  const double value = signature->dot(left) / signature->squaredNorm();
-  const double scatter = (left - value * *signature).squaredNorm() / static_cast<double>(free);
-  Contrast contrast;
-  contrast.kind = ContrastKind::carried_fade;
-  contrast.what = card_of(contrast.kind).what;
-  contrast.unit = card_of(contrast.kind).unit;
-  contrast.value = value;
-  contrast.std_error = std::max(std::sqrt(scatter / signature->squaredNorm()), least_error * std::fabs(value));
-  contrast.z = contrast.std_error > 0.0 ? normal_of(value / contrast.std_error, static_cast<double>(free)) : 0.0;
-  std::size_t agree = 0;
-  const double usual = std::sqrt(signature->squaredNorm() / static_cast<double>(count));
+  // The slope is the mean of those of the recordings, weighted by their levers.
+  std::vector<Part> parts;
   for (Eigen::Index r = 0; r < count; ++r) {
     const double lever = (*signature)[r];
-    if (std::fabs(lever) < least_lever * usual) {
-      continue;
+    if (lever != 0.0) {
+      const Track& track = tracks[static_cast<std::size_t>(r)];
+      parts.push_back({track.recording, lever * lever, left[r] / lever, track.motion});
     }
-    agree += left[r] * lever * value > 0.0 ? 1 : 0;
-    contrast.of_recordings.push_back({tracks[static_cast<std::size_t>(r)].recording, left[r] / lever});
   }
-  contrast.recordings = contrast.of_recordings.size();
-  contrast.consistency = static_cast<double>(agree) / static_cast<double>(contrast.recordings);
+  std::optional<Contrast> contrast = pooled(ContrastKind::carried_fade, parts, parts);
+  if (!contrast) {
+    return;
+  }
+  // That of the regression: X has taken its degrees of freedom.
+  const double scatter = (left - contrast->value * *signature).squaredNorm() / free;
+  contrast->std_error =
+      std::max(std::sqrt(scatter / signature->squaredNorm()), least_error * std::fabs(contrast->value));
+  contrast->z = contrast->std_error > 0.0 ? normal_of(contrast->value / contrast->std_error, free) : 0.0;
   std::vector<double> of_placebos;
   for (std::size_t p = 0; p < placebos; ++p) {
     const std::vector<std::size_t> order = exchanged(p, tracks.size());
@@ -166,8 +157,8 @@ void add_carried_contrast(std::span<const Track> tracks, std::size_t placebos, s
     const Vector* of = nullptr;
     of_placebos.push_back(most_of(without.of(moved), of));
   }
-  judge(contrast, share, of_placebos);
-  result.push_back(std::move(contrast));
+  judge(*contrast, share, of_placebos);
+  result.push_back(std::move(*contrast));
 }
 
 }  // namespace hysteron::contrast

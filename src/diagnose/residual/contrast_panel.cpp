@@ -9,8 +9,6 @@ namespace {
 
 constexpr std::size_t most_rows = 2000;        // of a recording
 constexpr double fewest_rows_of_cycle = 40.0;  // unless there are fewer samples
-// Share of a signature's square that the other columns must leave.
-constexpr double least_left = 3e-3;
 constexpr double rank_tolerance = 1e-9;
 // Recordings of equal weight from which on their signs alone make enough placebos.
 constexpr double fewest_flips = 7.0;

@@ -15,8 +15,6 @@ constexpr double least_weight = 0.1;
 constexpr std::size_t fewest_clusters = 3;
 // A part with more of the weight than this is nearly all there is.
 constexpr double most_weight = 0.9;
-// Fewest degrees of freedom of Student's t.
-constexpr double least_degrees = 2.0;
 constexpr double margin = 0.08;           // of a recording, that a shift stays away from none at all
 constexpr double margin_of_period = 0.1;  // of a period, that it stays away from a multiple of one
 // Draws of a shift.

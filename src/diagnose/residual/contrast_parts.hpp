@@ -39,6 +39,10 @@ double effective_number(std::span<const Part> parts);
 double normal_of(double t, double degrees);
 // Of the value: standard errors below it are those of rounding.
 constexpr double least_error = 1e-6;
+// Fewest degrees of freedom of Student's t.
+constexpr double least_degrees = 2.0;
+// Share of a signature's square that what is held beside it must leave.
+constexpr double least_left = 3e-3;
 
 // Events of single recordings: each recording has the mean of its own.
 struct Event {

@@ -69,7 +69,7 @@ Search search(const Workbench& bench, const Workbench& fine, const Hypothesis& b
   const bool another = squared(result.quick_base.cost) - best_law > most_of_the_misfit * excess;
   result.limited = another && !options.in_full;
   // Then the search behind the other law is the longer part.
-  const SearchProgress rest = result.limited ? within(progress, 0.05, share_of_limited) : progress;
+  const SearchProgress rest = result.limited ? within(progress, 0.05, 0.2) : progress;
   grow(course, effects,
        result.limited ? std::min(options.most_effects, effects_beside_a_better_law) : options.most_effects, rest);
   if (!course.stages.empty()) {

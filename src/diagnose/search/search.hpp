@@ -43,9 +43,6 @@ struct SearchOptions {
   std::function<void(const Fit& fit)> stands = [](const Fit&) {};
 };
 
-// Of the whole of a search, where another law limits it.
-inline constexpr double share_of_limited = 0.2;
-
 // The progress of a part of the work that goes from one share of the whole to another; `before` opens its stages.
 // `progress` outlives it.
 SearchProgress within(const SearchProgress& progress, double from, double to, const std::string& before = {});
