@@ -34,11 +34,7 @@ struct Degradation {
 
   template <class T>
   static std::array<T, 1> begin(const std::array<T, 1>& /*p*/, std::span<const EarlierWork> earlier) {
-    T E(0.0);
-    for (const EarlierWork& stretch : earlier) {
-      E += T(stretch.work);
-    }
-    return {E};
+    return {left_of(earlier, T(0.0))};
   }
   template <class T>
   static std::array<T, 1> loaded_rate(const std::array<T, 1>& p, const std::array<T, 1>& s, const Input<T>& in,

@@ -52,12 +52,7 @@ struct SelfHeating {
   template <class T>
   static std::array<T, 1> begin(const std::array<T, 4>& p, std::span<const EarlierWork> earlier) {
     const auto& [b, tau, y, c_h] = p;
-    const T rate = T(1.0) / tau;
-    T q(0.0);
-    for (const EarlierWork& stretch : earlier) {
-      q += T(stretch.work) * exp(T(-stretch.ago) * rate);
-    }
-    return {q};
+    return {left_of(earlier, T(1.0) / tau)};
   }
   template <class T>
   static std::array<T, 1> loaded_rate(const std::array<T, 4>& p, const std::array<T, 1>& s, const Input<T>& in,

@@ -15,6 +15,7 @@ namespace {
 // fades with a time constant of a fifth of its age is then still within a hundredth.
 constexpr std::size_t stretches = 16;
 constexpr double longest_for_its_age = 0.1;
+
 // s that a start may be off: clocks are told in seconds, or all in whole minutes. Files that were written one after the
 // other, with the time of that, overlap by more.
 double clock_error(const std::vector<Recording>& recordings) {
@@ -35,8 +36,8 @@ struct Stretch {
 std::vector<Stretch> stretches_of(const Recording& recording) {
   std::vector<Stretch> result;
   const std::size_t steps = recording.size() - 1;
-  for (std::size_t k = 0; k < std::min(stretches, steps); ++k) {
-    const std::size_t parts = std::min(stretches, steps);
+  const std::size_t parts = std::min(stretches, steps);
+  for (std::size_t k = 0; k < parts; ++k) {
     const std::size_t first = k * steps / parts;
     const std::size_t last = (k + 1) * steps / parts;
     Stretch stretch{*recording.started + recording.time[first] - recording.time.front(),

@@ -1,7 +1,9 @@
 // What recordings made before one did to the damper: heat that is not yet lost when it begins, and wear that stays.
 #pragma once
 
+#include <cmath>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -14,6 +16,17 @@ struct EarlierWork {
   double ago = 0.0;   // s, from the middle of the stretch to the first sample, not negative
   double work = 0.0;  // J, integral of the measured force over the displacement
 };
+
+// J, what is left of it where it fades at this rate (1/s): a number or a pack of them, 0 for wear.
+template <class T>
+T left_of(std::span<const EarlierWork> earlier, const T& rate) {
+  using std::exp;
+  T sum(0.0);
+  for (const EarlierWork& stretch : earlier) {
+    sum += T(stretch.work) * exp(T(-stretch.ago) * rate);
+  }
+  return sum;
+}
 
 // A recording whose start cannot be its own, and why.
 struct WrongStart {

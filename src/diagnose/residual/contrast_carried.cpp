@@ -35,14 +35,6 @@ double size_of(const Track& track) {
   return among.ldlt().solve(with)[0];
 }
 
-double faded(const std::vector<EarlierWork>& earlier, double tau) {
-  double sum = 0.0;
-  for (const EarlierWork& stretch : earlier) {
-    sum += stretch.work * std::exp(-stretch.ago / tau);
-  }
-  return sum;
-}
-
 // What the columns of a matrix leave of a vector.
 class Without {
  public:
@@ -103,7 +95,7 @@ void add_carried_contrast(std::span<const Track> tracks, std::size_t placebos, s
   for (const double tau : fading) {
     Vector work(count);
     for (Eigen::Index r = 0; r < count; ++r) {
-      work[r] = faded(tracks[static_cast<std::size_t>(r)].earlier, tau);
+      work[r] = left_of<double>(tracks[static_cast<std::size_t>(r)].earlier, 1.0 / tau);
     }
     Vector own = without.of(work);
     const double all = (work.array() - work.mean()).square().sum();

@@ -9,6 +9,7 @@ namespace {
 
 constexpr std::size_t most_rows = 2000;        // of a recording
 constexpr double fewest_rows_of_cycle = 40.0;  // unless there are fewer samples
+// Of the largest pivot: what is left of a column beside others that say the same.
 constexpr double rank_tolerance = 1e-9;
 // Recordings of equal weight from which on their signs alone make enough placebos.
 constexpr double fewest_flips = 7.0;
