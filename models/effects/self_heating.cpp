@@ -30,7 +30,7 @@ struct SelfHeating {
                                          {id, "y", BoxEnd::lower},
                                          {id, "y", BoxEnd::upper},
                                          {id, "c_h", BoxEnd::lower}};
-  static constexpr ContrastSense contrasts[] = {{ContrastKind::energy_fade, Sense::positive}, {ContrastKind::pause_recovery, Sense::positive}, {ContrastKind::carried_fade, Sense::positive}};
+  static constexpr ContrastSense contrasts[] = {{ContrastKind::energy_fade, Sense::positive}, {ContrastKind::pause_recovery, Sense::positive}};
   static constexpr Knowledge knowledge = {
       .family = families::slow_loss,
       .in_words = "self-heating",

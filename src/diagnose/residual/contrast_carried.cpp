@@ -1,13 +1,11 @@
 // What goes on from one recording to the next: the size of the force over the work that the recordings before did,
 // where their starts are told. Each recording has one size, so the number of recordings is that of the observations:
 //   y = -(size of the missing force over the simulated one),   y = m s + X b,   m by least squares
-// s is the work before, as it is or faded with a time constant, X what a law that is wrong for fast, wide or strongly
-// driven tests makes of their sizes. Placebos exchange what X leaves of y between recordings (Freedman and Lane 1983).
+// s is the work before, X what a law that is wrong for fast, wide or strongly driven tests makes of their sizes.
+// Placebos exchange what X leaves of y between recordings (Freedman and Lane 1983).
 #include <Eigen/Dense>
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 #include "core/mean.hpp"
@@ -19,9 +17,6 @@ namespace {
 
 using Vector = Eigen::VectorXd;
 using Matrix = Eigen::MatrixXd;
-
-// s of the fading: wear, a warm body, a warm fluid.
-constexpr std::array<double, 3> fading = {std::numeric_limits<double>::infinity(), 600.0, 60.0};
 
 // How much larger the measured force is than the simulated one, beside a constant and a spring.
 double size_of(const Track& track) {
@@ -91,40 +86,24 @@ void add_carried_contrast(std::span<const Track> tracks, std::size_t placebos, s
     return;
   }
   const Vector left = without.of(sizes);
-  std::vector<Vector> signatures;
-  for (const double tau : fading) {
-    Vector work(count);
-    for (Eigen::Index r = 0; r < count; ++r) {
-      work[r] = left_of<double>(tracks[static_cast<std::size_t>(r)].earlier, 1.0 / tau);
-    }
-    Vector own = without.of(work);
-    const double all = (work.array() - work.mean()).square().sum();
-    if (own.squaredNorm() > least_left * all && all > 0.0) {
-      signatures.push_back(std::move(own));
-    }
+  Vector work(count);
+  for (Eigen::Index r = 0; r < count; ++r) {
+    work[r] = left_of(tracks[static_cast<std::size_t>(r)].earlier, 0.0);
   }
-  // Squared correlation with the signature that has most of it.
-  const auto most_of = [&](const Vector& response, const Vector*& best) {
-    double most = -1.0;
-    for (const Vector& signature : signatures) {
-      const double with = signature.dot(response);
-      const double share = with * with / (signature.squaredNorm() * std::max(response.squaredNorm(), 1e-300));
-      if (share > most) {
-        most = share;
-        best = &signature;
-      }
-    }
-    return most;
-  };
-  const Vector* signature = nullptr;
-  const double share = most_of(left, signature);
-  if (signature == nullptr || !(signature->squaredNorm() > 0.0)) {
+  const Vector signature = without.of(work);
+  const double all = (work.array() - work.mean()).square().sum();
+  if (!(signature.squaredNorm() > least_left * all)) {
     return;
   }
+  // Squared correlation.
+  const auto share_of = [&](const Vector& response) {
+    const double with = signature.dot(response);
+    return with * with / (signature.squaredNorm() * std::max(response.squaredNorm(), 1e-300));
+  };
   // The slope is the mean of those of the recordings, weighted by their levers.
   std::vector<Part> parts;
   for (Eigen::Index r = 0; r < count; ++r) {
-    const double lever = (*signature)[r];
+    const double lever = signature[r];
     if (lever != 0.0) {
       const Track& track = tracks[static_cast<std::size_t>(r)];
       parts.push_back({track.recording, lever * lever, left[r] / lever, track.motion});
@@ -135,9 +114,9 @@ void add_carried_contrast(std::span<const Track> tracks, std::size_t placebos, s
     return;
   }
   // That of the regression: X has taken its degrees of freedom.
-  const double scatter = (left - contrast->value * *signature).squaredNorm() / free;
+  const double scatter = (left - contrast->value * signature).squaredNorm() / free;
   contrast->std_error =
-      std::max(std::sqrt(scatter / signature->squaredNorm()), least_error * std::fabs(contrast->value));
+      std::max(std::sqrt(scatter / signature.squaredNorm()), least_error * std::fabs(contrast->value));
   contrast->z = contrast->std_error > 0.0 ? normal_of(contrast->value / contrast->std_error, free) : 0.0;
   std::vector<double> of_placebos;
   for (std::size_t p = 0; p < placebos; ++p) {
@@ -146,10 +125,9 @@ void add_carried_contrast(std::span<const Track> tracks, std::size_t placebos, s
     for (Eigen::Index r = 0; r < count; ++r) {
       moved[r] = left[static_cast<Eigen::Index>(order[static_cast<std::size_t>(r)])];
     }
-    const Vector* of = nullptr;
-    of_placebos.push_back(most_of(without.of(moved), of));
+    of_placebos.push_back(share_of(without.of(moved)));
   }
-  judge(*contrast, share, of_placebos);
+  judge(*contrast, share_of(left), of_placebos);
   result.push_back(std::move(*contrast));
 }
 
