@@ -1,9 +1,10 @@
 // Cavitation: the chamber under suction cannot pull harder than its pressure allows. The force is limited on one side,
 // a void opens, and the way back fills it before the force builds up again.
 //   r = -kappa F,  s >= 0 the length of the void,  e = tanh(s / s_r)
-//   r > 1:  F <- F / r,        s' = |v| (r - 1) / (w + r - 1)   limited at |F| = 1 / |kappa|
-//   v kappa > 0:  F <- F (1 - e),  s' = -|v| e              on the way back the void is filled without force
-//   and s' = -q s besides: fluid that flows into the void
+//   r > 1:       F <- F / r,        s' = |v| (r - 1) / (w + r - 1)   limited at |F| = 1 / |kappa|
+//   0 <= r <= 1: F,                 s' = 0                           on the way back the damper unloads first,
+//   r < 0:       F <- F (1 - e),    s' = -sgn(kappa) v e b           then the void is filled without force
+//   b = tanh(-20 r), and s' = -q s besides: fluid that flows into the void
 // kappa > 0 limits the negative force, kappa < 0 the positive one; kappa = 0 is no cavitation. While the force is
 // limited a damper of yield force f_y and viscous damping follows the rod at the speed that leaves w = 1 - f_y |kappa|
 // of the limit to the viscous part: v w / (w + r - 1); w = 1 is a viscous damper, w = 0 one of dry friction, which
@@ -20,7 +21,8 @@ struct Cavitation {
   static constexpr std::string_view reference = "no accepted form; force limit and refill of the void";
   static constexpr std::string_view equations[] = {"r = -kappa F, e = tanh(s / s_r)",
                                                    "r > 1: F <- F / r, s' = |v| (r - 1) / (w + r - 1) - q s",
-                                                   "v kappa > 0: F <- F (1 - e), s' = -|v| e - q s"};
+                                                   "0 <= r <= 1: s' = -q s",
+                                                   "r < 0: F <- F (1 - e), s' = -sgn(kappa) v e tanh(-20 r) - q s"};
   static constexpr int states = 1;
   // Limits of 0.96, 0.85, 0.7 and 0.45 of the peak force, to either side.
   static constexpr double starts[] = {0.052, -0.052, 0.059, -0.059, 0.071, -0.071, 0.11, -0.11};
@@ -31,13 +33,17 @@ struct Cavitation {
       {.name = "s_r", .unit = "m", .meaning = "length over which the dwell ends", .box = {2e-5, 2e-3}, .initial = 2e-4, .scale = Scale::logarithmic},
   };
   static constexpr std::string_view kin[] = {"asymmetry"};
+  // A damper of dry friction, a limit without a void, and a void that no fluid flows into.
+  static constexpr BoxLimit ends_as[] = {
+      {id, "w", BoxEnd::lower}, {id, "w", BoxEnd::upper}, {id, "q", BoxEnd::lower}};
   static constexpr ContrastSense contrasts[] = {{ContrastKind::one_sided_limit, Sense::either}};
   static constexpr Knowledge knowledge = {
       .family = families::direction,
       .in_words = "cavitation (a force limit on one side, with dwell)",
-      .shows = "the force of one direction stops growing, and after the reversal the void is filled without force",
+      .shows = "the force of one direction stops growing, and on the way back the void is filled without force",
       .experiment = "the same run at two gas pressures and at rising speed",
       .kin = kin,
+      .ends_as = ends_as,
       .contrasts = contrasts,
   };
 
@@ -49,8 +55,10 @@ struct Cavitation {
     const T r = -kappa * below;
     const T e = tanh(s / s_r);
     const T over = max(r - T(1.0), T(0.0));
-    const T growth = select(T(0.0) < kappa * in.v, -e, over / (w + over));
-    return {abs(in.v) * growth - q * s};
+    // Within a twentieth of the limit the void begins to close, so that its rate has no jump.
+    const T b = tanh(T(20.0) * max(-r, T(0.0)));
+    const T closing = select(T(0.0) < kappa, in.v, -in.v) * e * b;
+    return {abs(in.v) * over / (w + over) - closing - q * s};
   }
   template <class T>
   static T stiffness(const std::array<T, 4>& p, double speed) {
@@ -58,12 +66,12 @@ struct Cavitation {
     return T(speed) / s_r + q;
   }
   template <class T>
-  static T force(const std::array<T, 4>& p, const std::array<T, 1>& state, const Input<T>& in, const T& below) {
+  static T force(const std::array<T, 4>& p, const std::array<T, 1>& state, const Input<T>&, const T& below) {
     const auto& [kappa, w, q, s_r] = p;
     const auto& [s] = state;
     const T r = -kappa * below;
     const T e = tanh(s / s_r);
-    return select(T(0.0) < kappa * in.v, below * (T(1.0) - e), below / max(r, T(1.0)));
+    return select(r < T(0.0), below * (T(1.0) - e), below / max(r, T(1.0)));
   }
 };
 

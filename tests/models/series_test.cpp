@@ -361,6 +361,30 @@ TEST(Effects, CavitationOfDryFrictionPartsTheWholeMotion) {
   EXPECT_NEAR(whole, stroke, 0.01 * stroke);
 }
 
+// A damper that yields over 2 mm unloads along its own line before the void lets go of the force.
+TEST(Effects, CavitationLetsTheDamperUnloadFirst) {
+  const Motion motion = sine(2000.0, 1.0);
+  const CompositeModel law = make_model("bouc-wen", {});
+  const Vector alone = simulate(law, motion, with(law, {{"alpha", 600.0}, {"x_y", 2e-3}, {"n", 1.0}}));
+  const CompositeModel model = make_model("bouc-wen", {"cavitation"});
+  const Vector force = simulate(model, motion,
+                                with(model, {{"alpha", 600.0},
+                                             {"x_y", 2e-3},
+                                             {"n", 1.0},
+                                             {"cavitation.kappa", 1.0 / 400.0},
+                                             {"cavitation.w", 0.01},
+                                             {"cavitation.s_r", 2e-5}}));
+  std::size_t unloading = 0;
+  for (std::size_t n = 0; n < force.size(); ++n) {
+    EXPECT_GE(force[n], -400.0 * (1.0 + 1e-9));
+    if (motion.v[n] > 0.0 && alone[n] < 0.0 && alone[n] > -400.0) {
+      EXPECT_NEAR(force[n], alone[n], 1e-3 * 400.0);
+      ++unloading;
+    }
+  }
+  EXPECT_GT(unloading, 20U);
+}
+
 TEST(Effects, PinchingTakesTheMiddle) {
   const CompositeModel model = make_model("viscous", {"pinching"});
   const Motion motion = sine(200.0, 1.0);
