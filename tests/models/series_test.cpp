@@ -385,6 +385,31 @@ TEST(Effects, CavitationLetsTheDamperUnloadFirst) {
   EXPECT_GT(unloading, 20U);
 }
 
+// Deflection d_a (tanh(q / f_a - e_a) + tanh e_a): nothing at rest, 2 d_a in all, the softest at e_a f_a.
+TEST(Effects, GasInOneChamberIsSoftestOffZeroForce) {
+  const Part& part = *make_model("viscous", {"entrapped-gas"}).effects[0];
+  const double d_a = 1e-3;
+  const double f_a = 200.0;
+  for (const double e_a : {-2.0, 0.0, 0.7, 2.0}) {
+    const std::vector<double> p = {d_a, f_a, e_a, 0.0, 5e-4};
+    const auto at = [&](double q) {
+      Yield<double> result;
+      part.on_double.yield(p.data(), q, result);
+      return result;
+    };
+    EXPECT_EQ(at(0.0).deflection, 0.0);
+    EXPECT_NEAR(at(1e5).deflection - at(-1e5).deflection, 2.0 * d_a, 1e-12);
+    EXPECT_NEAR(at(1e5).deflection, d_a * (1.0 + std::tanh(e_a)), 1e-12);
+    EXPECT_GT(at(e_a * f_a).slope, at((e_a + 0.2) * f_a).slope);
+    EXPECT_GT(at(e_a * f_a).slope, at((e_a - 0.2) * f_a).slope);
+    const double h = 0.1;
+    for (const double q : {-500.0, 0.0, 90.0, 400.0}) {
+      EXPECT_NEAR(at(q).slope, (at(q + h).deflection - at(q - h).deflection) / (2.0 * h), 1e-6 * d_a / f_a);
+      EXPECT_NEAR(at(q).bend, (at(q + h).slope - at(q - h).slope) / (2.0 * h), 1e-6 * d_a / (f_a * f_a));
+    }
+  }
+}
+
 TEST(Effects, PinchingTakesTheMiddle) {
   const CompositeModel model = make_model("viscous", {"pinching"});
   const Motion motion = sine(200.0, 1.0);
