@@ -39,11 +39,11 @@ Separating separating(const std::vector<std::string>& candidates, DriveKind driv
 std::string interval_text(const ParameterInterval& p) {
   constexpr int digits = 3;
   const std::string value = size_text(p.value, p.unit, digits);
-  if (!p.half_width) {
+  if (!p.ci95) {
     return value + (p.bound ? fmt::format(" (at the {} end of its box)", word_of(*p.bound))
                             : " (not determined by these recordings)");
   }
-  auto [low, high] = interval_ends(p.value - *p.half_width, p.value + *p.half_width, digits,
+  auto [low, high] = interval_ends(p.ci95->low, p.ci95->high, digits,
                                    [&](double end, int digits_of_it) { return size_text(end, p.unit, digits_of_it); });
   const std::size_t space = low.find(' ');
   if (space != std::string::npos && high.ends_with(low.substr(space))) {

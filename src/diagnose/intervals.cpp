@@ -35,7 +35,7 @@ std::vector<ParameterInterval> Estimates::intervals(const Fit& fit, const std::s
     const bool of_law = !own.empty() && (row.name == own || row.name.starts_with(own + "*"));
     if (of_law || row.name.starts_with(prefix)) {
       result.push_back({of_law ? row.name : row.name.substr(prefix.size()), row.unit, row.term.value, row.half_width,
-                        row.at_bound, row.lower});
+                        row.ci95, row.at_bound, row.lower});
     }
   }
   return result;

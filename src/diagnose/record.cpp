@@ -45,7 +45,7 @@ json parameters_json(const std::vector<ParameterInterval>& parameters) {
     rows.push_back({{"name", p.name},
                     {"value", p.value},
                     {"unit", p.unit},
-                    {"ci95", p.half_width ? json{p.value - *p.half_width, p.value + *p.half_width} : json(nullptr)}});
+                    {"ci95", p.ci95 ? json{p.ci95->low, p.ci95->high} : json(nullptr)}});
   }
   return rows;
 }

@@ -119,6 +119,18 @@ Uncertainty uncertainty_of(const Layout& layout, const Response& response, doubl
   return {open, free, to_terms, std_error, half_width};
 }
 
+std::optional<IntervalEnds> interval_of(const Term& term, const Parameter& card, double half_width) {
+  const double value = term.value;
+  IntervalEnds ends{value - half_width, value + half_width};
+  if (!term.constant()) return ends;
+  if (card.scale == Scale::logarithmic && value > 0.0) {
+    const double factor = std::exp(half_width / value);
+    ends = {value / factor, value * factor};
+  }
+  if (ends.low <= card.box.lower && ends.high >= card.box.upper) return std::nullopt;
+  return IntervalEnds{std::max(ends.low, card.limits.lower), std::min(ends.high, card.limits.upper)};
+}
+
 // Where nothing was worked out.
 Uncertainty unknown(std::size_t dimension) {
   const auto d = static_cast<Eigen::Index>(dimension);
@@ -172,6 +184,7 @@ void add_estimates(Identification& result, const Uncertainty& uncertainty, const
       if (!law_open && law_free && determined && std::isfinite(uncertainty.half_width[row])) {
         estimate.std_error = uncertainty.std_error[row];
         estimate.half_width = uncertainty.half_width[row];
+        estimate.ci95 = interval_of(term, card, uncertainty.half_width[row]);
       }
       result.estimates.push_back(std::move(estimate));
     }

@@ -123,7 +123,9 @@ json estimate_json(const Estimate& estimate, const Layout& layout) {
   row["upper"] = constant ? json(estimate.upper) : json(nullptr);
   if (estimate.std_error) {
     row["std_error"] = *estimate.std_error;
-    row["ci95"] = {estimate.term.value - *estimate.half_width, estimate.term.value + *estimate.half_width};
+  }
+  if (estimate.ci95) {
+    row["ci95"] = {estimate.ci95->low, estimate.ci95->high};
   }
   return row;
 }
