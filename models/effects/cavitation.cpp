@@ -33,9 +33,6 @@ struct Cavitation {
       {.name = "s_r", .unit = "m", .meaning = "length over which the dwell ends", .box = {2e-5, 2e-3}, .initial = 2e-4, .scale = Scale::logarithmic},
   };
   static constexpr std::string_view kin[] = {"asymmetry"};
-  // A damper of dry friction, a limit without a void, and a void that no fluid flows into.
-  static constexpr BoxLimit ends_as[] = {
-      {id, "w", BoxEnd::lower}, {id, "w", BoxEnd::upper}, {id, "q", BoxEnd::lower}};
   static constexpr ContrastSense contrasts[] = {{ContrastKind::one_sided_limit, Sense::either}};
   static constexpr Knowledge knowledge = {
       .family = families::direction,
@@ -43,7 +40,6 @@ struct Cavitation {
       .shows = "the force of one direction stops growing, and on the way back the void is filled without force",
       .experiment = "the same run at two gas pressures and at rising speed",
       .kin = kin,
-      .ends_as = ends_as,
       .contrasts = contrasts,
   };
 

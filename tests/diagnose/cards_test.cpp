@@ -299,9 +299,7 @@ TEST(Cards, PlainEnds) {
       {"self-heating", "y", BoxEnd::lower},       {"self-heating", "y", BoxEnd::upper},
       {"self-heating", "c_h", BoxEnd::lower},     {"clearance", "C_c", BoxEnd::lower},
       {"entrapped-gas", "C_c", BoxEnd::lower},    {"end-stop", "p", BoxEnd::upper},
-      {"entrapped-gas", "e_a", BoxEnd::lower},    {"entrapped-gas", "e_a", BoxEnd::upper},
-      {"cavitation", "w", BoxEnd::lower},         {"cavitation", "w", BoxEnd::upper},
-      {"cavitation", "q", BoxEnd::lower}};
+      {"entrapped-gas", "e_a", BoxEnd::lower},    {"entrapped-gas", "e_a", BoxEnd::upper}};
   for (const Part* effect : effect_catalogue()) {
     for (const Parameter& parameter : effect->parameters) {
       for (const BoxEnd end : {BoxEnd::lower, BoxEnd::upper}) {
