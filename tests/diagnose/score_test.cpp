@@ -181,6 +181,23 @@ TEST(Stage, ALawOfAnEffectThatIsNotThereIsNoCandidate) {
   EXPECT_EQ(tried[0].part.effect, "inertia");
 }
 
+TEST(Stage, WhatTheLawHasAsAPartOfItsOwnIsNoCandidate) {
+  const std::vector<Recording> all = recordings_with({"inertia"}, {{"inertia.m", 6.0}}, 0.01);
+  const Workbench bench = bench_of(all, all);
+  const auto tried = [&](const std::string& law) {
+    std::vector<std::string> ids;
+    const Fit base = bench.from_anywhere({law, {}, {}}, 500);
+    for (const Tried& one :
+         stage(bench, base, {effect_extension("series-dashpot"), effect_extension("inertia")}, 200.0)) {
+      ids.push_back(one.part.effect);
+    }
+    std::ranges::sort(ids);
+    return ids;
+  };
+  EXPECT_EQ(tried("modified-bouc-wen"), std::vector<std::string>{"inertia"});
+  EXPECT_EQ(tried("bouc-wen"), (std::vector<std::string>{"inertia", "series-dashpot"}));
+}
+
 TEST(Hypothesis, PartsComeAndGo) {
   Hypothesis what{"bouc-wen", {"inertia"}, {"alpha"}};
   const Extension law = law_extension({"alpha", "c0"});
