@@ -5,8 +5,8 @@ beside each other.
     scripts/starts.py CHALLENGE OUT [--binary build/release/hysteron] [--jobs N] [--page results/starts.md]
 
 CHALLENGE is an --out of `hysteron challenge --generate-only --level plain --effect self-heating degradation`; campaigns
-without starts are left out. The truth is the
-same in both columns: the damper goes on from test to test. Rerun the command to resume.
+without starts are left out. The truth is the same in both columns: the damper goes on from test to test. Rerun the
+command to resume.
 """
 import argparse
 import concurrent.futures
