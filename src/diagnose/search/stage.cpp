@@ -112,9 +112,9 @@ std::vector<Tried> stage(const Workbench& bench, const Fit& before, const std::v
   const bool series_is_full = elements >= most_in_series;
   const std::vector<std::string> names = make_model(before.what.model, before.what.effects).parameter_names();
   for (const Extension& candidate : candidates) {
-    // What the law has as a part of its own is there: a second one beside it is a form of it, and no finding.
-    const bool of_law = !candidate.is_law() && !rest_of_law(candidate.effect, before.what.model).empty();
-    const bool has = of_law || (!candidate.is_law() && contains(before.what, candidate));
+    // What the law has as a part of its own is there as well.
+    const bool has = !candidate.is_law() &&
+                     (contains(before.what, candidate) || part_of_law(candidate.effect, before.what.model) != nullptr);
     // A law of an effect that is not there has nothing to act on.
     const bool acts = std::ranges::all_of(candidate.parameters, [&](const std::string& parameter) {
       return std::ranges::find(names, parameter) != names.end();
