@@ -43,7 +43,7 @@ std::string interval_text(const ParameterInterval& p) {
     return value + (p.bound ? fmt::format(" (at the {} end of its box)", word_of(*p.bound))
                             : " (not determined by these recordings)");
   }
-  auto [low, high] = interval_ends(p.ci95->low, p.ci95->high, digits,
+  auto [low, high] = interval_ends(p.ci95->lower, p.ci95->upper, digits,
                                    [&](double end, int digits_of_it) { return size_text(end, p.unit, digits_of_it); });
   const std::size_t space = low.find(' ');
   if (space != std::string::npos && high.ends_with(low.substr(space))) {

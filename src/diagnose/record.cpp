@@ -45,7 +45,7 @@ json parameters_json(const std::vector<ParameterInterval>& parameters) {
     rows.push_back({{"name", p.name},
                     {"value", p.value},
                     {"unit", p.unit},
-                    {"ci95", p.ci95 ? json{p.ci95->low, p.ci95->high} : json(nullptr)}});
+                    {"ci95", p.ci95 ? json{p.ci95->lower, p.ci95->upper} : json(nullptr)}});
   }
   return rows;
 }

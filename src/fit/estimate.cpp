@@ -119,16 +119,17 @@ Uncertainty uncertainty_of(const Layout& layout, const Response& response, doubl
   return {open, free, to_terms, std_error, half_width};
 }
 
-std::optional<IntervalEnds> interval_of(const Term& term, const Parameter& card, double half_width) {
+// Estimate::ci95 of a term whose interval has this half width to first order.
+std::optional<Interval> interval_of(const Term& term, const Parameter& card, double half_width) {
   const double value = term.value;
-  IntervalEnds ends{value - half_width, value + half_width};
-  if (!term.constant()) return ends;
+  Interval interval{value - half_width, value + half_width};
+  if (!term.constant()) return interval;
   if (card.scale == Scale::logarithmic && value > 0.0) {
     const double factor = std::exp(half_width / value);
-    ends = {value / factor, value * factor};
+    interval = {value / factor, value * factor};
   }
-  if (ends.low <= card.box.lower && ends.high >= card.box.upper) return std::nullopt;
-  return IntervalEnds{std::max(ends.low, card.limits.lower), std::min(ends.high, card.limits.upper)};
+  if (interval.lower <= card.box.lower && interval.upper >= card.box.upper) return std::nullopt;
+  return Interval{std::max(interval.lower, card.limits.lower), std::min(interval.upper, card.limits.upper)};
 }
 
 // Where nothing was worked out.

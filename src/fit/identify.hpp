@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/interval.hpp"
 #include "core/message.hpp"
 #include "core/recording.hpp"
 #include "fit/correlations.hpp"
@@ -25,12 +26,6 @@ struct IdentifyOptions {
   std::vector<std::string> effects;
 };
 
-// The ends of a confidence interval.
-struct IntervalEnds {
-  double low;
-  double high;
-};
-
 // An identified term with what the data say of it.
 struct Estimate {
   Term term;
@@ -42,7 +37,7 @@ struct Estimate {
   std::optional<double> half_width;  // of the 95 % interval to first order, at least 1.96 std_error; absent likewise
   // The 95 % interval: first order on the scale that the parameter is looked for on, cut where it can be no further.
   // Absent likewise, and of a constant where it holds the whole search range, which says nothing.
-  std::optional<IntervalEnds> ci95;
+  std::optional<Interval> ci95;
   std::optional<BoxEnd> at_bound;  // the end of the box that a node value sits on
   bool at_limit = false;  // the bound is the end of what the parameter can be at all, not of its search range only
   bool identifiable = true;

@@ -3,12 +3,9 @@
 
 #include <cstddef>
 
-namespace hysteron {
+#include "core/interval.hpp"
 
-struct Interval {
-  double lower;
-  double upper;
-};
+namespace hysteron {
 
 // Wilson score interval for k successes in n > 0 trials (Wilson, J. Am. Stat. Assoc. 22 (1927) 209-212), z = 1.96 for
 // 95 %:  (k + z^2/2 +- z sqrt(k (n - k) / n + z^2/4)) / (n + z^2).

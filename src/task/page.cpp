@@ -125,7 +125,7 @@ json estimate_json(const Estimate& estimate, const Layout& layout) {
     row["std_error"] = *estimate.std_error;
   }
   if (estimate.ci95) {
-    row["ci95"] = {estimate.ci95->low, estimate.ci95->high};
+    row["ci95"] = {estimate.ci95->lower, estimate.ci95->upper};
   }
   return row;
 }

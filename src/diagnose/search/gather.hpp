@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
+#include "core/interval.hpp"
 #include "diagnose/judge/evidence.hpp"
 #include "diagnose/residual/contrast.hpp"
 #include "diagnose/search/observe.hpp"
 #include "diagnose/search/search.hpp"
-#include "fit/identify.hpp"
 #include "io/channel_lag.hpp"
 #include "simulate/knowledge.hpp"
 
@@ -22,7 +22,7 @@ struct ParameterInterval {
   std::string unit;
   double value = 0.0;
   std::optional<double> half_width;  // of the 95 % interval to first order; absent on a bound and where unknown
-  std::optional<IntervalEnds> ci95;  // absent where the data do not tell it either
+  std::optional<Interval> ci95;      // absent where the data do not tell it either
   std::optional<BoxEnd> bound = {};  // end of its box that the value sits on
   double lower = -1e300;             // of its box
 };
