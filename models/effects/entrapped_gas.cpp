@@ -26,12 +26,8 @@ struct EntrappedGas {
   };
   static constexpr std::string_view kin[] = {"compliance", "clearance"};
   static constexpr Limit holds[] = {{"compliance", "d_a"}};
-  // A gas that next to no force compresses is a play; where nothing but the gas gives way, C_c is zero; gas in one
-  // chamber.
-  static constexpr BoxLimit ends_as[] = {{"clearance", "f_a", BoxEnd::lower},
-                                         {id, "C_c", BoxEnd::lower},
-                                         {id, "e_a", BoxEnd::lower},
-                                         {id, "e_a", BoxEnd::upper}};
+  // A gas that next to no force compresses is a play; where nothing but the gas gives way, C_c is zero.
+  static constexpr BoxLimit ends_as[] = {{"clearance", "f_a", BoxEnd::lower}, {id, "C_c", BoxEnd::lower}};
   static constexpr ContrastSense contrasts[] = {{ContrastKind::reversal_travel, Sense::positive}, {ContrastKind::force_travel, Sense::positive}};
   static constexpr Knowledge knowledge = {
       .family = families::free_travel,

@@ -298,8 +298,7 @@ TEST(Cards, PlainEnds) {
       {"gas-spring", "kappa", BoxEnd::upper},     {"self-heating", "tau", BoxEnd::upper},
       {"self-heating", "y", BoxEnd::lower},       {"self-heating", "y", BoxEnd::upper},
       {"self-heating", "c_h", BoxEnd::lower},     {"clearance", "C_c", BoxEnd::lower},
-      {"entrapped-gas", "C_c", BoxEnd::lower},    {"end-stop", "p", BoxEnd::upper},
-      {"entrapped-gas", "e_a", BoxEnd::lower},    {"entrapped-gas", "e_a", BoxEnd::upper}};
+      {"entrapped-gas", "C_c", BoxEnd::lower},    {"end-stop", "p", BoxEnd::upper}};
   for (const Part* effect : effect_catalogue()) {
     for (const Parameter& parameter : effect->parameters) {
       for (const BoxEnd end : {BoxEnd::lower, BoxEnd::upper}) {
