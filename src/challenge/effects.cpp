@@ -775,7 +775,7 @@ const HiddenEffect& hidden_effect(std::string_view id) {
   std::vector<std::string> known;
   for (const HiddenEffect& effect : list()) known.emplace_back(effect.id);
   throw InputError("unknown effect '" + std::string(id) + "'" + suggestion(id, known) +
-                   ", expected one of `hysteron challenge --list`");
+                   ", expected one that the challenge lists");
 }
 
 FormOf hidden_form(std::string_view id) {
@@ -789,7 +789,7 @@ FormOf hidden_form(std::string_view id) {
     for (const HiddenForm& form : effect.forms) known.emplace_back(form.id);
   }
   throw InputError("unknown form '" + std::string(id) + "'" + suggestion(id, known) +
-                   ", expected one of `hysteron challenge --list`");
+                   ", expected one that the challenge lists");
 }
 
 }  // namespace hysteron::challenge

@@ -15,6 +15,7 @@ struct Named {
 constexpr std::array named{
     Named{Option::at, "at"},
     Named{Option::bounds, "bounds"},
+    Named{Option::budget, "budget"},
     Named{Option::by, "by"},
     Named{Option::by_current, "by-current"},
     Named{Option::by_frequency, "by-frequency"},
@@ -28,6 +29,7 @@ constexpr std::array named{
     Named{Option::keep_samples, "keep-samples"},
     Named{Option::laws, "laws"},
     Named{Option::model, "model"},
+    Named{Option::most_substeps, "most-substeps"},
     Named{Option::name, "name"},
     Named{Option::normalisation, "normalisation"},
     Named{Option::out, "out"},
@@ -35,8 +37,11 @@ constexpr std::array named{
     Named{Option::skip, "skip"},
     Named{Option::solver, "solver"},
     Named{Option::stages, "stages"},
+    Named{Option::substeps, "substeps"},
+    Named{Option::to, "to"},
     Named{Option::tolerance, "tolerance"},
     Named{Option::weighting, "weighting"},
+    Named{Option::without_time, "without-time"},
 };
 
 std::string in_plain_words(Option option) {

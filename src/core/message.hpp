@@ -16,6 +16,7 @@ namespace hysteron {
 enum class Option {
   at,
   bounds,
+  budget,
   by,
   by_current,
   by_frequency,
@@ -29,6 +30,7 @@ enum class Option {
   keep_samples,
   laws,
   model,
+  most_substeps,
   name,
   normalisation,
   out,
@@ -36,8 +38,11 @@ enum class Option {
   skip,
   solver,
   stages,
+  substeps,
+  to,
   tolerance,
   weighting,
+  without_time,
 };
 
 // "by-current": words with hyphens between them.

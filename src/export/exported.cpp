@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "core/extent.hpp"
+#include "core/message.hpp"
 #include "export/fixed_steps.hpp"
 #include "export/names.hpp"
 #include "export/writer.hpp"
@@ -217,7 +218,7 @@ TestVector test_vector(const ExportedModel& exported, const Recording& motion) {
   if (const auto time = diverges_at(result.force, recording)) {
     throw WorkError(fmt::format(
         "export: the force of the model does not stay finite on the {} from {:g} s on, so that there is "
-        "nothing to check an exported copy with; expected --motion with a recording that the model holds for",
+        "nothing to check an exported copy with; expected the motion of a recording that the model holds for",
         recording.file, *time));
   }
   if (in_its_own_steps(exported)) {
@@ -228,11 +229,12 @@ TestVector test_vector(const ExportedModel& exported, const Recording& motion) {
   if (const auto time = diverges_at(result.force, recording)) {
     const bool fixed = exported.substeps > 0;
     const int steps = fixed ? exported.substeps : exported.most_substeps;
-    throw InputError(fmt::format(
-        "{} {}: too few steps between two samples, the force does not stay finite on the {} from {:g} s on; "
-        "expected {} or more{}",
-        fixed ? "--substeps" : "--most-substeps", steps, recording.file, *time,
-        enough_steps(exported, target, recording), fixed ? ", or 0 for as many as the stiffness asks for" : ""));
+    throw OptionError(
+        (fixed ? Option::substeps : Option::most_substeps) +
+        fmt::format(" {}: too few steps between two samples, the force does not stay finite on the {} from {:g} s on; "
+                    "expected {} or more{}",
+                    steps, recording.file, *time, enough_steps(exported, target, recording),
+                    fixed ? ", or 0 for as many as the stiffness asks for" : ""));
   }
   double apart = 0.0;
   for (std::size_t n = 0; n < wanted.size(); ++n) {

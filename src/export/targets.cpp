@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/error.hpp"
+#include "core/message.hpp"
 #include "core/suggest.hpp"
 
 namespace hysteron {
@@ -23,8 +24,8 @@ const ExportTarget& export_target(const std::string& id) {
     for (const ExportTarget& target : export_targets()) {
       known.emplace_back(target.id);
     }
-    throw InputError("--to: '" + id + "' is not known" + suggestion(id, known) +
-                     ", expected c, fmu, simulink, modelica or python");
+    throw OptionError(Option::to + ": '" + id + "' is not known" + suggestion(id, known) +
+                      ", expected c, fmu, simulink, modelica or python");
   }
   return *found;
 }

@@ -10,6 +10,7 @@
 #include "core/error.hpp"
 #include "core/extent.hpp"
 #include "core/frequency.hpp"
+#include "core/message.hpp"
 #include "fit/neighbours.hpp"
 #include "fit/parallel.hpp"
 #include "io/velocity.hpp"
@@ -271,8 +272,8 @@ std::vector<double> excitation_of(const Recording& response, const Rig& rig) {
 
 void refuse_if_not_responding(const Layout& layout, const std::vector<Recording>& responses, const Rig& rig) {
   if (rig.base && rig.interpolation == Interpolation::linear) {
-    throw InputError(
-        "--interpolation linear: straight lines of a base have no acceleration, expected cubic or band-limited");
+    throw OptionError(Option::interpolation +
+                      " linear: straight lines of a base have no acceleration, expected cubic or band-limited");
   }
   constexpr double off_neutral = 0.6;  // of the box
   std::vector<double> p = layout.held();

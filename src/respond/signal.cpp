@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "core/error.hpp"
+#include "core/message.hpp"
 
 namespace hysteron {
 namespace {
@@ -102,7 +103,7 @@ Interpolation interpolation_of(const std::string& word) {
   if (word == "band-limited") {
     return Interpolation::band_limited;
   }
-  throw InputError("--interpolation: '" + word + "' is not known, expected linear, cubic or band-limited");
+  throw OptionError(Option::interpolation + ": '" + word + "' is not known, expected linear, cubic or band-limited");
 }
 
 std::string_view word_of(Interpolation interpolation) {
@@ -125,7 +126,8 @@ Signal::Signal(std::vector<double> time, std::vector<double> values, Interpolati
   }
   if (interpolation_ == Interpolation::band_limited) {
     if (!uniform(time_)) {
-      throw InputError("--interpolation band-limited: the samples are not uniform in time, expected linear or cubic");
+      throw OptionError(Option::interpolation +
+                        " band-limited: the samples are not uniform in time, expected linear or cubic");
     }
     fine_ = refined(values_, periodic);
     return;

@@ -80,10 +80,10 @@ Study base(const ReproduceOptions& options, const std::string& title, const std:
 }
 
 void say_of_descents(const Plan& plan, std::string_view about, Reproduction& result) {
-  result.not_remade.push_back(
-      fmt::format("Each condition is identified by multistart-lm with {} evaluations, not PSO: the figure asks about {}, "
-                  "not about solvers.",
-                  plan.study.budgets.front(), about));
+  result.not_remade.push_back(fmt::format(
+      "Each condition is identified by multistart-lm with {} evaluations, not PSO: the figure asks about {}, "
+      "not about solvers.",
+      plan.study.budgets.front(), about));
 }
 
 void say_of_data(const Plan& plan, Reproduction& result) {
@@ -226,7 +226,7 @@ void say_common(const Plan& plan, Reproduction& result) {
     result.remade.push_back("The budget: a population of 100 over 100 iterations.");
   } else {
     result.not_remade.push_back(
-        fmt::format("The budget: {} evaluations (population {:.0f}) instead of 100 x 100; --budget 10000 does the "
+        fmt::format("The budget: {} evaluations (population {:.0f}) instead of 100 x 100; a budget of 10000 does the "
                     "published amount.",
                     budget, population_for(budget)));
   }

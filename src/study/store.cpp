@@ -82,7 +82,7 @@ Descriptor take_lock(const fs::path& folder) {
   if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
     throw WorkError(
         folder.string() +
-        ": another process is writing this study; wait for it, or give another --out (and `hysteron merge`)");
+        ": another process is writing this study; wait for it, or write to another folder and merge both");
   }
   return lock;
 }

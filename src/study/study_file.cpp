@@ -334,10 +334,9 @@ class Parser : private TomlReader {
                                  ", see `hysteron list datasets`");
             }
             if (find_dataset(spec.dataset)->response) {
-              fail(*dataset,
-                   "dataset " + in_quotes(spec.dataset) +
-                       " holds the force on a mass, not on a damper, expected another one; it is for `hysteron "
-                       "fit --response`");
+              fail(*dataset, "dataset " + in_quotes(spec.dataset) +
+                                 " holds the force on a mass, not on a damper, expected another one; it is for "
+                                 "identification from a response");
             }
           } else {
             spec.paths_line = line_of(*recordings);

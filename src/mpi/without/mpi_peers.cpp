@@ -8,7 +8,7 @@ bool built_with_mpi() { return false; }
 
 std::unique_ptr<Peers> start_mpi() {
   throw WorkError(
-      "started by mpirun, but this program is built without MPI: configure with -DHYSTERON_MPI=ON, or use --shard");
+      "started by mpirun, but this program is built without MPI: configure with -DHYSTERON_MPI=ON, or run shards");
 }
 
 }  // namespace hysteron
