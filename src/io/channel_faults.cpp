@@ -13,6 +13,10 @@ namespace {
 // Samples whose different values are counted.
 constexpr std::size_t most_looked_at = 65536;
 
+// Two samples side by side that stand out are outliers. A stop that the rod runs into is climbed in steps.
+constexpr std::size_t least_placeholders = 3;
+constexpr double far_step = 8.0;
+
 // An end of a range: at least this share of the samples is at it, in two runs or more of so many, and so many times
 // more than within a fiftieth of the span before it. Of a sine in steps, of whatever size, its crest is held by less
 // than two and a half times as many samples as the step before; the part before is two and a half steps at least.
@@ -178,6 +182,33 @@ bool force_turns_at(double end, const std::vector<double>& displacement, const s
     ((upper ? -change : change) > enough ? turned : rested) += 1;
   });
   return turned > rested;
+}
+
+std::optional<Placeholder> placeholder_of(const std::vector<double>& values) {
+  if (values.empty()) return std::nullopt;
+  const auto [smallest, largest] = std::ranges::minmax(values);
+  for (const double end : {smallest, largest}) {
+    Placeholder result{end, 0, 0, largest, smallest};
+    std::size_t longest = 0;
+    double widest = 0.0;  // step of the others
+    for_each_run(values, [&](std::size_t first, std::size_t count) {
+      if (values[first] == end) {
+        if (result.count == 0) result.first = first;
+        result.count += count;
+        longest = std::max(longest, count);
+        return;
+      }
+      result.low = std::min(result.low, values[first]);
+      result.high = std::max(result.high, values[first]);
+      if (first > 0 && values[first - 1] != end)
+        widest = std::max(widest, std::fabs(values[first] - values[first - 1]));
+    });
+    // A friction, or a drive that is switched, has two values.
+    if (!(widest > 0.0)) continue;
+    const double beyond = std::max(result.low - end, end - result.high);
+    if (longest >= least_placeholders && beyond > std::max(result.high - result.low, far_step * widest)) return result;
+  }
+  return std::nullopt;
 }
 
 std::optional<Silence> silence_of(const std::vector<double>& values) {

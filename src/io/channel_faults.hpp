@@ -35,6 +35,17 @@ struct Silence {
 };
 std::optional<Silence> silence_of(const std::vector<double>& values);
 
+// The largest or smallest value of the channel where samples running hold exactly that one, and it lies as far beyond
+// all others as they span, and many times further than any of their steps: -9999 for a sample that is missing.
+struct Placeholder {
+  double value = 0.0;
+  std::size_t first = 0;  // index of a sample
+  std::size_t count = 0;  // of samples, in all
+  double low = 0.0;       // of the others
+  double high = 0.0;
+};
+std::optional<Placeholder> placeholder_of(const std::vector<double>& values);
+
 // The longest stretch in which the channel holds one value while `other` rises and falls by a quarter of its span and
 // more, as it does not where the damper rests or yields: a channel that froze. Nothing where the channel has so few
 // values that it holds others as long.

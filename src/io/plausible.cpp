@@ -315,7 +315,9 @@ void remark_on_sizes(const Recording& recording, const Sources& sources, const s
   if (recording.velocity_measured) {
     remarks.judge(Quantity::velocity, speed_m_s, speed, fmt::format("a speed of {:.3g} m/s", speed));
   } else if (!remarks.told()) {
-    remarks.judge(Quantity::time, speed_m_s, speed,
+    // Where only one of the two has no unit, that one is in question; of both, the displacement rather.
+    const bool assumed = remarks.assumed(Quantity::displacement);
+    remarks.judge(assumed ? Quantity::displacement : Quantity::time, speed_m_s, speed,
                   fmt::format("a speed of {:.3g} m/s, from displacement and time,", speed),
                   "and that of the displacement, and that columns are not exchanged");
   }
@@ -340,9 +342,19 @@ void remark_on_sizes(const Recording& recording, const Sources& sources, const s
   }
   for (const auto& [name, values, unit] :
        {std::tuple("displacement", &recording.displacement, "m"), std::tuple("force", &recording.force, "N")}) {
-    std::vector<Outlier> out = outliers_of(recording.time, *values);
-    std::erase_if(out, [](const Outlier& one) { return !one.extreme; });
     const std::vector<double>& channel = *values;
+    const auto placeholder = placeholder_of(channel);
+    if (placeholder) {
+      remarks.tell(std::string(name) + " placeholder",
+                   fmt::format("the {} is exactly {:.6g} {} in {} samples, first at {:.4g} s, and all others are from "
+                               "{:.3g} to {:.3g} {}: a number that stands for missing samples looks so; cut them",
+                               name, placeholder->value, unit, placeholder->count, recording.time[placeholder->first],
+                               placeholder->low, placeholder->high, unit));
+    }
+    std::vector<Outlier> out = outliers_of(recording.time, channel);
+    std::erase_if(out, [&](const Outlier& one) {
+      return !one.extreme || (placeholder && channel[one.at] == placeholder->value);
+    });
     const auto furthest = std::ranges::max_element(
         out, {}, [&channel](const Outlier& one) { return std::fabs(channel[one.at] - one.told); });
     if (furthest != out.end()) {
@@ -354,7 +366,7 @@ void remark_on_sizes(const Recording& recording, const Sources& sources, const s
     }
   }
   tell_of_motion(recording, sources, remarks);
-  if (const auto end = flat_end_of(recording.force)) {
+  if (const auto end = flat_end_of(recording.force); end && !placeholder_of(recording.force)) {
     remarks.tell("flat end",
                  fmt::format("the force stays at exactly {:.4g} N, an end of its range, for {:.0f} % of the "
                              "samples: a channel that saturates looks so, and a fit to it is too soft",

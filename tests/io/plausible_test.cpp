@@ -129,7 +129,40 @@ TEST(Plausible, SamplesThatStandOutAlone) {
   // What stands out by less than the force spans is the noise of a chain, which a diagnosis replaces.
   EXPECT_TRUE(remarks_on([](int n, double force) { return n == 100 ? force + 300.0 : force; }).empty());
   // A stop that the rod runs into is no outlier.
-  EXPECT_TRUE(remarks_on([](int n, double force) { return n % 100 < 4 ? 5000.0 : force; }).empty());
+  EXPECT_TRUE(remarks_on([](int n, double force) { return n % 100 < 4 ? 5000.0 + n % 7 : force; }).empty());
+}
+
+// It makes the error look small, as the largest force is that of no sample.
+TEST(Plausible, ANumberThatStandsForMissingSamples) {
+  for (const int count : {3, 5, 10}) {
+    expect_one(remarks_on([&](int n, double force) { return n >= 100 && n < 100 + count ? -9999.0 : force; }),
+               "the force is exactly -9999 N in " + std::to_string(count) +
+                   " samples, first at 0.5 s, and all others are from -800 to 800 N");
+  }
+  // At the end of a file, and again and again.
+  expect_one(remarks_on([](int n, double force) { return n >= 390 || n % 50 == 3 ? 99999.0 : force; }),
+             "the force is exactly 99999 N in 18 samples");
+  // The crest of a force in steps, and one that is cut off.
+  for (const double step : {50.0, 400.0}) {
+    for (const std::string& said : remarks_on([&](int, double force) { return step * std::round(force / step); })) {
+      EXPECT_EQ(said.find("is exactly"), std::string::npos) << said;
+    }
+  }
+}
+
+TEST(Plausible, ADisplacementWithoutAUnitIsFast) {
+  std::string text = "time [s],displacement,force [N]\n";
+  for (int n = 0; n < 400; ++n) {
+    const double phase = 62.8 * 0.0025 * n;
+    text += std::to_string(0.0025 * n) + "," + std::to_string(0.4 * std::sin(phase)) + "," +
+            std::to_string(3e3 * std::cos(phase)) + "\n";
+  }
+  std::vector<std::string> said;
+  ReadOptions options;
+  options.remark = [&](const Remark& remark) { said.push_back(remark.text.plain()); };
+  (void)parse_csv(text, "a.csv", options);
+  ASSERT_FALSE(said.empty());
+  EXPECT_TRUE(said[0].starts_with("displacement has no unit and was taken in m: a speed of 25")) << said[0];
 }
 
 TEST(Plausible, AForceThatSaturates) {
