@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "core/interval_text.hpp"
 #include "core/probability_text.hpp"
@@ -314,11 +313,8 @@ void note_verdict(Diagnosis& diagnosis) {
                                             100.0 * std::clamp(row.share, 0.0, 1.0)));
     }
   }
-  const std::set<std::string> richer(diagnosis.search.richer.begin(), diagnosis.search.richer.end());
-  if (!richer.empty()) {
-    diagnosis.notes.push_back("the recordings also ask for a richer dependence of " +
-                              joined({richer.begin(), richer.end()}, " and ") +
-                              " on the drive; the augmented model has it");
+  if (const std::string richer = diagnosis.search.richer_dependence(); !richer.empty()) {
+    diagnosis.notes.push_back("the recordings also ask for " + richer + "; the augmented model has it");
   }
 }
 

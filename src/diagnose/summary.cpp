@@ -112,9 +112,13 @@ std::string sentence_of_errors(const Diagnosis& diagnosis) {
   // Members of a set are one cause.
   const std::vector<Named> names = listed(diagnosis.verdict);
   const auto causes = std::ranges::count_if(names, [](const Named& named) { return !named.in_place_of; });
+  // What an effect does is told of it alone: where more than effects is new, that is said.
   std::string subject = !diagnosis.verdict.doubtful.empty() || causes == 0 ? "The augmented model"
                         : causes == 1                                      ? "It"
                                                                            : "Together they";
+  if (const std::string richer = search.richer_dependence(); !richer.empty()) {
+    subject = "The augmented model, with " + richer + ",";
+  }
   if (!instead.empty()) {
     subject = fmt::format("With {} in place of {}, the augmented model",
                           law_with_parts(instead, search.base.what.model), search.base.what.model);
@@ -140,20 +144,33 @@ std::string sentence_of_unknown(const Diagnosis& diagnosis) {
   if (verdict.answer == Answer::complete) {
     return {};
   }
+  const std::string richer = diagnosis.search.richer_dependence();
+  const std::string instead = law_instead(diagnosis.search);
   if (verdict.unknown_share < 0.005) {
-    return "All of the misfit above the noise has a name.";
+    if (!verdict.effects.empty()) return "All of the misfit above the noise has a name.";
+    const std::string by = !verdict.suggestions.empty() ? "what is suggested" : !instead.empty() ? instead : richer;
+    return by.empty() ? by : "All of the misfit above the noise is explained by " + by + ".";
   }
   std::string rest;
-  if (const std::string instead = law_instead(diagnosis.search); !instead.empty()) {
+  if (!instead.empty()) {
     // A part of the law is gone with the law.
     const auto beside_the_law = [](const Named& named) { return !named.of_law; };
     rest = "; the rest is explained by " + instead +
            (std::ranges::any_of(verdict.effects, beside_the_law)       ? " and what is named"
             : std::ranges::any_of(verdict.suggestions, beside_the_law) ? " and what is suggested"
                                                                        : "");
+  } else if (!richer.empty()) {
+    const double left = diagnosis.search.misfit.structure / diagnosis.search.base_misfit.structure;
+    if (const double by_laws = verdict.unknown_share - left; by_laws >= 0.005) {
+      rest = fmt::format("; {} goes with {}", percent(by_laws), richer);
+    }
   }
-  return fmt::format("{} of the misfit of {} above the noise has no name{}.", capital(percent(verdict.unknown_share)),
-                     diagnosis.search.base.what.model, rest);
+  return fmt::format("{} of the misfit of {} above the noise {}{}.", capital(percent(verdict.unknown_share)),
+                     diagnosis.search.base.what.model,
+                     verdict.suggestions.empty() || !instead.empty() ? "has no name"
+                     : verdict.effects.empty()                       ? "is explained by nothing that is suggested"
+                                                                     : "is explained by nothing named or suggested",
+                     rest);
 }
 
 // Of what stays, else of what the base model misses.

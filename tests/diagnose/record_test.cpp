@@ -200,6 +200,30 @@ TEST(Record, OfAMissingMass) {
   EXPECT_EQ(text.find("current"), std::string::npos) << "these recordings have no drive: " << text;
 }
 
+// Every sentence is true of what it speaks of: an effect of what it does itself, the names of what is named.
+TEST(Record, SaysOfNoEffectWhatALawDoes) {
+  const auto diagnosis = diagnosis_of(campaign_with({"inertia"}, {{"inertia.m", 8.0}}, 0.01), few);
+  EXPECT_NE(paragraph(*diagnosis).find("It takes the held-out error"), std::string::npos) << paragraph(*diagnosis);
+  Diagnosis changed = *diagnosis;
+  changed.search.richer = {"f0", "c0", "f0"};
+  changed.verdict.unknown_share = 0.9;
+  changed.search.misfit.structure = 0.1 * changed.search.base_misfit.structure;
+  changed.summary = summary_of(changed);
+  const std::string richer = paragraph(changed);
+  EXPECT_NE(richer.find("The augmented model, with a richer dependence of c0 and f0 on the drive, takes the held-out"),
+            std::string::npos)
+      << richer;
+  EXPECT_NE(richer.find("80 % goes with a richer dependence of c0 and f0 on the drive."), std::string::npos) << richer;
+  // A suggestion is no name.
+  changed = *diagnosis;
+  changed.verdict.unknown_share = 0.0;
+  changed.verdict.suggestions = std::move(changed.verdict.effects);
+  changed.verdict.effects.clear();
+  changed.summary = summary_of(changed);
+  EXPECT_NE(paragraph(changed).find("is explained by what is suggested."), std::string::npos) << paragraph(changed);
+  EXPECT_EQ(paragraph(changed).find("has a name"), std::string::npos) << paragraph(changed);
+}
+
 TEST(Record, WhereNothingIsMissing) {
   const auto diagnosis = diagnosis_of(campaign_with({}, {}, 0.02), few);
   expect_contract(*diagnosis);
@@ -231,6 +255,7 @@ TEST(Record, OfACauseThatIsNotAmongTheCandidates) {
     of_shapes.shapes.emplace_back();
   }
   of_shapes.summary = summary_of(of_shapes);
+  EXPECT_NE(paragraph(of_shapes).find("has no name"), std::string::npos);
   EXPECT_NE(paragraph(of_shapes).find("(31 %); a drift of the load cell"), std::string::npos) << paragraph(of_shapes);
 }
 

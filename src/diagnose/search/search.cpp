@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "diagnose/search/grow.hpp"
 #include "diagnose/search/left_out.hpp"
 #include "diagnose/search/of_fit.hpp"
 #include "diagnose/search/relatives.hpp"
 #include "diagnose/search/settle.hpp"
+#include "diagnose/search/wording.hpp"
 
 namespace hysteron {
 namespace {
@@ -35,6 +37,15 @@ void name_laws(Search& result) {
 }
 
 }  // namespace
+
+std::string Search::richer_dependence() const {
+  std::set<std::string> parameters(richer.begin(), richer.end());
+  for (const Found& one : found) {
+    if (one.by_law) parameters.erase(*one.by_law);  // told as an effect
+  }
+  if (parameters.empty()) return {};
+  return "a richer dependence of " + joined({parameters.begin(), parameters.end()}, " and ") + " on the drive";
+}
 
 Search search(const Workbench& bench, const Workbench& fine, const Hypothesis& base, const SearchOptions& options,
               const SearchProgress& progress) {

@@ -22,6 +22,8 @@ struct Search {
   Misfit misfit;
   std::vector<Found> found;         // effects of the augmented model, strongest first
   std::vector<std::string> richer;  // parameter laws that were made richer
+  // "a richer dependence of c0 and f0 on the drive"; empty where none was.
+  [[nodiscard]] std::string richer_dependence() const;
   // As the comparison saw them, on the quick workbench.
   Fit quick_base;
   Fit quick_augmented;
