@@ -53,6 +53,8 @@ std::string model_description(const ExportedModel& exported, const TestVector& v
       "    <Unit name=\"m/s3\"><BaseUnit m=\"1\" s=\"-3\"/></Unit>\n"
       "    <Unit name=\"N\"><BaseUnit kg=\"1\" m=\"1\" s=\"-2\"/></Unit>\n"
       "    <Unit name=\"Hz\"><BaseUnit s=\"-1\"/></Unit>\n"
+      "    <Unit name=\"A\"><BaseUnit A=\"1\"/></Unit>\n"
+      "    <Unit name=\"V\"><BaseUnit kg=\"1\" m=\"2\" s=\"-3\" A=\"-1\"/></Unit>\n"
       "  </UnitDefinitions>\n";
   text += fmt::format("  <DefaultExperiment startTime=\"0\" stepSize=\"{}\"/>\n  <ModelVariables>\n", interval);
   text += input(1, "displacement", "m", "displacement of the damper");
@@ -60,7 +62,10 @@ std::string model_description(const ExportedModel& exported, const TestVector& v
   const char* const drive = exported.drive == DriveKind::none      ? "current or voltage"
                             : exported.drive == DriveKind::voltage ? "voltage"
                                                                    : "current";
-  text += input(3, "drive", "", std::string(drive) + " of the damper, " + exported.about_drive());
+  const char* const drive_unit = exported.drive == DriveKind::none      ? ""
+                                 : exported.drive == DriveKind::voltage ? "V"
+                                                                        : "A";
+  text += input(3, "drive", drive_unit, std::string(drive) + " of the damper, " + exported.about_drive());
   text += input(4, "slope", "m/s2", "slope of the velocity between communication points, unless derived");
   text += input(5, "acceleration", "m/s2", "acceleration that the equations see, unless derived");
   text += input(6, "jerk", "m/s3", "slope of the acceleration, unless derived");

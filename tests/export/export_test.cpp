@@ -394,6 +394,9 @@ std::vector<double> co_simulated(const Fmu& fmu, const std::string& guid, const 
   return result;
 }
 
+const std::string description_check =
+    std::string("python3 ") + HYSTERON_SOURCE_DIR + "/tests/export/check_model_description.py ";
+
 TEST_P(EveryEntry, AsFmu) {
   const TemporaryFolder folder;
   const ExportedModel exported = model_of(GetParam());
@@ -403,6 +406,8 @@ TEST_P(EveryEntry, AsFmu) {
   const std::string library = "binaries/linux64/" + exported.name + ".so";
   ASSERT_TRUE(files.contains(library)) << made.note;
   write(files, folder.path());
+  const Outcome checked = shell(description_check + "modelDescription.xml", folder.path());
+  EXPECT_EQ(checked.status, 0) << checked.out << checked.err;
   for (const std::string& source : {exported.name + ".c", exported.name + ".h", std::string("fmu.c")}) {
     EXPECT_TRUE(files.contains("sources/" + source)) << source;
   }
@@ -507,13 +512,12 @@ TEST(ExportFmu, DescriptionKeepsTheRulesAndBytesRepeat) {
   EXPECT_EQ(bytes, export_fmu(exported, vector).files.at("bouc_wen.fmu"));
   auto files = unzipped(bytes);
   write(files, folder.path());
-  const std::string check = std::string("python3 ") + HYSTERON_SOURCE_DIR + "/tests/export/check_model_description.py ";
-  const Outcome checked = shell(check + "modelDescription.xml", folder.path());
+  const Outcome checked = shell(description_check + "modelDescription.xml", folder.path());
   EXPECT_EQ(checked.status, 0) << checked.out << checked.err;
   // The check can fail.
   std::ofstream(folder.path() / "wrong.xml")
       << replaced(files.at("modelDescription.xml"), "index=\"7\"", "index=\"6\"");
-  EXPECT_EQ(shell(check + "wrong.xml", folder.path()).status, 1);
+  EXPECT_EQ(shell(description_check + "wrong.xml", folder.path()).status, 1);
 }
 
 // Where an effect leads the drive, a sample brings the drive that acts.

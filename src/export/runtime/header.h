@@ -1,4 +1,4 @@
-/* @title@
+/* @title@. Written by hysteron.
  *
  * Force of a damper from its motion, sample by sample. All quantities in SI units; no heap, no global state, no input or
  * output. The work of a step is bounded: see @NAME@_MOST_SUBSTEPS.
