@@ -5,9 +5,9 @@
 # out/pages.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-# With Open MPI and the Python package, so that their tests run too.
+# With Open MPI, the Python package and Octave, so that their tests run too.
 scripts/setup.sh libopenmpi-dev openmpi-bin pybind11-dev python3-dev python3-numpy python3-pandas python3-matplotlib \
-  python3-sklearn python3-nbclient python3-ipykernel
+  python3-sklearn python3-nbclient python3-ipykernel octave
 cmake --preset release -DHYSTERON_TESTS=ON -DHYSTERON_BENCH=ON -DHYSTERON_PYTHON=ON
 cmake --build --preset release
 ctest --preset release --no-tests=error "$@"

@@ -2,3 +2,4 @@
 #pragma once
 
 inline int omp_get_max_threads() { return 1; }
+inline int omp_get_num_procs() { return 1; }
