@@ -7,7 +7,8 @@ install(TARGETS hysteron RUNTIME)
 install(DIRECTORY datasets/ DESTINATION "${CMAKE_INSTALL_DATADIR}/hysteron/datasets"
   PATTERN "*.?pp" EXCLUDE PATTERN support EXCLUDE)
 install(FILES LICENSE README.md CHANGELOG.md DESTINATION "${CMAKE_INSTALL_DOCDIR}")
-install(DIRECTORY docs examples DESTINATION "${CMAKE_INSTALL_DOCDIR}" PATTERN ".ipynb_checkpoints" EXCLUDE)
+# The pages link to each other.
+install(DIRECTORY docs examples results DESTINATION "${CMAKE_INSTALL_DOCDIR}" PATTERN ".ipynb_checkpoints" EXCLUDE)
 
 # The program writes its own manual page and completions.
 if(NOT CMAKE_CROSSCOMPILING)

@@ -6,10 +6,10 @@
 
 namespace hysteron {
 
-// Three significant digits: "0.00123", "1e+04".
-inline std::string number_text(double value) {
+// Significant digits, three unless said: "0.00123", "1e+04".
+inline std::string number_text(double value, int digits = 3) {
   char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
+  std::snprintf(text, sizeof text, "%.*g", digits, value);
   return text;
 }
 

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "core/error.hpp"
+#include "core/number_text.hpp"
 #include "core/suggest.hpp"
 #include "fit/law_start.hpp"
 
@@ -108,8 +109,8 @@ void check_integration(Identification& result, const std::vector<double>& best, 
     const double tight_cost =
         Objective(result.layout, refer_to(campaign.recordings, result.fitted), tight).evaluate({best, false}).cost[0];
     if (std::fabs(tight_cost - result.cost) > 1e-3 * result.cost) {
-      result.warnings.push_back("a four times finer integration moves the NRMSE from " + std::to_string(result.cost) +
-                                " to " + std::to_string(tight_cost) + ": use a smaller tolerance");
+      result.warnings.push_back("a four times finer integration moves the NRMSE from " + number_text(result.cost, 5) +
+                                " to " + number_text(tight_cost, 5) + ": use a smaller tolerance");
     }
   } catch (const Stopped&) {
     result.warnings.emplace_back("interrupted before the integration was checked");
