@@ -16,6 +16,8 @@ class DecimalMark {
   [[nodiscard]] std::optional<std::string> look(std::string_view number, std::size_t column, int line);
   // Whether a number was seen that has decimals for certain: the mark is known, and only the other one is wrong.
   [[nodiscard]] bool known() const { return known_; }
+  // Whether a number was seen with a comma.
+  [[nodiscard]] bool is_comma() const { return mark_ == ','; }
   // Whether the number has the other mark than those before.
   [[nodiscard]] bool is_other(std::string_view number) const;
 

@@ -146,10 +146,14 @@ class RecordingMaker {
       if (const auto found = named.find(key); found != named.end()) {
         if (found->second != i) channel.times = found->second;
       } else if (const auto last = by_last_word.find(key);
-                 last != by_last_word.end() && last->second != i && !channel.clock && !undecided.contains(key)) {
+                 last != by_last_word.end() && last->second != i && !has_step(channel) && !undecided.contains(key)) {
         channel.times = last->second;
       }
     }
+  }
+
+  static bool has_step(const MeasuredChannel& channel) {
+    return channel.clock && channel.clock->step > 0.0 && std::isfinite(channel.clock->step);
   }
 
   // All but those that hold times.
@@ -177,7 +181,7 @@ class RecordingMaker {
 
   static Column column_of(const MeasuredChannel& channel) {
     Column column = split_column(channel.name);
-    const std::string unit(trimmed(channel.unit));
+    const std::string unit(without_blanks(channel.unit));
     if (!unit.empty() && column.unit.empty()) {
       column.text += (column.text.empty() ? "[" : " [") + unit + "]";
     }
@@ -275,6 +279,10 @@ class RecordingMaker {
       }
       time = read(times, unit, of_times);
     } else if (channel.clock) {
+      if (!has_step(channel)) {
+        fail("the times of " + name +
+             fmt::format(" have a step of {}, expected one above zero in s", channel.clock->step));
+      }
       time.resize(channel.count);
       for (std::size_t k = 0; k < time.size(); ++k) {
         time[k] = channel.clock->start + static_cast<double>(k) * channel.clock->step;
@@ -332,7 +340,7 @@ class RecordingMaker {
   [[nodiscard]] bool same_times(const MeasuredChannel& channel) const {
     const MeasuredChannel& base = channel_at(base_);
     if (channel.times || base.times) return channel.times == base.times;
-    if (channel.clock && base.clock) return *channel.clock == *base.clock;
+    if (channel.clock && base.clock) return has_step(channel) && *channel.clock == *base.clock;
     return !channel.clock && channel.group == base.group && channel.count == base.count;
   }
 

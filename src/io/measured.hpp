@@ -32,7 +32,7 @@ struct MeasuredChannel {
   std::size_t count = 0;
   // The numbers, `count` of them, read when they are asked for; InputError where they cannot be.
   std::function<std::vector<double>()> values;
-  std::optional<Clock> clock;
+  std::optional<Clock> clock;        // refused, where no channel holds its times, with a step that is not above zero
   std::optional<std::size_t> times;  // the channel that holds its times
   std::optional<double> began;       // when its first value was measured, s since 1970
   std::optional<double> epoch;       // of one that holds times: when they are zero, s since 1970

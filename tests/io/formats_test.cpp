@@ -3,6 +3,7 @@
 #include <zlib.h>
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -360,6 +361,78 @@ TEST(Tdms, SegmentsGoOnFromThoseBefore) {
   two.channels.pop_back();
   const TemporaryFolder folder;
   expect_same(read("TDMS", bytes), load_recording(folder.write("r.csv", csv_of(two))));
+}
+
+// One step, unit and start hold for all numbers of a channel: what says another of later ones is refused where the
+// channel is used.
+TEST(Tdms, SegmentsThatContradictThoseBeforeAreRefused) {
+  using namespace tdms;
+  const FileTable table = damper(20);
+  const std::string data = bytes_of(table.channels[0].values) + bytes_of(table.channels[1].values);
+  const auto file = [&](const std::vector<std::string>& first, const std::vector<std::string>& second,
+                        const std::string& name = "Load") {
+    const auto channels = [&](const std::vector<std::string>& about) {
+      return objects({object("/'G'/'disp'", index(f64, 20), {property("wf_increment", 0.25)}),
+                      object("/'G'/'" + name + "'", index(f64, 20), about)});
+    };
+    return segment(metadata | new_list | numbers, channels(first), data) +
+           segment(metadata | new_list | numbers, channels(second), data);
+  };
+  const auto refused = [&](const std::vector<std::string>& first, const std::vector<std::string>& second) {
+    return refusal("TDMS", file(first, second));
+  };
+  const std::string step = property("wf_increment", 0.25);
+  const std::string load = "r: channel '/'G'/'Load'' changes its ";
+  EXPECT_EQ(refused({step}, {property("wf_increment", 0.5)}),
+            load + "wf_increment from 0.25 to 0.5 behind 20 values, expected one for all of them");
+  EXPECT_EQ(refused({step, property("unit_string", "N")}, {property("unit_string", "kN")}),
+            load + "unit_string from 'N' to 'kN' behind 20 values, expected one for all of them");
+  const std::string parts = ", expected one start and no pause: save the parts as recordings of their own";
+  EXPECT_EQ(refused({step}, {property("wf_start_offset", 8.0)}),
+            load + "wf_start_offset behind 20 values, by 8 s where they last 5 s" + parts);
+  EXPECT_EQ(refused({step, property("wf_start_offset", 1.0)}, {step, property("wf_start_offset", 9.0)}),
+            load + "wf_start_offset behind 20 values, by 8 s where they last 5 s" + parts);
+  EXPECT_EQ(refused({step, time_property("wf_start_time", 100, 0)}, {time_property("wf_start_time", 200, 0)}),
+            load + "wf_start_time behind 20 values, by 100 s where they last 5 s" + parts);
+  // What says the same, goes on, or is said at last is none.
+  for (const auto& [first, second] : std::vector<std::pair<std::vector<std::string>, std::vector<std::string>>>{
+           {{step, property("unit_string", "N")}, {step, property("unit_string", "N ")}},
+           {{step, property("wf_start_offset", 0.0)}, {step, property("wf_start_offset", 5.0)}},
+           {{}, {step, property("wf_start_offset", 0.0)}},
+           {{step, property("unit_string", "")}, {property("unit_string", "N")}}}) {
+    const Recording r = read("TDMS", file(first, second));
+    ASSERT_EQ(r.size(), 40U);
+    EXPECT_EQ(r.time[39], 0.25 * 39.0);
+    EXPECT_EQ(r.force[39], table.channels[1].values[19]);
+  }
+  // A channel that nothing uses may.
+  std::string bytes = file({step}, {});
+  bytes += segment(metadata | new_list | numbers,
+                   objects({object("/'G'/'oil'", index(f64, 20), {property("unit_string", "K")})}),
+                   bytes_of(table.channels[2].values));
+  bytes += segment(metadata | new_list | numbers,
+                   objects({object("/'G'/'oil'", index(f64, 20), {property("unit_string", "C")})}),
+                   bytes_of(table.channels[2].values));
+  EXPECT_EQ(read("TDMS", bytes).size(), 40U);
+  EXPECT_TRUE(read("TDMS", bytes).unused.empty());
+}
+
+TEST(Tdms, AStepThatIsNoneIsNotThatOfAnotherChannel) {
+  using namespace tdms;
+  const FileTable table = damper(20);
+  const auto file = [&](double step) {
+    return segment(metadata | new_list | numbers,
+                   objects({object("/'G'/'disp'", index(f64, 20), {property("wf_increment", step)}),
+                            object("/'G'/'Load'", index(f64, 20), {property("wf_increment", 0.25)})}),
+                   bytes_of(table.channels[0].values) + bytes_of(table.channels[1].values));
+  };
+  const std::string times = "r: the times of 'disp' have a step of ";
+  EXPECT_EQ(refusal("TDMS", file(-0.25)), times + "-0.25, expected one above zero in s");
+  EXPECT_EQ(refusal("TDMS", file(0.0)), times + "0, expected one above zero in s");
+  EXPECT_EQ(refusal("TDMS", file(std::nan(""))), times + "nan, expected one above zero in s");
+  EXPECT_EQ(refusal("TDMS", file(std::numeric_limits<double>::infinity())),
+            times + "inf, expected one above zero in s");
+  EXPECT_EQ(read("TDMS", file(0.25)).size(), 20U);
 }
 
 TEST(Tdms, InterleavedAndBigEndianNumbersAreRead) {
@@ -926,6 +999,28 @@ std::string rows_of_numbers(int count, const std::string& second = "") {
   return text;
 }
 
+TEST(Rpc3, AKeyWithTwoValuesIsRefused) {
+  const FileTable table = damper(64);
+  const auto file = [&](const std::string& key, const std::string& value) {
+    rpc3::Entries entries = rpc3::entries_of(table, 32, 64, "FLOATING_POINT");
+    entries.emplace_back(key, value);
+    return rpc3::header_of("BINARY", entries) + rpc3::data_of(table, 64, false);
+  };
+  EXPECT_EQ(refusal("RPC III", file("DELTA_T", "0.01")),
+            "r: the header says DELTA_T twice, '0.0078125' and '0.01', expected one value");
+  for (const char* key : {"UNITS.CHAN_2", "UNITS.CHAN_2 "}) {
+    EXPECT_EQ(refusal("RPC III", file(key, "N")),
+              "r: the header says UNITS.CHAN_2 twice, 'kN' and 'N', expected one value");
+  }
+  EXPECT_EQ(refusal("RPC III", file("NUM_PARAMS", "9")),
+            "r: the header says NUM_PARAMS twice, '24' and '9', expected one value");
+  // The same twice, and what nobody asks for.
+  for (const auto& [key, value] :
+       {std::pair("DELTA_T", "7.8125e-3"), {"UNITS.CHAN_2", "\"kN\" "}, {"TIME_TYPE", "DRIVE"}, {"UNITS.CHAN_2", ""}}) {
+    EXPECT_EQ(read("RPC III", file(key, value)).force[0], 20e3) << key;
+  }
+}
+
 TEST(Xlsx, TheTableIsFoundAmongNotes) {
   // A title, notes beside the table and below it, a row of units, an empty column.
   const std::string sheet =
@@ -1067,6 +1162,37 @@ std::string dated_sheet(const std::string& header, int time_style, int force_sty
                   styled(500.0 * std::cos(phase), force_style)});
   }
   return sheet;
+}
+
+// Stored as 1 and 0, they are no numbers among numbers.
+TEST(Xlsx, ATruthIsNoNumberAmongNumbers) {
+  const std::string yes = "<c t=\"b\"><v>1</v></c>";
+  const std::string no = "<c t=\"b\"><v>0</v></c>";
+  const auto book = [&](const std::string& third, const std::string& valve) {
+    std::string rows = row({cell("time [s]"), cell("x [mm]"), cell("force [N]"), cell("valve")});
+    for (int k = 0; k < 10; ++k) {
+      rows += row({cell(0.1 * k), cell(1.0 * k), k == 3 ? third : cell(2.0 * k), k < 5 ? valve : no});
+    }
+    return zip_of(workbook_parts({{"A", rows}}));
+  };
+  EXPECT_EQ(refusal("xlsx", book(yes, yes)), "r:5: force 'TRUE' is not a number, expected a finite number");
+  EXPECT_EQ(refusal("xlsx", book(no, yes)), "r:5: force 'FALSE' is not a number, expected a finite number");
+  // A column of its own is on or off.
+  const Recording r = read("xlsx", book(cell(6.0), yes));
+  ASSERT_EQ(r.unused.size(), 1U);
+  EXPECT_EQ(r.unused[0].mean, 0.5);
+  EXPECT_TRUE(read("xlsx", book(cell(6.0), cell(2.0))).unused.empty());
+}
+
+TEST(Xlsx, SkippedRowsAreTold) {
+  std::string rows = row({cell("t"), cell("F")}) + row({cell(1.0), cell(2.0)});
+  rows += row({cell("time [s]"), cell("x [mm]"), cell("force [N]")});
+  for (int k = 0; k < 10; ++k) rows += row({cell(0.1 * k), cell(1.0 * k), cell(2.0 * k)});
+  Told told;
+  told.options.skip = 2;
+  EXPECT_EQ(read("xlsx", zip_of(workbook_parts({{"A", rows}})), told.options).force[3], 6.0);
+  ASSERT_FALSE(told.lines.empty());
+  EXPECT_EQ(told.lines[0], "the first 2 rows of sheet 'A' are not read, as skip says");
 }
 
 TEST(Xlsx, DatesAreReadInSecondsSinceTheFirst) {

@@ -10,6 +10,7 @@
 #include <charconv>
 #include <cmath>
 #include <map>
+#include <optional>
 
 #include "core/error.hpp"
 #include "core/printable.hpp"
@@ -102,8 +103,32 @@ class Rpc3Reader {
     const std::uint64_t entries = count("NUM_PARAMS", 3, blocks * (block / (key_size + value_size)));
     for (std::uint64_t k = 3; k < entries; ++k) {
       const auto [key, value] = next();
-      if (!key.empty()) entries_[std::string(key)] = value;
+      if (!key.empty()) take_entry(std::string(key), value);
     }
+    // They have been used.
+    (void)text("NUM_HEADER_BLOCKS");
+    (void)text("NUM_PARAMS");
+  }
+
+  // A key may be there twice with one value; with two it is refused where it is asked for.
+  void take_entry(const std::string& key, std::string_view value) {
+    const auto [at, added] = entries_.emplace(key, value);
+    if (added || value.empty()) return;
+    if (at->second.empty()) at->second = value;
+    if (!same(at->second, value)) other_values_.emplace(key, value);
+  }
+
+  static bool same(std::string_view a, std::string_view b) {
+    const std::optional<double> x = number_in(a);
+    return without_quotes(a) == without_quotes(b) || (x && x == number_in(b));
+  }
+
+  static std::optional<double> number_in(std::string_view value) {
+    double result = 0.0;
+    if (value.starts_with('+')) value.remove_prefix(1);
+    const auto read = std::from_chars(value.data(), value.data() + value.size(), result);
+    if (read.ec != std::errc() || read.ptr != value.data() + value.size()) return std::nullopt;
+    return result;
   }
 
   void read_layout() {
@@ -199,6 +224,10 @@ class Rpc3Reader {
 
   [[nodiscard]] std::string text_or_none(const std::string& key) const {
     const auto found = entries_.find(key);
+    if (const auto other = other_values_.find(key); other != other_values_.end()) {
+      fail("the header says " + key + " twice, " + in_quotes(found->second) + " and " + in_quotes(other->second) +
+           ", expected one value");
+    }
     return found == entries_.end() ? std::string() : std::string(found->second);
   }
 
@@ -221,19 +250,16 @@ class Rpc3Reader {
 
   [[nodiscard]] double number(const std::string& key) const {
     const std::string value = text(key);
-    double result = 0.0;
-    const auto read =
-        std::from_chars(value.data() + (value.starts_with('+') ? 1 : 0), value.data() + value.size(), result);
-    if (read.ec != std::errc() || read.ptr != value.data() + value.size()) {
-      fail(key + " is " + in_quotes(value) + ", expected a number");
-    }
-    return result;
+    const std::optional<double> result = number_in(value);
+    if (!result) fail(key + " is " + in_quotes(value) + ", expected a number");
+    return *result;
   }
 
   std::string_view bytes_;
   const std::string& file_;
   const ReadOptions& options_;
   std::map<std::string, std::string_view> entries_;
+  std::map<std::string, std::string_view> other_values_;  // of keys that are there with two
   std::uint64_t data_at_ = 0;
   NumberLayout layout_;
   bool is_integer_ = true;

@@ -6,7 +6,10 @@
 // chunk of the segment holds, or that this is as before, and properties. What is not said goes on from the segment
 // before. Behind the metadata lie chunks to the end of the segment: the numbers of one channel behind those of another,
 // or, interleaved, one of each in turn.
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <optional>
@@ -125,7 +128,34 @@ struct Object {
   std::uint64_t total = 0;                                  // of them, in the file
   std::vector<double> values;                               // as they are stored; of times, s since the first
   std::optional<Moment> first;                              // of times
+  std::string fault;                                        // why its numbers cannot be read, or nothing
 };
+
+// What holds for all numbers of a channel.
+bool is_of_numbers(std::string_view property) {
+  return property == "unit_string" || property == "NI_UnitDescription" || property == "wf_increment" ||
+         property.starts_with("NI_Scal") || property == "NI_Number_Of_Scales";
+}
+
+std::string text_of(const Property& property) {
+  if (const auto* number = std::get_if<double>(&property)) return fmt::format("{}", *number);
+  const auto* text = std::get_if<std::string>(&property);
+  return text == nullptr ? "another time" : in_quotes(*text);
+}
+
+bool is_blank(const Property& property) {
+  const auto* text = std::get_if<std::string>(&property);
+  return text != nullptr && trimmed(*text).empty();
+}
+
+bool same(const Property& a, const Property& b) {
+  const auto* one = std::get_if<double>(&a);
+  const auto* other = std::get_if<double>(&b);
+  if (one != nullptr && other != nullptr) return *one == *other || (std::isnan(*one) && std::isnan(*other));
+  const auto* text = std::get_if<std::string>(&a);
+  const auto* other_text = std::get_if<std::string>(&b);
+  return text != nullptr && other_text != nullptr && trimmed(*text) == trimmed(*other_text);
+}
 
 bool is_asked_for(std::string_view property) {
   constexpr std::string_view names[] = {"unit_string",         "NI_UnitDescription", "wf_increment",
@@ -186,7 +216,8 @@ class TdmsReader {
     result.count = static_cast<std::size_t>(object.total);
     const double offset = number_property(object, "wf_start_offset").value_or(0.0);
     const std::optional<Moment> moment = moment_property(object, "wf_start_time");
-    if (const auto step = number_property(object, "wf_increment"); step && *step > 0.0) {
+    // What is no step of time is refused where the times are asked for.
+    if (const auto step = number_property(object, "wf_increment")) {
       double begin = offset;
       if (moment) {
         if (!start_) start_ = *moment;
@@ -204,6 +235,7 @@ class TdmsReader {
     const Object& object = objects_[k];
     const std::string name = in_quotes(object.path);
     if (!is_read(object.type)) fail("channel " + name + " holds complex or extended numbers, expected numbers");
+    if (!object.fault.empty()) fail("channel " + name + " " + object.fault);
     std::vector<double> values = object.values;
     if (object.type == type_time) return values;
     const Scale scale = scale_of(object, name);
@@ -274,12 +306,62 @@ class TdmsReader {
       Object& object = object_at(path);
       read_index(at, cursor, object);
       const auto properties = cursor.number<std::uint32_t>();
+      const std::optional<double> step = object.total > 0 ? step_of(object) : std::nullopt;
       for (std::uint32_t k = 0; k < properties; ++k) {
         const std::string_view name = text_at(cursor);
         Property property = read_property(at, cursor, order);
-        if (is_asked_for(name)) object.properties[std::string(name)] = std::move(property);
+        if (is_asked_for(name)) set_property(object, step, std::string(name), std::move(property));
       }
     }
+  }
+
+  // Of time; nothing for what is none.
+  static std::optional<double> step_of(const Object& object) {
+    const std::optional<double> step = number_property(object, "wf_increment");
+    return step && *step > 0.0 ? step : std::nullopt;
+  }
+
+  // What is said last counts for all numbers; what contradicts those before it is a fault. `step` is that of the
+  // numbers before.
+  static void set_property(Object& object, std::optional<double> step, const std::string& name, Property property) {
+    const auto before = object.properties.find(name);
+    const bool said =
+        before != object.properties.end() && !is_blank(before->second) && (name != "wf_increment" || step);
+    const std::string values = std::to_string(object.total) + (object.total == 1 ? " value" : " values");
+    if (object.total > 0 && said && is_of_numbers(name) && !same(before->second, property)) {
+      if (object.fault.empty()) {
+        object.fault = "changes its " + name + " from " + text_of(before->second) + " to " + text_of(property) +
+                       " behind " + values + ", expected one for all of them";
+      }
+      return;
+    }
+    if (step && (name == "wf_start_offset" || (said && name == "wf_start_time"))) {
+      take_start(object, name, said ? before->second : Property(0.0), property, *step, values);
+      return;
+    }
+    object.properties[name] = std::move(property);
+  }
+
+  // Of numbers behind others: they begin when all numbers do, or when the last one before them ends. What lies between
+  // is a pause, and one step for all numbers would leave it out.
+  static void take_start(Object& object, const std::string& name, const Property& before, const Property& now,
+                         double step, const std::string& values) {
+    std::optional<double> later;
+    if (const auto* from = std::get_if<Moment>(&before), *to = std::get_if<Moment>(&now);
+        from != nullptr && to != nullptr) {
+      later = between(*from, *to);
+    } else if (const auto* first = std::get_if<double>(&before), *next = std::get_if<double>(&now);
+               first != nullptr && next != nullptr) {
+      later = *next - *first;
+    }
+    constexpr double of_a_step = 0.5;
+    const auto count = static_cast<double>(object.total);
+    const bool goes_on = later && (*later == 0.0 || std::abs(*later - count * step) < of_a_step * step);
+    if (goes_on || !object.fault.empty()) return;
+    object.fault =
+        "changes its " + name + " behind " + values +
+        (later ? fmt::format(", by {:.6g} s where they last {:.6g} s", *later, count * step) : std::string()) +
+        ", expected one start and no pause: save the parts as recordings of their own";
   }
 
   void read_index(std::uint64_t at, ByteCursor& cursor, Object& object) {

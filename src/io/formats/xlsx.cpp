@@ -147,7 +147,7 @@ std::vector<Relation> relations_of(Archive& archive, const std::string& part) {
 }
 
 struct Cell {
-  enum class Kind : std::uint8_t { number, text, error };
+  enum class Kind : std::uint8_t { number, text, truth, error };
   std::uint32_t column = 0;
   Kind kind = Kind::number;
   bool date = false;  // a number of days, by its format
@@ -358,6 +358,8 @@ class SheetParser {
       text = texts_[*k];
     } else if (type_.empty() || type_ == "n") {
       kind = Cell::Kind::number;
+    } else if (type_ == "b") {
+      kind = Cell::Kind::truth;
     } else if (type_ == "e") {
       kind = Cell::Kind::error;
     }
@@ -481,14 +483,27 @@ bool goes_on(const Sheet& sheet, const SheetRow& row, const SheetRow& before,
 }
 
 // A cell as a field between semicolons, without what would end one.
-void append_field(std::string& text, const Sheet& sheet, const Cell& cell) {
+void append_field(std::string& text, const Sheet& sheet, const Cell& cell, bool among_numbers) {
   std::string_view content = sheet.text(cell);
+  // Stored as 1 and 0, which among numbers would be one.
+  if (cell.kind == Cell::Kind::truth && among_numbers) content = content == "0" ? "FALSE" : "TRUE";
   // "#N/A" in the first column would make its row a comment.
   if (cell.kind == Cell::Kind::error && content.starts_with('#')) content.remove_prefix(1);
   for (const char c : content) {
     const auto byte = static_cast<unsigned char>(c);
     text += byte < 0x20 || byte == 0x7F ? ' ' : c == ';' ? ',' : c == '"' ? '\'' : c;
   }
+}
+
+// Of columns, whether they hold numbers below the header.
+std::vector<bool> with_numbers(const Sheet& sheet, const Table& table) {
+  std::vector<bool> result(table.columns.empty() ? 0 : table.columns.back() + 1, false);
+  for (std::size_t r = table.header + 1; r < sheet.rows.size(); ++r) {
+    for (const Cell& cell : sheet.cells_of(sheet.rows[r])) {
+      if (cell.kind == Cell::Kind::number && cell.column < result.size()) result[cell.column] = true;
+    }
+  }
+  return result;
 }
 
 // The table as text, row N of the sheet is line N, what is not of the table is left out; and what of the sheet was not
@@ -500,6 +515,7 @@ struct TableText {
 TableText text_of(const Sheet& sheet, const Table& table) {
   TableText result;
   std::string& text = result.text;
+  const std::vector<bool> of_numbers = with_numbers(sheet, table);
   std::uint32_t line = 1;
   std::size_t before = table.header;  // the last row that was taken
   bool gone_on = false;
@@ -533,7 +549,9 @@ TableText text_of(const Sheet& sheet, const Table& table) {
     for (std::size_t k = 0; k < table.columns.size(); ++k) {
       if (k > 0) text += ';';
       while (cell != cells.end() && cell->column < table.columns[k]) ++cell;
-      if (cell != cells.end() && cell->column == table.columns[k]) append_field(text, sheet, *cell);
+      if (cell != cells.end() && cell->column == table.columns[k]) {
+        append_field(text, sheet, *cell, of_numbers[cell->column]);
+      }
     }
     text += '\n';
     line = row.number + 1;
@@ -791,11 +809,19 @@ class WorkbookReader {
                            (start && !first_date ? ", of the rows before it the start alone is read"
                                                  : ", rows before it are not read")});
     }
+    if (options_.remark && skip() > 0) {
+      options_.remark(
+          {file_, Remark::Kind::dialect, "skipped",
+           (skip() == 1 ? "the first row of sheet " : "the first " + std::to_string(skip()) + " rows of sheet ") +
+               in_quotes(sheet.name) + (skip() == 1 ? " is" : " are") + " not read, as " + Option::skip + " says"});
+    }
     const TableText table_text = text_of(sheet, table);
     for (const std::string& remark : table_text.remarks) {
       if (options_.remark) options_.remark({file_, Remark::Kind::dialect, "empty row", remark});
     }
-    Recording recording = parse_csv(table_text.text, file_, options_);
+    ReadOptions of_table = options_;
+    of_table.skip = 0;  // the text begins with the rows above the header, which are empty
+    Recording recording = parse_csv(table_text.text, file_, of_table);
     if (start) recording.started = start;
     return recording;
   }
