@@ -26,19 +26,44 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return above.back();
 }
 
+std::string lower_case(std::string_view text) {
+  std::string result(text);
+  std::ranges::transform(result, result.begin(),
+                         [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  return result;
+}
+
 }  // namespace
 
-std::string suggestion(std::string_view word, const std::vector<std::string>& known) {
-  std::size_t best = word.size() / 2 + 1;
-  std::string_view nearest;
+std::string_view nearest(std::string_view word, const std::vector<std::string>& known, std::size_t most) {
+  const std::string typed = lower_case(word);
+  // Of words that differ in case alone the one that is written alike.
+  std::pair best{most + 1, std::size_t{0}};
+  std::string_view result;
   for (const std::string& candidate : known) {
-    const std::size_t distance = edit_distance(word, candidate);
-    if (distance < best) {
-      best = distance;
-      nearest = candidate;
+    const std::size_t distance = edit_distance(typed, lower_case(candidate));
+    if (distance > std::min(most, best.first)) continue;
+    const std::pair here{distance, edit_distance(word, candidate)};
+    if (here < best) {
+      best = here;
+      result = candidate;
     }
   }
-  return nearest.empty() ? std::string{} : " (did you mean '" + std::string(nearest) + "'?)";
+  return result;
+}
+
+std::string suggestion(std::string_view word, const std::vector<std::string>& known) {
+  if (word.empty()) return {};
+  std::string_view found = nearest(word, known, word.size() / 2);
+  if (found.empty()) {
+    const std::string typed = lower_case(word);
+    for (const std::string& candidate : known) {
+      if (lower_case(candidate).starts_with(typed) && (found.empty() || candidate.size() < found.size())) {
+        found = candidate;
+      }
+    }
+  }
+  return found.empty() ? std::string{} : " (did you mean '" + std::string(found) + "'?)";
 }
 
 }  // namespace hysteron

@@ -10,6 +10,7 @@
 #include "core/earlier_work.hpp"
 #include "core/error.hpp"
 #include "core/printable.hpp"
+#include "core/suggest.hpp"
 #include "io/block_means.hpp"
 #include "io/campaign_file.hpp"
 #include "io/conditions.hpp"
@@ -39,6 +40,14 @@ std::string extension_of(const fs::path& path) { return lower_case(path.extensio
 bool is_folder(const fs::path& path) {
   std::error_code code;
   return fs::is_directory(path, code);
+}
+
+bool is_recording(const fs::path& path) {
+  const std::string ending = extension_of(path);
+  for (const InputFormat* format : formats()) {
+    if (std::ranges::find(format->endings, ending, &Ending::text) != format->endings.end()) return true;
+  }
+  return false;
 }
 
 InFolders in_folders(const std::string& ending) {
@@ -105,6 +114,25 @@ void merge(Campaign& campaign, const CampaignFile& declared, const std::string& 
   }
 }
 
+// The file beside one that is not there whose name is nearest, to be offered.
+std::string nearest_beside(const fs::path& folder, const std::string& file) {
+  constexpr std::size_t most = 1000;
+  const fs::path inside = fs::path(file).parent_path();
+  const std::string name = fs::path(file).filename().string();
+  std::vector<std::string> names;
+  std::error_code code;
+  for (fs::directory_iterator at(folder / inside, code), end; !code && at != end && names.size() < most;
+       at.increment(code)) {
+    // Names begin alike; others are near by their ending only.
+    const bool alike = !name.empty() && at->path().filename().string().front() == name.front();
+    if (alike && is_recording(at->path()) && !is_folder(at->path())) {
+      names.push_back((inside / at->path().filename()).generic_string());
+    }
+  }
+  std::ranges::sort(names);
+  return suggestion(file, names);
+}
+
 void add_folder(const fs::path& folder, Campaign& campaign, std::vector<Item>& items) {
   const fs::path base = absolute_folder(folder);
   const fs::path toml = folder / "campaign.toml";
@@ -118,7 +146,8 @@ void add_folder(const fs::path& folder, Campaign& campaign, std::vector<Item>& i
     const fs::path path = folder / entry.file;
     if (!fs::exists(path, code) || is_folder(path)) {
       throw InputError(toml.string(), entry.line,
-                       "there is no recording " + in_quotes(entry.file) + " in the folder, expected a file with one");
+                       "there is no recording " + in_quotes(entry.file) + " in the folder" +
+                           nearest_beside(folder, entry.file) + ", expected a file with one");
     }
     items.push_back({path, entry.file, base, entry.role, entry.numbers, entry.start});
   }

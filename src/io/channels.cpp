@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "core/extent.hpp"
 #include "core/message.hpp"
+#include "core/suggest.hpp"
 #include "io/stillness.hpp"
 #include "io/text.hpp"
 #include "io/velocity.hpp"
@@ -66,6 +67,11 @@ constexpr std::pair<std::string_view, Quantity> words_elsewhere[] = {
     {"tiempo", Quantity::time},
     {"weg", Quantity::displacement},
     {"hub", Quantity::displacement},
+    {"verschiebung", Quantity::displacement},
+    {"auslenkung", Quantity::displacement},
+    {"posizione", Quantity::displacement},
+    {"posición", Quantity::displacement},
+    {"posicion", Quantity::displacement},
     {"déplacement", Quantity::displacement},
     {"deplacement", Quantity::displacement},
     {"spostamento", Quantity::displacement},
@@ -91,6 +97,29 @@ constexpr std::pair<std::string_view, Quantity> words_elsewhere[] = {
     {"température", Quantity::temperature},
     {"temperatura", Quantity::temperature},
 };
+
+// Words for a load that mean other things as well: taken where their unit is one of a force.
+constexpr std::string_view loads_elsewhere[] = {"last", "charge", "carico", "carga"};
+
+bool is_load(std::string_view word, std::string_view unit) {
+  return find_unit(Quantity::force, unit) &&
+         std::ranges::find(loads_elsewhere, lower_case(word)) != std::end(loads_elsewhere);
+}
+
+// Ends of German words made of several: "Prüfzeit", "Standardkraft", "Traversenweg".
+constexpr std::pair<std::string_view, Quantity> ends_of_words[] = {{"zeit", Quantity::time},
+                                                                   {"weg", Quantity::displacement},
+                                                                   {"kraft", Quantity::force},
+                                                                   {"strom", Quantity::current}};
+
+// "Position(Linear:Position)" -> "Position": the axis and the name again, as some testing machines write it.
+std::string_view without_axis(std::string_view name) {
+  name = trimmed(name);
+  const std::size_t open = name.find('(');
+  if (open == 0 || open == std::string_view::npos) return name;
+  const std::string_view head = trimmed(name.substr(0, open));
+  return name.ends_with(":" + std::string(head) + ")") ? head : name;
+}
 
 std::string names_of(Quantity quantity) {
   std::string result;
@@ -135,6 +164,7 @@ class Assigner {
     match_last_words();
     refuse_shared();
     for (std::size_t i = 0; i < columns_.size(); ++i) doubt_unit(i);
+    for (int q = 0; q < quantity_count; ++q) doubt_letter(static_cast<Quantity>(q));
     for (const Quantity quantity : {Quantity::time, Quantity::displacement, Quantity::force}) {
       if (is_required(quantity)) require(quantity);
     }
@@ -179,8 +209,12 @@ class Assigner {
   void map(const std::string& channel, const std::string& value) {
     const auto quantity = quantity_of_name(channel);
     if (!quantity) {
+      std::vector<std::string> known;
+      for (int i = 0; i < quantity_count; ++i) known.emplace_back(quantity_name(static_cast<Quantity>(i)));
+      const std::string_view meant = nearest(channel, known, channel.size() / 3);
       throw OptionError(Option::column + " " + channel + "=" + value + ": unknown channel " + in_quotes(channel) +
-                        ", expected one of " + list_of_channels());
+                        (meant.empty() ? "" : " (did you mean " + in_quotes(meant) + "?)") + ", expected one of " +
+                        list_of_channels());
     }
     const std::string name(quantity_name(*quantity));
     const Column wanted = split_column(value);
@@ -224,8 +258,16 @@ class Assigner {
       }
       std::vector<std::size_t> found;
       for (std::size_t i = 0; i < columns_.size(); ++i) {
-        if (!taken_[i] && quantity_of_last_word(columns_[i].name) == quantity) found.push_back(i);
+        const Column& column = columns_[i];
+        const bool named =
+            quantity_of_last_word(column.name) == quantity ||
+            (quantity == Quantity::force && is_load(column.name.substr(column.name.rfind(' ') + 1), column.unit));
+        if (!taken_[i] && named) found.push_back(i);
       }
+      // Beside it there is a time since the last cycle or step, which begins again.
+      const auto total =
+          std::ranges::find_if(found, [&](std::size_t i) { return lower_case(columns_[i].name) == "total time"; });
+      if (quantity == Quantity::time && total != found.end()) found = {*total};
       const std::string channel(quantity_name(quantity));
       if (found.size() > 1 && quantity != Quantity::current) {
         fail(std::to_string(found.size()) + " columns may be the " + channel + " (" +
@@ -286,11 +328,55 @@ class Assigner {
                          " is no unit, " + similar.front() + " is"});
   }
 
+  // "f" beside "Reaction [N]": a letter may be anything, a frequency too, where another column has the unit.
+  void doubt_letter(Quantity quantity) const {
+    const int taken = sources_[static_cast<std::size_t>(quantity)].column;
+    if (taken < 0 || !options_.remark) return;
+    const Column& column = columns_[static_cast<std::size_t>(taken)];
+    const bool mapped = std::ranges::any_of(
+        options_.columns, [&](const auto& entry) { return quantity_of_name(entry.first) == quantity; });
+    if (mapped || column.name.size() != 1 || !column.unit.empty()) return;
+    for (std::size_t i = 0; i < columns_.size(); ++i) {
+      if (taken_[i] || columns_[i].unit.empty() || !find_unit(quantity, columns_[i].unit)) continue;
+      const std::string channel(quantity_name(quantity));
+      options_.remark({file_, Remark::Kind::dialect, "letter for " + channel,
+                       in_quotes(column.text) + ", without a unit, is taken for the " + channel + ", and " +
+                           in_quotes(columns_[i].text) + " has a unit of one; " + Option::column + " " + channel +
+                           "=NAME chooses"});
+      return;
+    }
+  }
+
+  // A column whose name, or the last word of it, is nearly one of the channel, and whose unit may be.
+  [[nodiscard]] std::string nearly(Quantity quantity) const {
+    constexpr std::size_t shortest = 4;  // letters
+    std::vector<std::string> words;
+    for (const auto& [word, of] : synonyms) {
+      if (of == quantity && word.size() >= shortest) words.emplace_back(word);
+    }
+    for (const auto& [word, of] : words_elsewhere) {
+      if (of == quantity && word.size() >= shortest) words.emplace_back(word);
+    }
+    for (std::size_t i = 0; i < columns_.size(); ++i) {
+      const Column& column = columns_[i];
+      if (taken_[i] || (!column.unit.empty() && !find_unit(quantity, column.unit))) continue;
+      const std::string_view name = column.name;
+      for (const std::string_view word : {name, name.substr(name.find_last_of(" _-.") + 1)}) {
+        if (word.size() < shortest || nearest(word, words, std::max<std::size_t>(1, word.size() / 5)).empty()) continue;
+        return " (did you mean " + in_quotes(column.text) + "?)";
+      }
+    }
+    return {};
+  }
+
   void require(Quantity quantity) {
     if (source(quantity).column >= 0) return;
     const std::string name(quantity_name(quantity));
-    fail("no " + name + " column, expected one named " + names_of(quantity) + ", or " + Option::column + " " + name +
-         "=NAME; the columns are " + list_of(columns_));
+    fail("no " + name + " column" + nearly(quantity) + ", expected one named " + names_of(quantity) + ", or " +
+         Option::column + " " + name + "=NAME; the columns are " + list_of(columns_) +
+         (quantity == Quantity::time && source(Quantity::displacement).column >= 0
+              ? "; a law whose force does not depend on the rate needs none, with " + Option::without_time
+              : Message("")));
   }
 
   const std::vector<Column>& columns_;
@@ -304,7 +390,7 @@ class Assigner {
 }  // namespace
 
 std::optional<Quantity> quantity_of_name(std::string_view name) {
-  const std::string lower = lower_case(trimmed(name));
+  const std::string lower = lower_case(without_axis(name));
   using Words = std::span<const std::pair<std::string_view, Quantity>>;
   for (const Words words : {Words(synonyms), Words(words_elsewhere)}) {
     for (const auto& [word, quantity] : words) {
@@ -316,6 +402,7 @@ std::optional<Quantity> quantity_of_name(std::string_view name) {
 
 std::optional<Quantity> quantity_of_column(const Column& column) {
   const auto quantity = quantity_of_name(column.name);
+  if (!quantity && is_load(column.name, column.unit)) return Quantity::force;
   if (!quantity || column.unit.empty()) return quantity;
   if (lower_case(column.name) == "v" && find_unit(Quantity::voltage, column.unit)) return Quantity::voltage;
   if (lower_case(column.name) == "a" && find_unit(Quantity::current, column.unit)) return Quantity::current;
@@ -324,10 +411,17 @@ std::optional<Quantity> quantity_of_column(const Column& column) {
 }
 
 std::optional<Quantity> quantity_of_last_word(std::string_view name) {
+  name = without_axis(name);
   const std::size_t cut = name.find_last_of(" _-.");
   const std::string_view last = cut == std::string_view::npos ? std::string_view{} : name.substr(cut + 1);
   // A single letter may be anything.
-  return last.size() > 1 ? quantity_of_name(last) : std::nullopt;
+  const auto quantity = last.size() > 1 ? quantity_of_name(last) : std::nullopt;
+  if (quantity) return quantity;
+  const std::string lower = lower_case(name.substr(cut + 1));
+  for (const auto& [word, of] : ends_of_words) {
+    if (lower.size() > word.size() && lower.ends_with(word)) return of;
+  }
+  return std::nullopt;
 }
 
 namespace {
@@ -354,16 +448,16 @@ void split_at_mark(Column& column) {
 }  // namespace
 
 Column split_column(std::string_view text) {
-  text = trimmed(text);
-  Column column{std::string(text), std::string(text), {}, {}};
+  text = without_blanks(text);
+  Column column{plain_blanks(text), plain_blanks(text), {}, {}};
   if (text.empty()) return column;
   if (text.back() != ']' && text.back() != ')') {
     split_at_mark(column);
     return column;
   }
   const auto open = text.rfind(text.back() == ']' ? '[' : '(');
-  if (open == std::string_view::npos) return column;
-  column.name = trimmed(text.substr(0, open));
+  if (open == std::string_view::npos || without_axis(text) != text) return column;
+  column.name = plain_blanks(without_blanks(text.substr(0, open)));
   column.unit = trimmed(text.substr(open + 1, text.size() - open - 2));
   return column;
 }

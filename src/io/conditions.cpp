@@ -9,6 +9,7 @@
 #include "core/drive.hpp"
 #include "core/error.hpp"
 #include "core/message.hpp"
+#include "core/suggest.hpp"
 #include "io/text.hpp"
 
 namespace hysteron {
@@ -155,14 +156,16 @@ std::vector<ConditionSource> assign_conditions(const std::vector<Column>& column
       continue;
     } else if (!recorded) {
       std::string list;
+      std::vector<std::string> names;
       std::string likely = "NAME";  // a column of which the name is a part, as "oil temperature" of a temperature
       for (const Column& column : columns) {
         list += (list.empty() ? "" : ", ") + in_quotes(column.text);
         if (lower_case(column.name).find(name) != std::string::npos) likely = in_quotes(column.name);
+        names.push_back(column.name);
       }
       throw OptionError(file, line,
-                        "no column " + in_quotes(name) + ", which parameters follow; expected one, " + Option::column +
-                            " " + name + "=" + likely +
+                        "no column " + in_quotes(name) + suggestion(name, names) +
+                            ", which parameters follow; expected one, " + Option::column + " " + name + "=" + likely +
                             ", or a number for it in campaign.toml (for a model already fitted also by " + Option::at +
                             "); the columns are " + list);
     }

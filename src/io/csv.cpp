@@ -399,7 +399,28 @@ class CsvReader {
       fail(0, std::to_string(count) + (count == 1 ? " row" : " rows") + " of numbers, expected at least " +
                   std::to_string(fewest_rows));
     }
+    tell_dialect();
     doubt_mark();
+  }
+
+  // What is not plain: lines that are left out, and decimal commas, with what separates the columns then.
+  void tell_dialect() const {
+    const bool commas = mark_.is_comma() && !mark_.doubt();  // a doubt is told by itself
+    if (!options_.remark || (options_.skip <= 0 && !commas)) return;
+    Message text("");
+    if (options_.skip > 0) {
+      text += (options_.skip == 1 ? Message("the first line is")
+                                  : "the first " + std::to_string(options_.skip) + " lines are") +
+              " not read, as " + Option::skip + " says";
+    }
+    if (commas) {
+      const std::string_view separator = delimiter_ == ';'    ? "semicolons"
+                                         : delimiter_ == '\t' ? "tabs"
+                                                              : "commas outside of quotes";
+      text += std::string(options_.skip > 0 ? "; " : "") +
+              "numbers are read with decimal commas, columns as separated by " + std::string(separator);
+    }
+    options_.remark({file_, Remark::Kind::dialect, "dialect", text});
   }
 
   // No number has decimals for certain: those with a mark may be thousands.

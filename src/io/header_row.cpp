@@ -19,9 +19,10 @@ bool is_name(std::string_view cell) {
 }  // namespace
 
 std::string_view without_brackets(std::string_view unit) {
+  unit = without_blanks(unit);
   if (unit.size() >= 2 &&
       ((unit.front() == '[' && unit.back() == ']') || (unit.front() == '(' && unit.back() == ')'))) {
-    return trimmed(unit.substr(1, unit.size() - 2));
+    return without_blanks(unit.substr(1, unit.size() - 2));
   }
   return unit;
 }

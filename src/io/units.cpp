@@ -85,6 +85,8 @@ constexpr std::pair<std::string_view, double> prefixes[] = {
 std::optional<double> find_factor(std::span<const BaseUnit> units, std::string_view text) {
   for (const auto& unit : units) {
     if (text == unit.symbol) return unit.factor;
+    // "in.": abbreviations of words, not symbols.
+    if (!unit.prefixed && text.ends_with('.') && text.substr(0, text.size() - 1) == unit.symbol) return unit.factor;
   }
   for (const auto& unit : units) {
     if (!unit.prefixed || !text.ends_with(unit.symbol)) continue;
@@ -188,7 +190,7 @@ std::string_view accepted_units(Quantity quantity) {
 }
 
 std::optional<UnitConversion> find_unit(Quantity quantity, std::string_view text) {
-  text = trimmed(text);
+  text = without_blanks(text);
   switch (quantity) {
     case Quantity::time:
       return plain(find_factor(time_units, text));

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/error.hpp"
@@ -73,7 +74,7 @@ TEST(Csv, LinesBeforeTheHeaderAreNotRead) {
 
 TEST(Csv, ChannelsMayBeNamedInOtherLanguages) {
   for (const char* names : {"Zeit [s];Weg [mm];Kraft [kN]", "temps (s);Déplacement (mm);force (kN)",
-                             "tempo [s];spostamento [mm];forza [kN]", "Tiempo [s];Desplazamiento [mm];Fuerza [kN]"}) {
+                            "tempo [s];spostamento [mm];forza [kN]", "Tiempo [s];Desplazamiento [mm];Fuerza [kN]"}) {
     std::string text = std::string(names) + "\n";
     for (int n = 0; n < 10; ++n) text += std::to_string(n) + ";" + std::to_string(n) + ",5;1,25\n";
     const Recording recording = parse_csv(text, "a.csv");
@@ -98,10 +99,121 @@ TEST(Csv, NamesNobodyKnowsStandAboveTheirUnits) {
 TEST(Csv, LinesAreSkippedWhereThatIsAsked) {
   ReadOptions options;
   options.skip = 2;
-  EXPECT_EQ(remarks_of("x,t,F\n1,2,3\n" + header + ten_rows(), options), "");
+  EXPECT_EQ(remarks_of("x,t,F\n1,2,3\n" + header + ten_rows(), options),
+            "the first 2 lines are not read, as skip says\n");
   options.skip = 50;
   EXPECT_EQ(message_of<InputError>([&] { (void)parse_csv(header + ten_rows(), "a.csv", options); }),
             "a.csv: skip 50 leaves nothing of the file, expected fewer lines");
+}
+
+// Semicolons and tabs with decimal points are as plain as commas.
+TEST(Csv, DecimalCommasAndSkippedLinesAreToldInOneRemark) {
+  const auto table = [](const std::string& separator, const std::string& mark, const std::string& quote) {
+    std::string text = "time [s]" + separator + "displacement [mm]" + separator + "force [N]\n";
+    for (int n = 0; n < 10; ++n) {
+      for (const char* behind : {separator.c_str(), separator.c_str(), "\n"}) {
+        text += quote + std::to_string(n) + mark + "5" + quote + behind;
+      }
+    }
+    return text;
+  };
+  for (const char* separator : {",", ";", "\t"}) EXPECT_EQ(remarks_of(table(separator, ".", "")), "") << separator;
+  EXPECT_EQ(remarks_of(table(";", ",", "")),
+            "numbers are read with decimal commas, columns as separated by semicolons\n");
+  EXPECT_EQ(remarks_of(table("\t", ",", "")), "numbers are read with decimal commas, columns as separated by tabs\n");
+  EXPECT_EQ(remarks_of(table(",", ",", "\"")),
+            "numbers are read with decimal commas, columns as separated by commas outside of quotes\n");
+  ReadOptions options;
+  options.skip = 1;
+  EXPECT_EQ(remarks_of("1;2;3\n" + table(";", ",", ""), options),
+            "the first line is not read, as skip says; numbers are read with decimal commas, columns as separated by "
+            "semicolons\n");
+}
+
+// A frequency beside a force of another name would be fitted as the force.
+TEST(Csv, ALetterBesideAColumnWithTheUnitIsTold) {
+  std::string rows;
+  for (int n = 0; n < 10; ++n) rows += fmt::format("{},{},{},{}\n", n, n * n, 2, 3 * n);
+  const std::string said =
+      "'f', without a unit, is taken for the force, and 'Reaction [N]' has a unit of one; column "
+      "force=NAME chooses\n";
+  EXPECT_NE(remarks_of("time [s],x [mm],f,Reaction [N]\n" + rows).find(said), std::string::npos);
+  for (const char* names : {"time [s],x [mm],f [N],Reaction [N]", "time [s],x [mm],f,Reaction [V]",
+                            "time [s],x [mm],force,Reaction [N]", "time [s],x [mm],f,Reaction"}) {
+    EXPECT_EQ(remarks_of(names + ("\n" + rows)).find("a unit of one"), std::string::npos) << names;
+  }
+  ReadOptions options;
+  options.columns = {{"force", "f"}};
+  EXPECT_EQ(remarks_of("time [s],x [mm],f,Reaction [N]\n" + rows, options).find("a unit of one"), std::string::npos);
+}
+
+TEST(Csv, HeadersOfTestingMachinesAreRead) {
+  const std::string rows = ten_rows();
+  for (const char* names : {
+           "Time\xC2\xA0(s),Extension\xC2\xA0(mm),Load\xE2\x80\xAF(kN)",
+           "Time\xA0(s),Position\xA0[mm],Force\xA0[kN]",
+           "time [s],displacement [\xC2\xA0mm],force [kN\xC2\xA0]",
+           "Time,Displacement,Force\n(s)\xC2\xA0,(mm)\xC2\xA0,(kN)\xC2\xA0",
+           "Total Time (s),Position(Linear:Position) (mm),Load(Linear:Load) (kN)",
+           "Time (s),\"Position(8800 (0,1):Position) (mm)\",\"Load(8800 (0,1):Load) (kN)\"",
+           "Pr\xC3\xBC"
+           "fzeit;Standardweg;Standardkraft\ns;mm;kN",
+           "Pr\xFC"
+           "fzeit,Traversenweg,Standardkraft\ns,mm,kN",
+           "Zeit [s],Verschiebung [mm],Last [kN]",
+           "Zeit (s),Kompressive Verschiebung (mm),Kompressive Last (kN)",
+           "Running Time (s),Axial Displacement (mm),Axial Force (kN)",
+       }) {
+    std::string body = rows;
+    const std::string text(names);
+    if (text.find(';') != std::string::npos) std::ranges::replace(body, ',', ';');
+    const Recording recording = parse_csv(text + "\n" + body, "a.csv");
+    EXPECT_DOUBLE_EQ(recording.displacement[3], 9e-3) << names;
+    EXPECT_DOUBLE_EQ(recording.force[2], 20e3) << names;
+  }
+  const auto inches = parse_csv("Time (sec.),Extension (in.),Load (lbf)\n" + rows, "a.csv");
+  EXPECT_DOUBLE_EQ(inches.displacement[3], 9 * 0.0254);
+  // A mapping is typed with a space.
+  EXPECT_DOUBLE_EQ(parse_csv("time [s],x [mm],Cell\xC2\xA0"
+                             "2 [kN]\n" +
+                                 rows,
+                             "a.csv", mapped({{"force", "Cell 2"}}))
+                       .force[2],
+                   20e3);
+  // The time of a cycle begins again.
+  const std::string wave =
+      "Total Time (s),Cycle Elapsed Time (s),Position(Linear:Position) (mm),Load(Linear:Load) (kN)\n";
+  std::string cycles;
+  for (int n = 0; n < 10; ++n) cycles += fmt::format("{},{},{},{}\n", n, n % 3, n * n, 10 * n);
+  EXPECT_EQ(parse_csv(wave + cycles, "a.csv").time[7], 7.0);
+  // What may be two is asked for.
+  EXPECT_EQ(message_of<InputError>(
+                [&] { (void)parse_csv("Zeit [s],Weg [mm],Standardkraft [N],Reibkraft [N]\n1,2,3,4\n", "a.csv"); }),
+            "a.csv:1: 2 columns may be the force ('Standardkraft [N]', 'Reibkraft [N]'), expected one, or column "
+            "force=NAME to choose");
+  EXPECT_NE(message_of<InputError>([&] {
+              (void)parse_csv("Zeit [s],Weg [mm],Last\n" + rows, "a.csv");
+            }).find("no force column"),
+            std::string::npos);
+  EXPECT_EQ(message_of<InputError>([&] { (void)parse_csv("time (hh:mm:ss),x [mm],F [N]\n" + rows, "a.csv"); }),
+            "a.csv:1: unknown unit 'hh:mm:ss' of time, expected one of s, ms, us, min, h");
+}
+
+TEST(Csv, MistypedChannelsAreOfferedTheNearest) {
+  const auto refused = [](const std::string& names, const ReadOptions& options = {}) {
+    return message_of<InputError>([&] { (void)parse_csv(names + "\n" + ten_rows(), "a.csv", options); });
+  };
+  const auto begins = [](const std::string& text, const std::string& with) {
+    EXPECT_TRUE(text.starts_with(with)) << text;
+  };
+  begins(refused("time [s],x [mm],F [N]", mapped({{"forse", "F"}})),
+         "column forse=F: unknown channel 'forse' (did you mean 'force'?), expected one of time, ");
+  begins(refused("time [s],x [mm],forse [N]"), "a.csv:1: no force column (did you mean 'forse [N]'?), expected one ");
+  begins(refused("tmie [s],x [mm],F [N]"), "a.csv:1: no time column (did you mean 'tmie [s]'?), expected one ");
+  begins(refused("time,Axial Displacment,F"),
+         "a.csv:1: no displacement column (did you mean 'Axial Displacment'?), expected one ");
+  begins(refused("time [s],x [mm],forse [V]"), "a.csv:1: no force column, expected one ");
+  begins(refused("time [s],x [mm],valve [N]"), "a.csv:1: no force column, expected one ");
 }
 
 TEST(Csv, ColumnsThatAreNoChannelAreKeptAsTheirMean) {
@@ -180,16 +292,17 @@ TEST(Csv, DecimalsThatMayBeThousandsAreTold) {
     (void)parse_csv(text, "a.csv", options);
     return lines;
   };
-  std::string three = "t;x;F\n";
+  std::string three = "t [s];x [mm];F [N]\n";
   for (int n = 1; n < 10; ++n)
     three += std::to_string(n) + ";" + std::to_string(n * n) + ";1,12" + std::to_string(n) + "\n";
   EXPECT_EQ(said(three),
             "force '1,121' of line 2 is read with three decimals, as all numbers with a mark: where that stands "
             "between thousands, export them without\n");
   // One number that has decimals for certain, or a thousand without a mark, tells of all.
-  for (const char* more : {"20;1;0,5\n", "20;1;1,5\n", "20;1;1500\n"}) EXPECT_EQ(said(three + more), "") << more;
+  const std::string commas = "numbers are read with decimal commas, columns as separated by semicolons\n";
+  for (const char* more : {"20;1;0,5\n", "20;1;1,5\n", "20;1;1500\n"}) EXPECT_EQ(said(three + more), commas) << more;
   EXPECT_EQ(said(rows_with("", "1.01")), "");
-  EXPECT_EQ(said(rows_with(",0", "1,010")), "");
+  EXPECT_EQ(said(rows_with(",0", "1,010")), commas);
 }
 
 // Columns that are no channel may hold anything; what cannot be of one mark has no mean.
@@ -344,7 +457,7 @@ TEST(Csv, WrongInputsAreOneClearLine) {
       {"no time", "x,F\n1,2\n",
        ":1: no time column, expected one named time, t (or its German, French, Italian or Spanish word), or column "
        "time=NAME; " +
-           present + "'x', 'F'"},
+           present + "'x', 'F'; a law whose force does not depend on the rate needs none, with without time"},
       {"no displacement", "t,F\n1,2\n",
        ":1: no displacement column, expected one named displacement, disp, x, displ, position, pos, travel, lvdt, "
        "stroke, crosshead, extension, "
