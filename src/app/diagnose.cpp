@@ -11,6 +11,7 @@
 #include "app/unfinished.hpp"
 #include "app/values.hpp"
 #include "core/error.hpp"
+#include "core/printable.hpp"
 #include "io/checkpoint.hpp"
 #include "io/output.hpp"
 #include "report/html.hpp"
@@ -33,7 +34,7 @@ struct Options {
 };
 
 void tell_found(const Checkpoint& checkpoint, bool quiet) {
-  const std::string path = checkpoint.path().string();
+  const std::string path = printable(checkpoint.path().string());
   switch (checkpoint.found()) {
     case Checkpoint::Found::nothing:
     case Checkpoint::Found::in_use:  // trouble(), which is told with what else may go wrong
@@ -52,10 +53,12 @@ void tell_found(const Checkpoint& checkpoint, bool quiet) {
   }
 }
 
+// Share of the time that the diagnosis takes; then its records are made.
+constexpr double of_diagnosis = 0.69;
+
 // Nothing where it was interrupted, which is said: what is known so far, and that rerunning the command resumes.
 std::unique_ptr<Diagnosis> diagnosed(const Campaign& campaign, DiagnoseOptions options, Checkpoint* checkpoint,
-                                     bool quiet) {
-  ProgressLine progress(quiet);
+                                     ProgressLine& progress) {
   Unfinished unfinished;
   bool told = false;
   const auto tell_trouble = [&] {
@@ -64,7 +67,7 @@ std::unique_ptr<Diagnosis> diagnosed(const Campaign& campaign, DiagnoseOptions o
     }
     progress.finish();
     fmt::print(stderr, "warning: {} cannot be kept: {}; an interruption would lose the work\n",
-               checkpoint->path().string(), checkpoint->trouble());
+               printable(checkpoint->path().string()), checkpoint->trouble());
     told = true;
   };
   options.checkpoint = checkpoint;
@@ -80,8 +83,8 @@ std::unique_ptr<Diagnosis> diagnosed(const Campaign& campaign, DiagnoseOptions o
       if (interrupted()) {
         throw Stopped{};
       }
-      progress.show(stage, share, "");
-      unfinished.stage(share, stage);
+      progress.show(stage, of_diagnosis * share, "");
+      unfinished.stage(of_diagnosis * share, stage);
       tell_trouble();
     });
   } catch (const Stopped&) {
@@ -92,18 +95,18 @@ std::unique_ptr<Diagnosis> diagnosed(const Campaign& campaign, DiagnoseOptions o
     }
     throw;
   }
-  progress.finish();
   tell_trouble();
   if (!interrupted()) {
     return result;
   }
+  progress.finish();
   const std::size_t pieces = checkpoint == nullptr || told ? 0 : checkpoint->pieces();
   if (pieces > 0) {
     unfinished.write(checkpoint->path().parent_path() / "interrupted.json", pieces);
   }
-  fmt::print(stderr, "interrupted {}; {}\n", unfinished.sentence(),
+  fmt::print(stderr, "interrupted {}; {}\n", printable(unfinished.sentence()),
              pieces > 0 ? fmt::format("{} finished pieces of work are in {}; rerun the command to resume", pieces,
-                                      checkpoint->path().string())
+                                      printable(checkpoint->path().string()))
                         : "nothing was written");
   return nullptr;
 }
@@ -136,8 +139,9 @@ void run(const Options& options) {
     checkpoint.emplace(out / "diagnosis.partial", identity_of(campaign, diagnose_with));
     tell_found(*checkpoint, options.common.quiet);
   }
+  ProgressLine progress(options.common.quiet);
   const std::unique_ptr<Diagnosis> diagnosis =
-      diagnosed(campaign, diagnose_with, checkpoint ? &*checkpoint : nullptr, options.common.quiet);
+      diagnosed(campaign, diagnose_with, checkpoint ? &*checkpoint : nullptr, progress);
   if (diagnosis == nullptr) {
     return;
   }
@@ -145,8 +149,10 @@ void run(const Options& options) {
     make_output_folder(out);
   }
 
-  const auto [diagnosis_file, model_file, page] =
-      records_of(*diagnosis, campaign, diagnose_with, remarks, command_line());
+  const auto [diagnosis_file, model_file, page] = records_of(
+      *diagnosis, campaign, diagnose_with, remarks, command_line(),
+      [&](double share) { progress.show("preparing the report", of_diagnosis + (1.0 - of_diagnosis) * share, ""); });
+  progress.finish();
 
   if (!to_files) {
     write_result(options.out, json_text(diagnosis_file));
@@ -166,7 +172,7 @@ void run(const Options& options) {
     fmt::print("{}", json_text(diagnosis_file));
   } else {
     fmt::print("{}report: {}\n", diagnosis_text(diagnosis_file, (out / "diagnosis.json").string()),
-               (out / "report.html").string());
+               printable((out / "report.html").string()));
   }
 }
 

@@ -177,7 +177,13 @@ std::string note_of_apart(const Campaign& campaign) {
 }
 
 std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const Split& split, const DiagnoseOptions& options,
-                                    const SearchProgress& progress) {
+                                    const SearchProgress& told) {
+  // A search that takes something back does again what it has done: nobody is told less than before.
+  double reached = 0.0;
+  const SearchProgress progress = [&](double share, const std::string& stage) {
+    reached = std::max(reached, share);
+    told(reached, stage);
+  };
   check_samples(split);
   std::vector<std::string> notes;
   Workbenches benches = workbenches_of(campaign, split, options, notes);
@@ -200,7 +206,7 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const Split& split
   searching.laws = options.laws;
   searching.stands = options.stands;
   Judgement judgement = behind_asked_or_better({diagnosis.bench, quick, fine, benches.every, searching, doubt},
-                                               options.model, within(progress, 0.0, 0.85), diagnosis.notes);
+                                               options.model, within(progress, 0.0, 0.91), diagnosis.notes);
   diagnosis.search = std::move(judgement.search);
   diagnosis.asked = std::move(judgement.asked);
   diagnosis.surprises = std::move(judgement.surprising);
@@ -220,7 +226,7 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const Split& split
   }
   estimate_noise_floor(diagnosis, options.objective.normalisation);
 
-  progress(0.85, "locating the misfit");
+  progress(0.91, "locating the misfit");
   // Where nothing but noise is left, places of it would be those of chance.
   if (diagnosis.verdict.answer != Answer::complete &&
       (structured(diagnosis.search.base_misfit) || !diagnosis.search.found.empty())) {
@@ -263,7 +269,7 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const Split& split
   note_verdict(diagnosis);
   diagnosis.summary = summary_of(diagnosis);
 
-  progress(0.88, "final fit");
+  progress(0.97, "final fit");
   const bool roles = std::ranges::any_of(campaign.roles, [](Role role) { return role == Role::validate; });
   diagnosis.final = fine.on_all(diagnosis.search.augmented,
                                 thinned(roles ? diagnosis.bench.split().fit : campaign.recordings, fine_samples), 5);
@@ -296,7 +302,7 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& recorded, const DiagnoseOpti
   Split other = split_of(campaign, result->surprises);
   other.how +=
       " (first others, of which " + joined(result->surprises, " and ") + " showed what the fitted ones did not)";
-  return noted(diagnose(campaign, other, options, progress));
+  return noted(diagnose(campaign, other, options, within(progress, 0.0, 1.0, "with others held out: ")));
 }
 
 }  // namespace hysteron

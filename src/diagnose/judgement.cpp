@@ -25,22 +25,31 @@ Judgement judge_search(Search found, const Searching& searching, const SearchPro
   result.search = std::move(found);
   progress(0.0, "trying the effects behind other damper laws");
   try_behind_other_laws(result.search, searching.quick);
-  progress(0.5, "weighing the evidence");
+  const auto weighing = [&](double share) { progress(share, "weighing the evidence"); };
+  weighing(0.1);
   // Of every sample: what relaxes after a stop, or lags, is over within what a thinned recording leaves out.
   result.contrasts = contrasts(bench.split().fit, bench.plain_residuals(result.search.base), bench.motions());
+  const auto pieces = static_cast<double>(result.search.found.size() + 1);
+  double done = 0.0;
   for (Found& one : result.search.found) {
+    weighing(0.1 + 0.4 * ++done / pieces);
     one.contrasts = one.without.what == result.search.base.what
                         ? result.contrasts
                         : contrasts(bench.split().fit, bench.plain_residuals(one.without), bench.motions());
   }
+  double compared = 0.0;
   const Circumstances known = {
       [&](const Fit& fit, const std::string& effect) { return result.estimates->intervals(fit, effect); },
       velocity_channel_lag(bench.split().fit), result.contrasts,
       [&](const Fit& fit) {
+        weighing(0.7 + 0.3 * compared / (compared + pieces));
+        compared += 1.0;
         return contrasts(bench.split().fit, bench.plain_residuals(fit), bench.motions(), Placebos::none);
       }};
+  weighing(0.5);
   result.surprising = surprises(bench, result.search.augmented);
   result.tone = tone_left(result.search, bench);
+  weighing(0.6);
   result.evidence = evidence_of(result.search, fine, known);
   const Doubt doubt = doubt_of_completeness(result.search, fine, result.surprising, result.tone);
   result.evidence.doubt_of_completeness = doubt.why;
@@ -72,26 +81,29 @@ Judgement with_recording_checks(Judgement judgement, const Searching& searching)
 Judgement behind_asked_or_better(Searching searching, const std::string& asked, const SearchProgress& progress,
                                  std::vector<std::string>& notes) {
   double reached = 0.0;
+  // Of the whole, where no other law is searched behind.
+  constexpr double of_search = 0.6;
   Search asked_search = search_behind(asked, searching, [&](double share, const std::string& stage) {
-    reached = share;
-    progress(share, stage);
+    reached = of_search * share;
+    progress(reached, stage);
   });
-  // From where it came to so much of the whole.
-  const auto next = [&](double to, const std::string& before = {}) {
-    const double from = std::exchange(reached, std::max(reached, to));
+  // So much of what is left from where it came.
+  const auto next = [&](double part, const std::string& before = {}) {
+    const double from = std::exchange(reached, reached + part * (1.0 - reached));
     return within(progress, from, reached, before);
   };
-  Judgement first = judge_search(std::move(asked_search), searching, next(reached + 0.05));
+  const double of_first = asked_search.limited ? 0.2 : 0.9;
+  Judgement first = judge_search(std::move(asked_search), searching, next(of_first));
   const std::string law = better_law(first.evidence);
   std::optional<Search> other;
   if (!law.empty()) {
-    other = search_behind(law, searching, next(0.65, "behind " + law + ": "));
+    other = search_behind(law, searching, next(0.5, "behind " + law + ": "));
   }
   const bool beaten = other && squared(first.search.augmented.cost) > comparable * squared(other->augmented.cost);
   if (first.search.limited && !beaten) {
     searching.options.in_full = true;
-    Search in_full = search_behind(asked, searching, next(0.85, "behind " + asked + " again: "));
-    first = judge_search(std::move(in_full), searching, next(0.9));
+    Search in_full = search_behind(asked, searching, next(0.6, "behind " + asked + " again: "));
+    first = judge_search(std::move(in_full), searching, next(0.5));
   }
   if (!other) {
     return with_recording_checks(std::move(first), searching);
@@ -101,7 +113,7 @@ Judgement behind_asked_or_better(Searching searching, const std::string& asked, 
       replacement_errors) {
     return with_recording_checks(std::move(first), searching);
   }
-  take_parts_of_law(*other, first.search, searching.quick, searching.options, next(0.75, "behind " + law + ": "));
+  take_parts_of_law(*other, first.search, searching.quick, searching.options, next(0.1, "behind " + law + ": "));
   Judgement second = judge_search(std::move(*other), searching, next(1.0, "behind " + law + ": "));
   second.evidence.asked_for = asked;
   second.evidence.behind_asked = {first.evidence};

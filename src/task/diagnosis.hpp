@@ -1,6 +1,7 @@
 // What `hysteron diagnose` works out beside the diagnosis itself: its records.
 #pragma once
 
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -19,8 +20,10 @@ struct DiagnosisRecords {
   nlohmann::json model_file;      // model.json, the augmented model
   nlohmann::json page;            // for fit_report_html
 };
-// `remarks` of the recordings are its warnings, `command` is what it can be made again by.
+// `remarks` of the recordings are its warnings, `command` is what it can be made again by. `done` is told the share of
+// the work that is done.
 DiagnosisRecords records_of(const Diagnosis& diagnosis, const Campaign& campaign, const DiagnoseOptions& options,
-                            const std::vector<std::string>& remarks, const std::string& command);
+                            const std::vector<std::string>& remarks, const std::string& command,
+                            const std::function<void(double share)>& done = {});
 
 }  // namespace hysteron

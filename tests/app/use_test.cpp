@@ -12,6 +12,7 @@
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 #include <string>
 #include <thread>
@@ -196,49 +197,101 @@ TEST_F(Use, APublishedTableTakesSettingsOfItsSolvers) {
   }
 }
 
-TEST_F(Use, ProgressIsOneLineNoWiderThanTheTerminal) {
-  const int master = posix_openpt(O_RDWR | O_NOCTTY);
-  ASSERT_GE(master, 0);
-  ASSERT_EQ(grantpt(master), 0);
-  ASSERT_EQ(unlockpt(master), 0);
-  const std::string slave = ptsname(master);
-  const int held = open(slave.c_str(), O_RDWR | O_NOCTTY);  // so that the end of the program is no error of reading
-  constexpr winsize size{24, 40, 0, 0};
-  ASSERT_EQ(ioctl(held, TIOCSWINSZ, &size), 0);
-  std::string shown;
-  std::thread reader([&] {
-    char buffer[4096];
-    for (ssize_t count = 0; !shown.ends_with('#') && (count = ::read(master, buffer, sizeof buffer)) > 0;) {
-      shown.append(buffer, static_cast<std::size_t>(count));
+// What a command shows on a terminal of 40 columns, as lines that replace one another.
+class Terminal : public Program {
+ protected:
+  void show(const std::vector<std::string>& words, std::vector<std::string>& lines) const {
+    const int master = posix_openpt(O_RDWR | O_NOCTTY);
+    ASSERT_GE(master, 0);
+    ASSERT_EQ(grantpt(master), 0);
+    ASSERT_EQ(unlockpt(master), 0);
+    const std::string slave = ptsname(master);
+    const int held = open(slave.c_str(), O_RDWR | O_NOCTTY);  // so that the end of the program is no error of reading
+    constexpr winsize size{24, 40, 0, 0};
+    ASSERT_EQ(ioctl(held, TIOCSWINSZ, &size), 0);
+    std::string shown;
+    std::thread reader([&] {
+      char buffer[4096];
+      for (ssize_t count = 0; !shown.ends_with('#') && (count = ::read(master, buffer, sizeof buffer)) > 0;) {
+        shown.append(buffer, static_cast<std::size_t>(count));
+      }
+    });
+    const Outcome outcome = run(words, [&] { dup2(open(slave.c_str(), O_WRONLY | O_NOCTTY), STDERR_FILENO); });
+    EXPECT_EQ(::write(held, "#", 1), 1);
+    reader.join();
+    close(held);
+    close(master);
+    ASSERT_EQ(outcome.status, 0);
+    std::stringstream parts(shown.substr(0, shown.rfind("\r\033[K")));
+    for (std::string part; std::getline(parts, part, '\r');) {
+      if (part.starts_with("\033[K")) lines.push_back(part.substr(3));
     }
-  });
-  const Outcome outcome =
-      run({"fit", "data", "--model", "bouc-wen", "--solver", "pso", "--budget", "5000", "--out", "out"},
-          [&] { dup2(open(slave.c_str(), O_WRONLY | O_NOCTTY), STDERR_FILENO); });
-  ASSERT_EQ(::write(held, "#", 1), 1);
-  reader.join();
-  close(held);
-  close(master);
-  ASSERT_EQ(outcome.status, 0);
-  std::size_t lines = 0;
-  std::stringstream parts(shown.substr(0, shown.rfind("\r\033[K")));
-  for (std::string part; std::getline(parts, part, '\r');) {
-    if (!part.starts_with("\033[K")) continue;
-    EXPECT_LE(part.size() - 3, 39U) << part;
-    EXPECT_EQ(part.find('\n'), std::string::npos) << part;
-    ++lines;
   }
-  EXPECT_GT(lines, 1U) << shown;
+};
+
+TEST_F(Terminal, ProgressIsOneLineNoWiderThanIt) {
+  std::vector<std::string> lines;
+  show({"fit", "data", "--model", "bouc-wen", "--solver", "pso", "--budget", "5000", "--out", "out"}, lines);
+  for (const std::string& line : lines) {
+    EXPECT_LE(line.size(), 39U) << line;
+    EXPECT_EQ(line.find('\n'), std::string::npos) << line;
+  }
+  EXPECT_GT(lines.size(), 1U);
+}
+
+TEST_F(Terminal, ProgressOfADiagnosisGrowsInItsStages) {
+  std::vector<std::string> lines;
+  show({"diagnose", "data", "--model", "viscous", "--by-current", "c0:1", "--effects",
+        "coulomb-friction,offset-force,quadratic-damping,inertia", "--out", "out"},
+       lines);
+  int before = 0;
+  std::set<int> shares;
+  for (const std::string& line : lines) {
+    if (line.find('%') == std::string::npos) continue;
+    const int share = std::stoi(line);
+    EXPECT_GE(share, before) << line;
+    before = share;
+    shares.insert(share);
+  }
+  EXPECT_GE(before, 69) << "what follows the diagnosis is shown too";
+  EXPECT_GE(shares.size(), 6U);
 }
 
 TEST(ProgressText, SaysWhatHowFarHowLong) {
   using app::progress_text;
-  EXPECT_EQ(progress_text("pso", 0.25, "250 of 1000", 10.0, 80), "25 %  10 s, about 30 s left  pso  250 of 1000");
-  EXPECT_EQ(progress_text("pso", 0.25, "", 400.0, 80), "25 %  7 min, about 20 min left  pso");
-  EXPECT_EQ(progress_text("pso", 0.0, "", 5.0, 80), "0 %  5 s  pso") << "nothing is known of what is left";
-  EXPECT_EQ(progress_text("pso", 0.5, "", 1.0, 80), "50 %  1 s  pso");
-  EXPECT_EQ(progress_text("pso", 0.99, "", 50.0, 80), "99 %  50 s, nearly done  pso");
-  EXPECT_EQ(progress_text("\xc3\xa9\xc3\xa9\xc3\xa9", 0.5, "", 1.0, 13), "50 %  1 s  \xc3\xa9\xc3\xa9") << "characters, not bytes";
+  EXPECT_EQ(progress_text("pso", 0.25, "250 of 1000", 10.0, 30.0, 80), "25 %  10 s, about 30 s left  pso  250 of 1000");
+  EXPECT_EQ(progress_text("pso", 0.25, "", 400.0, 1200.0, 80), "25 %  7 min, about 20 min left  pso");
+  EXPECT_EQ(progress_text("pso", 0.0, "", 5.0, {}, 80), "0 %  5 s  pso") << "nothing is known of what is left";
+  EXPECT_EQ(progress_text("pso", 0.99, "", 50.0, 0.5, 80), "99 %  50 s, nearly done  pso");
+  EXPECT_EQ(progress_text("\xc3\xa9\xc3\xa9\xc3\xa9", 0.5, "", 1.0, {}, 13), "50 %  1 s  \xc3\xa9\xc3\xa9")
+      << "characters, not bytes";
+  EXPECT_EQ(progress_text("a\x1B[2Jb", 0.5, "\n", 1.0, {}, 80), "50 %  1 s  a\\x1B[2Jb   ");
+}
+
+// Work that goes on evenly is foretold; what is a guess, or known to be wrong, is not said.
+TEST(ProgressText, SaysWhatIsLeftOnceThatIsKnown) {
+  app::TimeLeft even;
+  EXPECT_FALSE(even.after(10.0));
+  for (int k = 0; k <= 40; ++k) {
+    even.advance(0.01 * k, 0.4 * k);
+    EXPECT_EQ(even.after(0.4 * k).has_value(), k >= 25) << k;
+  }
+  EXPECT_NEAR(*even.after(16.0), 24.0, 1e-9);
+  EXPECT_NEAR(*even.after(18.0), 22.0, 1e-9) << "it does not grow by waiting";
+  EXPECT_FALSE(even.after(24.0)) << "the next share is overdue";
+  even.advance(0.1, 0.0);
+  EXPECT_FALSE(even.after(20.0)) << "other work";
+
+  app::TimeLeft fitful;  // shares that promise 20 s, then 100 s
+  fitful.advance(0.2, 4.0);
+  fitful.advance(0.3, 6.0);
+  EXPECT_TRUE(fitful.after(6.0));
+  fitful.advance(0.31, 31.0);
+  EXPECT_FALSE(fitful.after(31.0));
+  fitful.advance(0.4, 40.0);
+  EXPECT_FALSE(fitful.after(40.0));
+  fitful.advance(0.6, 60.0);
+  EXPECT_NEAR(fitful.after(60.0).value_or(0.0), 40.0, 1e-9) << "it has settled";
 }
 
 // ---- Motions that are not those of a damper ----

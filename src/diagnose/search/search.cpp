@@ -66,9 +66,11 @@ Search search(const Workbench& bench, const Workbench& fine, const Hypothesis& b
   }
   const Misfit left = misfit_of(bench, course.current);
   course.independent = left.independent;
-  progress(0.05, "fitting other damper laws");
+  double tried = 0.0;
   double best_law = squared(result.quick_base.cost);
   for (const std::string& law : options.laws) {
+    progress(0.05 + 0.05 * tried / static_cast<double>(options.laws.size()), "fitting other damper laws");
+    tried += 1.0;
     if (base.model != law) {
       result.other_laws.push_back(bench.from_anywhere({law, {}, {}}, options.base_budget / 4));
       best_law = std::min(best_law, squared(result.other_laws.back().cost));

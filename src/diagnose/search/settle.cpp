@@ -73,7 +73,8 @@ Found taken_out(const Course& course, const Extension& part) {
 
 // What is set in the place of a part: what came closest, and its relatives among the candidates. A rival is judged from
 // the best start it can have: the damper's parameters without the effect, and with it.
-std::vector<Tried> rivals_of(const Course& course, const Found& found, const std::vector<Extension>& candidates) {
+std::vector<Tried> rivals_of(const Course& course, const Found& found, const std::vector<Extension>& candidates,
+                             const std::function<void(double share)>& done) {
   std::vector<Extension> others;
   for (const Extension& other : closest(course.stages, rival_count)) {
     if (other != found.part && !contains(course.current.what, other)) {
@@ -92,7 +93,8 @@ std::vector<Tried> rivals_of(const Course& course, const Found& found, const std
       }
     }
   }
-  std::vector<Tried> rivals = stage(course.bench, found.without, others, course.independent, &course.current, kin);
+  std::vector<Tried> rivals =
+      stage(course.bench, found.without, others, course.independent, &course.current, kin, done);
   if (same_parts(found.without.what, course.base) && !course.stages.empty()) {
     for (const Tried& tried : course.stages.front()) {
       const auto again = std::ranges::find(rivals, tried.part, &Tried::part);
@@ -108,9 +110,10 @@ std::vector<Tried> rivals_of(const Course& course, const Found& found, const std
 }
 
 // Sets the part against its rivals. The fit with one in its place that does clearly better, if any.
-std::optional<Fit> contested(Course& course, Found& found, const std::vector<Extension>& candidates) {
+std::optional<Fit> contested(Course& course, Found& found, const std::vector<Extension>& candidates,
+                             const std::function<void(double share)>& done) {
   std::optional<Fit> better;
-  for (const Tried& rival : rivals_of(course, found, candidates)) {
+  for (const Tried& rival : rivals_of(course, found, candidates, done)) {
     Rival row{rival.part, rival.gain / found.gain, 0.0, rival.fit};
     if (!rival.fit) {
       found.rivals.push_back(row);
@@ -184,12 +187,15 @@ std::vector<Found> settled(Course& course, const std::vector<Extension>& candida
     }
     std::vector<Found> result = worth_their_place(course);
     bool swapped = false;
-    double done = 0.0;
+    double before = 0.0;
     for (Found& found : result) {
-      progress(0.6 + 0.15 * done / static_cast<double>(result.size()),
-               "setting " + name_of(found.part) + " against its rivals");
-      done += 1.0;
-      const std::optional<Fit> replacement = contested(course, found, candidates);
+      const auto done = [&](double share) {
+        progress(0.6 + 0.25 * (before + share) / static_cast<double>(result.size()),
+                 "setting " + name_of(found.part) + " against its rivals");
+      };
+      done(0.0);
+      const std::optional<Fit> replacement = contested(course, found, candidates, done);
+      before += 1.0;
       if (replacement && course.swaps < most_swaps && !found.told) {
         ++course.swaps;
         course.current = *replacement;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 
 #include "diagnose/residual/misfit.hpp"
 #include "diagnose/search/relatives.hpp"
@@ -31,6 +32,9 @@ constexpr double refuted = 2.0;
 constexpr std::ptrdiff_t most_in_series = 2;
 // The highest order of a law in the drive where it varies within recordings.
 constexpr int most_order = 3;
+// Shares of the time of a stage after which all hypotheses have been looked at, and the refits are done.
+constexpr double looked_at = 0.3;
+constexpr double refits_done = 0.7;
 
 // The highest order of a law in the drive that the recordings can tell.
 int highest_order(const std::vector<Recording>& recordings) {
@@ -106,7 +110,8 @@ Tried weighed(const Extension& part, const Fit& fit, double squares_before, std:
 }
 
 std::vector<Tried> stage(const Workbench& bench, const Fit& before, const std::vector<Extension>& candidates,
-                         double independent, const Fit* also, const std::vector<Extension>& always) {
+                         double independent, const Fit* also, const std::vector<Extension>& always,
+                         const std::function<void(double share)>& done) {
   std::vector<Extension> open;
   const auto elements = std::ranges::count_if(before.what.effects, in_series);
   const bool series_is_full = elements >= most_in_series;
@@ -125,6 +130,7 @@ std::vector<Tried> stage(const Workbench& bench, const Fit& before, const std::v
   }
   const std::vector<Scored> scores =
       scored(bench, before, open, also, elements > 0 ? starts_behind_series : std::size_t{0});
+  if (done) done(looked_at);
   const std::vector<bool> refit = chosen(scores, always, elements > 0 ? refitted_behind_series : refitted_at_most);
   std::vector<Tried> result(scores.size());
   std::vector<std::size_t> refitted;
@@ -140,6 +146,8 @@ std::vector<Tried> stage(const Workbench& bench, const Fit& before, const std::v
                  std::nullopt};
   }
   const Workbench each = bench.shared_by(refitted.size());
+  std::mutex counting;
+  std::size_t count = 0;
   parallel_for(refitted.size(), bench.options().threads, [&](std::size_t task) {
     const std::size_t k = refitted[task];
     const Starts& starts = scores[k].starts;
@@ -148,6 +156,9 @@ std::vector<Tried> stage(const Workbench& bench, const Fit& before, const std::v
     const std::optional<Fit> neutral = each.beside(before, scores[k].part);
     const double squares = squared(std::min(before.cost, neutral ? neutral->cost : before.cost));
     result[k] = weighed(scores[k].part, fit, squares, before.dimension(), independent);
+    if (!done) return;
+    const std::scoped_lock lock(counting);
+    done(looked_at + (refits_done - looked_at) * static_cast<double>(++count) / static_cast<double>(refitted.size()));
   });
   std::ranges::stable_sort(result, better);
   std::vector<Fit> best;

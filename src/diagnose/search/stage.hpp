@@ -2,6 +2,7 @@
 // all other parameters.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -41,9 +42,11 @@ Tried weighed(const Extension& part, const Fit& fit, double squares_before, std:
 
 // All candidates behind `before`, the promising ones refitted: best first, those refitted before the others. Members of
 // `always` are refitted whatever their score, but behind a series element, where the four best scores take all places:
-// refits cost most there. The base's parameters start from those of `before` and, where given, of `also`.
+// refits cost most there. The base's parameters start from those of `before` and, where given, of `also`. `done` is
+// told the share of it that is done, from one thread at a time.
 std::vector<Tried> stage(const Workbench& bench, const Fit& before, const std::vector<Extension>& candidates,
-                         double independent, const Fit* also = nullptr, const std::vector<Extension>& always = {});
+                         double independent, const Fit* also = nullptr, const std::vector<Extension>& always = {},
+                         const std::function<void(double share)>& done = {});
 
 // Order of what was tried: refitted before not refitted, then by evidence.
 bool better(const Tried& a, const Tried& b);
