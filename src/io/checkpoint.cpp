@@ -81,6 +81,7 @@ Checkpoint::~Checkpoint() = default;
 // With tables and this command in them; false with trouble_ or found_ saying why not.
 bool Checkpoint::opened(bool create) {
   std::error_code ignored;
+  const bool fresh = create && !fs::exists(path_, ignored);
   if (create && path_.has_parent_path()) fs::create_directories(path_.parent_path(), ignored);
   database_ = std::make_unique<Database>();
   const int flags = SQLITE_OPEN_READWRITE | (create ? SQLITE_OPEN_CREATE : 0);
@@ -105,6 +106,7 @@ bool Checkpoint::opened(bool create) {
     found_ = Found::damaged;
   } else {
     trouble_ = sqlite3_errmsg(database_->handle);
+    if (fresh) discard();
   }
   database_.reset();
   return false;
@@ -184,6 +186,7 @@ void Checkpoint::keep(const std::string& key, std::string_view bytes) {
   if (code != SQLITE_DONE) {
     trouble_ = sqlite3_errmsg(database_->handle);
     database_.reset();
+    if (pieces_.empty()) discard();  // a file that holds nothing
     return;
   }
   pieces_.emplace(key, bytes);

@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <sqlite3.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -73,16 +74,22 @@ class Descriptor {
   int value_;
 };
 
+constexpr const char* lock_name = "store.lock";
+constexpr const char* fresh_name = "store.sqlite.new";
+
 // Held until the process ends, however it ends: the kernel drops it.
 Descriptor take_lock(const fs::path& folder) {
-  const fs::path path = folder / "store.lock";
+  const fs::path path = folder / lock_name;
   const int descriptor = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
   if (descriptor < 0) throw WorkError(path.string() + ": cannot be opened: " + std::strerror(errno));
   Descriptor lock(descriptor);
-  if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
-    throw WorkError(
-        folder.string() +
-        ": another process is writing this study; wait for it, or write to another folder and merge both");
+  struct stat status {};
+  // A file that has no name any more was taken away by a process whose store could not be made.
+  const bool held = ::flock(descriptor, LOCK_EX | LOCK_NB) == 0;
+  if (held && ::fstat(descriptor, &status) == 0 && status.st_nlink == 0) return take_lock(folder);
+  if (!held) {
+    throw WorkError(folder.string() +
+                    ": another process is writing this study; wait for it, or write to another folder and merge both");
   }
   return lock;
 }
@@ -238,6 +245,36 @@ void lay_out(const State& state) {
   state.execute("COMMIT");
 }
 
+// Makes the store where there is none.
+template <class State>
+void open_for_writing(State& state, const fs::path& folder) {
+  std::error_code ignored;
+  if (!fs::exists(state.path, ignored)) {
+    // Made under another name, so that an empty or half made store.sqlite is never a new one.
+    const fs::path fresh = folder / fresh_name;
+    fs::remove(fresh, ignored);
+    fs::remove(fresh.string() + "-journal", ignored);
+    {
+      State young;
+      young.path = fresh;
+      open_database(young, fresh.string(), SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE);
+      lay_out(young);
+    }
+    // A log without its store belongs to one that was taken away.
+    fs::remove(state.path.string() + "-wal", ignored);
+    fs::remove(state.path.string() + "-shm", ignored);
+    std::error_code code;
+    fs::rename(fresh, state.path, code);
+    if (code) throw WorkError(state.name() + ": cannot be made: " + code.message());
+  }
+  if (fs::file_size(state.path, ignored) == 0) state.damaged("the file is empty");
+  open_database(state, state.path.string(), SQLITE_OPEN_READWRITE);
+  verify(state);
+  state.writing = true;
+  state.execute("PRAGMA journal_mode=WAL");
+  state.execute("PRAGMA synchronous=NORMAL");
+}
+
 }  // namespace
 
 Store::Store(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -284,36 +321,31 @@ Store Store::open(const fs::path& folder, Mode mode) {
     verify(*state);
     return Store(std::move(state));
   }
+  const bool folder_was_there = fs::exists(folder, ignored);
   make_output_folder(folder);
   state->lock = take_lock(folder);
-  if (!fs::exists(state->path, ignored)) {
-    // Made under another name, so that an empty or half made store.sqlite is never a new one.
-    const fs::path fresh = folder / "store.sqlite.new";
-    fs::remove(fresh, ignored);
-    fs::remove(fresh.string() + "-journal", ignored);
-    {
-      State young;
-      young.path = fresh;
-      open_database(young, fresh.string(), SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE);
-      lay_out(young);
+  const bool store_was_there = fs::exists(state->path, ignored);
+  try {
+    open_for_writing(*state, folder);
+    Store store(std::move(state));
+    // A run is skipped because of its row: the row must be right.
+    static_cast<void>(store.records());
+    return store;
+  } catch (...) {
+    // Of a store that could not be made nothing stays; the lock is held until then.
+    const Descriptor lock = state ? std::move(state->lock) : Descriptor();
+    state.reset();
+    if (!store_was_there) {
+      for (const char* name : {"store.sqlite", fresh_name}) {
+        for (const char* ending : {"", "-wal", "-shm", "-journal"}) {
+          fs::remove(folder / (std::string(name) + ending), ignored);
+        }
+      }
+      fs::remove(folder / lock_name, ignored);
+      if (!folder_was_there) fs::remove(folder, ignored);
     }
-    // A log without its store belongs to one that was taken away.
-    fs::remove(state->path.string() + "-wal", ignored);
-    fs::remove(state->path.string() + "-shm", ignored);
-    std::error_code code;
-    fs::rename(fresh, state->path, code);
-    if (code) throw WorkError(state->name() + ": cannot be made: " + code.message());
+    throw;
   }
-  if (fs::file_size(state->path, ignored) == 0) state->damaged("the file is empty");
-  open_database(*state, state->path.string(), SQLITE_OPEN_READWRITE);
-  verify(*state);
-  state->writing = true;
-  state->execute("PRAGMA journal_mode=WAL");
-  state->execute("PRAGMA synchronous=NORMAL");
-  Store store(std::move(state));
-  // A run is skipped because of its row: the row must be right.
-  static_cast<void>(store.records());
-  return store;
 }
 
 void Store::set_meta(const std::string& name, const std::string& text) {
