@@ -45,7 +45,7 @@ function draw() {
     { title: "NRMSE, fitted", num: true }, { title: "NRMSE, unseen", num: true }, { title: "ΔAIC", num: true },
     { title: "ΔBIC", num: true }, { title: "Lag-1 correlation", num: true }, { title: "Lags not white", num: true }],
   models.map((m) => [m.label, String(m.free_parameters), fmt(m.nrmse.fitted), fmt(m.nrmse.unseen), signed(m.delta_aic, 1),
-    signed(m.delta_bic, 1), signed(m.residual.autocorrelation[0], 3), `${signed(100 * m.residual.lags_outside, 0)} %`]));
+    signed(m.delta_bic, 1), signed(m.residual.autocorrelation[0], 3), `${signed(100 * m.residual.lags_outside, 1)} %`]));
   const each = table("NRMSE of every recording", [{ title: "Recording" }, ...models.map((m) => ({ title: m.label, num: true }))],
     data.recordings.map((r) => [r.file, ...r.nrmse.map((v, k) => fmt(v) + (r.fitted[k] ? "" : " *"))]));
 

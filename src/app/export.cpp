@@ -10,6 +10,8 @@
 #include "app/result.hpp"
 #include "app/values.hpp"
 #include "core/error.hpp"
+#include "core/printable.hpp"
+#include "task/guesses.hpp"
 
 namespace hysteron::app {
 namespace {
@@ -39,11 +41,14 @@ std::optional<Recording> motion_of(const Options& options) {
 void run(const Options& options) {
   const std::string& out = options.request.out;
   refuse_inputs(out, {options.model, options.motion});
-  const ModelExport result =
-      export_model(read_model(options.model), numbers_at(options.data), motion_of(options), options.request);
+  StoredModel stored = read_model(options.model);
+  warn_of(units_assumed(stored, options.model));
+  const std::optional<Recording> motion = motion_of(options);
+  if (motion) warn_of(drive_assumed(stored, options.model, {*motion}));
+  const ModelExport result = export_model(std::move(stored), numbers_at(options.data), motion, options.request);
   if (!is_standard_output(out)) {
     for (const std::string& path : write_export(result)) {
-      fmt::print("{}\n", path);
+      fmt::print("{}\n", printable(path));
     }
     fmt::print("{}", result.note);
     return;

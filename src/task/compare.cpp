@@ -13,6 +13,7 @@
 #include "fit/predict.hpp"
 #include "fit/score.hpp"
 #include "fit/weighting.hpp"
+#include "io/csv_text.hpp"
 #include "io/mat5_writer.hpp"
 #include "report/csv.hpp"
 #include "report/terminal.hpp"
@@ -131,8 +132,9 @@ ModelComparison compare_models(const std::vector<ComparedModel>& given, const st
       common.push_back(r);
     }
   }
-  for (Compared& model : models) {
-    append(remarks, guesses_of(model.stored, model.label, recordings));
+  for (std::size_t k = 0; k < models.size(); ++k) {
+    Compared& model = models[k];
+    append(remarks, guesses_of(model.stored, given[k].file, recordings));
     append(remarks, beyond_fitted(model.stored, model.label, recordings));
     refuse_excitation(model.stored, model.label, recordings, remarks);
     std::vector<std::size_t> seen;
@@ -242,15 +244,15 @@ std::vector<std::pair<std::string, std::string>> comparison_tables(const json& f
   std::vector<std::vector<std::string>> models;
   for (const json& model : file["models"]) {
     const json& nrmse = model["nrmse"];
-    models.push_back({model["label"].get<std::string>(), std::to_string(model["free_parameters"].get<std::size_t>()),
-                      number(nrmse["overall"]), number(nrmse["fitted"]), number(nrmse["unseen"]), number(model["aic"]),
-                      number(model["bic"]), number(model["residual"]["autocorrelation"][0]),
-                      number(model["residual"]["lags_outside"])});
+    models.push_back({name_cell(model["label"].get<std::string>()),
+                      std::to_string(model["free_parameters"].get<std::size_t>()), number(nrmse["overall"]),
+                      number(nrmse["fitted"]), number(nrmse["unseen"]), number(model["aic"]), number(model["bic"]),
+                      number(model["residual"]["autocorrelation"][0]), number(model["residual"]["lags_outside"])});
   }
   std::vector<std::vector<std::string>> recordings;
   for (const json& recording : file["recordings"]) {
     for (std::size_t k = 0; k < models.size(); ++k) {
-      recordings.push_back({recording["file"].get<std::string>(), models[k][0],
+      recordings.push_back({name_cell(recording["file"].get<std::string>()), models[k][0],
                             recording["fitted"][k].get<bool>() ? "1" : "0", number(recording["nrmse"][k]),
                             number(recording["rmse_n"][k]), number(recording["fit_percent"][k])});
     }
@@ -286,7 +288,7 @@ std::string comparison_text(const json& file) {
     rows.push_back({number, std::to_string(model["free_parameters"].get<std::size_t>()), cell(model["nrmse"]["fitted"]),
                     cell(model["nrmse"]["unseen"]), fixed(model["delta_aic"]), fixed(model["delta_bic"]),
                     fmt::format("{:.3f}", residual["autocorrelation"][0].get<double>()),
-                    fmt::format("{:.0f}", 100.0 * residual["lags_outside"].get<double>())});
+                    fmt::format("{:.1f}", 100.0 * residual["lags_outside"].get<double>())});
     head.push_back("NRMSE " + number);
   }
   std::string text =

@@ -10,6 +10,7 @@
 #include "core/error.hpp"
 #include "core/frequency.hpp"
 #include "fit/layout.hpp"
+#include "task/remarks.hpp"
 
 namespace hysteron {
 namespace {
@@ -67,19 +68,36 @@ struct Farthest {
 
 }  // namespace
 
+std::vector<std::string> units_assumed(const StoredModel& stored, const std::string& path) {
+  if (stored.assumed_units.empty()) return {};
+  const auto& [name, unit] = stored.assumed_units.front();
+  const std::size_t others = stored.assumed_units.size() - 1;
+  return {fmt::format("{}: no unit beside the value of '{}'{}: taken in SI, '{}' in '{}'", path, name,
+                      others == 0 ? "" : fmt::format(" and {} more", others), name, unit)};
+}
+
+std::vector<std::string> drive_assumed(const StoredModel& stored, const std::string& path,
+                                       const std::vector<Recording>& recordings) {
+  if (stored.drive == DriveKind::none) return {};
+  const auto lacks = [](const Recording& recording) { return recording.drive.empty(); };
+  const auto first = std::ranges::find_if(recordings, lacks);
+  if (first == recordings.end()) return {};
+  const char* const drive_word = stored.drive == DriveKind::voltage ? "voltage" : "current";
+  const auto count = static_cast<std::size_t>(std::ranges::count_if(recordings, lacks));
+  return {fmt::format("{}: no {} column, and parameters of {} follow the {}: taken as zero{}", first->file, drive_word,
+                      path, drive_word, alike(count))};
+}
+
 std::vector<std::string> guesses_of(const StoredModel& stored, const std::string& path,
                                     const std::vector<Recording>& recordings) {
-  std::vector<std::string> remarks;
+  std::vector<std::string> remarks = units_assumed(stored, path);
+  append(remarks, drive_assumed(stored, path, recordings));
   const bool voltage = stored.drive == DriveKind::voltage;
   const char* const drive_word = voltage ? "voltage" : "current";
-  std::string without;
-  std::size_t count_without = 0;
   Farthest drive;
   Farthest frequency;
   for (const Recording& recording : recordings) {
-    if (stored.drive != DriveKind::none && recording.drive.empty()) {
-      if (count_without++ == 0) without = recording.file;
-    } else if (stored.drive_range && recording.drive_kind == stored.drive) {
+    if (stored.drive_range && !recording.drive.empty() && recording.drive_kind == stored.drive) {
       const auto [low, high] = std::ranges::minmax(recording.drive);
       drive.look(*stored.drive_range, recording.file, low, high);
     }
@@ -87,10 +105,6 @@ std::vector<std::string> guesses_of(const StoredModel& stored, const std::string
       const double hertz = dominant_frequency(recording);
       frequency.look(*stored.frequency_range, recording.file, hertz, hertz);
     }
-  }
-  if (count_without > 0) {
-    remarks.push_back(fmt::format("{}: no {} column, and parameters of {} follow the {}: taken as zero{}", without,
-                                  drive_word, path, drive_word, alike(count_without)));
   }
   if (stored.drive_range) drive.tell(*stored.drive_range, path, drive_word, voltage ? "V" : "A", remarks);
   if (stored.frequency_range) frequency.tell(*stored.frequency_range, path, "frequency", "Hz", remarks);

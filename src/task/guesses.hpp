@@ -8,10 +8,16 @@
 
 namespace hysteron {
 
-// Remarks where recordings lack the drive that the laws of a model follow, which counts as zero, and where drive,
-// frequency or conditions (follow_conditions) lie beyond what the laws were fitted over by more than a tenth of that: a
-// polynomial says nothing there. One line each for all recordings, of the one that is farthest out. `path` is the
-// model's.
+// A remark where parameters of a model file state no unit. `path` is the model's, as below.
+std::vector<std::string> units_assumed(const StoredModel& stored, const std::string& path);
+
+// A remark where recordings lack the drive that the laws of a model follow, which counts as zero.
+std::vector<std::string> drive_assumed(const StoredModel& stored, const std::string& path,
+                                       const std::vector<Recording>& recordings);
+
+// These, and remarks where drive, frequency or conditions (follow_conditions) lie beyond what the laws were fitted over
+// by more than a tenth of that: a polynomial says nothing there. One line each for all recordings, of the one that is
+// farthest out.
 std::vector<std::string> guesses_of(const StoredModel& stored, const std::string& path,
                                     const std::vector<Recording>& recordings);
 

@@ -40,6 +40,13 @@ std::optional<double> clock_since(const std::vector<Recording>& recordings) {
   return since;
 }
 
+// Of parameters that the model has: another law may stand in the place of the one that laws in the drive were asked
+// for.
+LawOrders of_parameters(LawOrders orders, const std::vector<std::string>& names) {
+  std::erase_if(orders, [&](const auto& law) { return std::ranges::find(names, law.first) == names.end(); });
+  return orders;
+}
+
 // What laws follow beside drive and frequency: unit, the range fitted over, order of every parameter.
 json by_json(const Layout& layout) {
   json result = json::object();
@@ -155,8 +162,8 @@ json model_json(const Identification& result, const Campaign& campaign, const Id
   json file = {{"schema", "hysteron.model/1"},
                {"model", result.layout.model().law->id},
                {"effects", effects},
-               {"by_current", options.layout.by_current},
-               {"by_frequency", options.layout.by_frequency},
+               {"by_current", of_parameters(options.layout.by_current, result.layout.names())},
+               {"by_frequency", of_parameters(options.layout.by_frequency, result.layout.names())},
                {"laws_fitted_over", range},
                {"fitted_over", fitted_over_json(result.fitted, campaign)},
                {"parameters", parameters},
@@ -229,6 +236,30 @@ std::optional<int> stated_order(const json& root, const char* key, const std::st
                      ", expected a whole number from 0 to 9");
   }
   return order.get<int>();
+}
+
+// In older files a diagnosis that put another law in the place of the one asked for kept what was asked of that.
+bool of_another_law(const json& root, const std::string& name) {
+  const json provenance = root.value("provenance", json::object());
+  return provenance.is_object() && provenance.value("command", "").starts_with("hysteron diagnose") &&
+         std::ranges::any_of(model_catalogue(), [&](const Part* law) {
+           return std::ranges::find(law->parameters, name, &Parameter::name) != law->parameters.end();
+         });
+}
+
+// Whose name a law is given under must be there: a mistyped one would be the law of nothing.
+void refuse_laws_of_nothing(const json& root, const std::vector<std::string>& names) {
+  for (const char* key : {"by_current", "by_frequency"}) {
+    const json laws = root.value(key, json::object());
+    if (laws.is_null()) continue;
+    if (!laws.is_object()) {
+      throw InputError(std::string(key) + " is " + laws.dump(-1, ' ', true) + ", expected an order for each parameter");
+    }
+    for (const auto& [name, order] : laws.items()) {
+      if (std::ranges::find(names, name) != names.end() || of_another_law(root, name)) continue;
+      throw InputError(std::string(key) + ": the model has no parameter '" + name + "'" + suggestion(name, names));
+    }
+  }
 }
 
 void refuse_impossible(const Parameter& card, const std::string& name, double value) {
@@ -387,6 +418,7 @@ StoredModel parse_model(std::string_view text, const std::string& path) {
     for (const Parameter& card : cards) {
       result.held.push_back(card.initial);
     }
+    refuse_laws_of_nothing(root, names);
     result.conditions = conditions_in(root, names);
     if (const json clock = root.value("by", json::object()).value(std::string(clock_condition), json::object());
         clock.contains("since")) {
@@ -419,6 +451,9 @@ StoredModel parse_model(std::string_view text, const std::string& path) {
       if (unit != expected) {
         throw InputError("parameter '" + term_name(name, read, result.conditions) + "' has the unit '" + unit +
                          "', expected '" + expected + "'");
+      }
+      if (!entry.contains("unit")) {
+        result.assumed_units.emplace_back(term_name(name, read, result.conditions), expected);
       }
       result.terms.push_back(read);
       result.searched += entry.value("fixed", false) ? 0 : 1;
@@ -459,7 +494,8 @@ void refuse_others(const std::map<std::string, ConditionNumber>& values, const s
     for (const std::string& one : followed) {
       expected += (expected.empty() ? "" : &one == &followed.back() ? " or " : ", ") + one;
     }
-    throw OptionError(Option::at + ": no parameter of the model follows '" + name + "', expected " +
+    throw OptionError(Option::at + ": no parameter of the model follows '" + name + "'" + suggestion(name, followed) +
+                      ", expected " +
                       (expected.empty() ? "no " + Option::at + ", since they follow nothing that it gives" : expected));
   }
 }

@@ -31,6 +31,8 @@ struct StoredModel {
   std::vector<ConditionRange> conditions;  // that laws follow, with the range they were fitted over
   std::size_t searched = 0;                // terms that were fitted, not held
   std::set<std::string> fitted_on;         // sha256 of the recordings
+  // Units of the parameters whose entries state none: theirs are taken to be these.
+  std::vector<std::pair<std::string, std::string>> assumed_units;
   // Where the laws were fitted, lowest and highest; none of files without laws and of those that do not say it.
   std::optional<std::pair<double, double>> drive_range;      // A or V
   std::optional<std::pair<double, double>> frequency_range;  // Hz

@@ -4,6 +4,7 @@
 
 #include "fit/predict.hpp"
 #include "fit/start.hpp"
+#include "io/csv_text.hpp"
 #include "report/csv.hpp"
 #include "task/finite.hpp"
 #include "task/guesses.hpp"
@@ -57,7 +58,7 @@ std::string score_csv(const CampaignScore& score, const std::vector<Recording>& 
   std::vector<std::vector<std::string>> cells;
   for (std::size_t k = 0; k < score.recordings.size(); ++k) {
     const Score& one = score.recordings[k];
-    cells.push_back({recordings[k].file, fmt::format("{}", one.nrmse), fmt::format("{}", one.rmse),
+    cells.push_back({name_cell(recordings[k].file), fmt::format("{}", one.nrmse), fmt::format("{}", one.rmse),
                      fmt::format("{}", one.fit_percent)});
   }
   return csv_table({"recording", "nrmse", "rmse [N]", "fit_percent"}, cells);

@@ -139,6 +139,9 @@ MassResponse response_to(StoredModel stored, const std::string& path, Recording 
   if (request.periods > 0) close_period(recording, base, remarks);
   Recording as_motion = recording;
   as_motion.displacement = base ? ground_of(recording) : recording.force;
+  if (!std::isnan(request.drive) && stored.drive == DriveKind::none) {
+    remarks.push_back(path + ": a drive is given, and no parameter of the model follows one: it changes nothing");
+  }
   if (!std::isnan(request.drive)) {
     as_motion.drive.assign(recording.size(), request.drive);
     as_motion.drive_kind = stored.drive;

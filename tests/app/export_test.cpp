@@ -44,7 +44,7 @@ TEST_F(Exported, AModelWithoutAFiniteForceIsRefused) {
   testing::write(path, model.dump());
   for (const char* target : {"c", "python", "fmu", "simulink", "modelica"}) {
     refused({"export", "fitted/model.json", "--to", target, "--out", "out"},
-            "expected --motion with a recording that the model holds for", 1);
+            "expected the motion of a recording that the model holds for", 1);
   }
 }
 

@@ -94,6 +94,36 @@ TEST_F(Remarks, EveryCommandSaysWhatItAssumed) {
   EXPECT_NE(run({"report", "d"}).out.find("warning: mm.csv: displacement has no unit"), std::string::npos);
 }
 
+// A value without a unit could be of any.
+TEST_F(Remarks, EveryCommandSaysWhatUnitAModelIsTakenIn) {
+  fit();
+  json model = json::parse(read(folder_ / "fitted/model.json"));
+  for (json& parameter : model.at("parameters")) parameter.erase("unit");
+  const std::string first = model.at("parameters").at(0).at("name");
+  write(folder_ / "bare.json", model.dump());
+  for (const Words& words :
+       {Words{"score", "bare.json", "data"},
+        {"simulate", "bare.json", "data/r1.csv", "--out", "s.csv"},
+        {"compare", "bare.json", "data", "--out", "c"},
+        {"export", "bare.json", "--to", "python", "--out", "damper.py"},
+        {"respond", "bare.json", "data/r1.csv", "--excitation", "base", "--mass", "20", "--out", "r.csv"}}) {
+    const Outcome outcome = run(words);
+    EXPECT_EQ(outcome.status, 0) << words[0] << outcome.err;
+    EXPECT_NE(outcome.err.find("warning: bare.json: no unit beside the value of '" + first + "'"), std::string::npos)
+        << words[0] << ": " << outcome.err;
+  }
+  EXPECT_EQ(run({"score", "fitted/model.json", "data"}).err.find("no unit beside"), std::string::npos);
+}
+
+// Whoever has no time, or mistypes what a law follows, reads what helps.
+TEST_F(Remarks, RefusalsOfColumnsSayWhatHelps) {
+  write(folder_ / "untimed.csv", "displacement [mm],force [N]\n0,1\n1,2\n2,3\n");
+  EXPECT_NE(run({"fit", "untimed.csv", "--model", "bouc-wen", "--out", "o"}).err.find("needs none, with --without-time"),
+            std::string::npos);
+  const Outcome mistyped = run({"fit", "data", "--model", "viscous", "--by", "curent=c0:1", "--out", "o"});
+  EXPECT_NE(mistyped.err.find("(did you mean 'current'?)"), std::string::npos) << mistyped.err;
+}
+
 // A held-out error on a copy of what was fitted would be none.
 TEST_F(Remarks, CopiesOfARecordingAreTold) {
   write(folder_ / "data/r1 (copy).csv", csv(1.0, 0.2));
