@@ -18,7 +18,7 @@ std::string command_text(const std::vector<std::string>& words) {
       ++k;
       continue;
     }
-    if (word.starts_with("--threads=") || word.starts_with("--out=")) {
+    if (word == "--quiet" || word.starts_with("--threads=") || word.starts_with("--out=")) {
       continue;
     }
     if (word.starts_with("/")) {
