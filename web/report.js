@@ -848,12 +848,15 @@ function effectBlock(e, d) {
 }
 
 // The force where the contrast acts: what was measured, the base model on the same motion, what else the augmented model
-// holds without this effect, the augmented model.
+// holds without this effect, the augmented model. Without another effect that is the law, its
+// parameters by richer curves of the drive than the base model's.
 function lookPlot(e, c) {
   const curve = (report.curves || {})[e.id];
   if (!curve || list(curve.x).length < 2) return null;
-  const lines = [["force_n", "measured", "measured"], ["baseline_n", "baseline", "base model"], ["without_n", "without", "other effects alone"],
-    ["predicted_n", "simulated", `with ${e.id}`]].filter(([key]) => list(curve[key]).length);
+  const others = list(((report.diagnosis || {}).augmented || {}).effects).some((id) => id !== e.id && id !== e.in_place_of);
+  const lines = [["force_n", "measured", "measured"], ["baseline_n", "baseline", "base model"],
+    ["without_n", "without", others ? "other effects alone" : "law alone"], ["predicted_n", "simulated", `with ${e.id}`]]
+    .filter(([key]) => list(curve[key]).length);
   const shown = lines.map(([key, cls]) => ({ x: curve.x, y: list(curve[key]), cls }));
   const label = overWords[curve.over] || "";
   return el("figure", { class: "plot contrast" }, el("figcaption", {}, `${curve.recording}: force over ${curve.over}${c ? ", where the contrast acts" : ""}`),

@@ -4,11 +4,12 @@
 #include <memory>
 
 #include "app/command.hpp"
+#include "app/result.hpp"
 #include "app/study_output.hpp"
 #include "app/values.hpp"
 #include "core/error.hpp"
+#include "core/printable.hpp"
 #include "mpi/mpi_peers.hpp"
-#include "report/study.hpp"
 #include "study/gather.hpp"
 #include "study/study_file.hpp"
 
@@ -41,7 +42,7 @@ bool tell_interrupted(const RunProgress& progress, const std::string& out) {
   const std::size_t there = progress.found + progress.done;
   if (there == progress.planned) return false;
   fmt::print(stderr, "interrupted: {} of {} runs are kept in {}; the same command continues\n", there, progress.planned,
-             out);
+             printable(out));
   return true;
 }
 
@@ -51,9 +52,10 @@ void conclude(const Plan& plan, Store& store, const RunProgress& progress, const
   std::vector<RunRecord> records = store.records();
   // A shard knows a part of the runs only: the best may be elsewhere.
   if (options.shard_count == 1) add_identifiability(plan, store, records, options.threads, quiet);
-  fmt::print("{} run{} done, {} found in {}\n\n", progress.done, progress.done == 1 ? "" : "s", progress.found, out);
+  fmt::print("{} run{} done, {} found in {}\n\n", progress.done, progress.done == 1 ? "" : "s", progress.found,
+             printable(out));
   const StudyView view = view_of(store, std::move(records), out);
-  fmt::print("{}\nThe whole report: hysteron report {}\n", study_terminal(view.analysis, view.times), out);
+  fmt::print("{}\nThe whole report: hysteron report {}\n", study_text(view), printable(out));
 }
 
 // As one of several ranks of mpirun. Only the first says anything, and all end with the same status.
@@ -83,7 +85,7 @@ void run_together(const std::string& study, const std::string& out, RunOptions o
     Store store = Store::open(out, Store::Mode::write);
     conclude(*plan, store, outcome.progress, options, out, quiet);
   } else if (first && !outcome.message.empty()) {
-    fmt::print(stderr, "error: {}\n", outcome.message);
+    fmt::print(stderr, "error: {}\n", printable(outcome.message));
   } else if (first) {
     tell_interrupted(outcome.progress, out);
   }
@@ -122,6 +124,7 @@ void add_bench(CLI::App& program) {
       "Ctrl-C keeps the finished runs; the same command continues.");
   command->callback([options] {
     refuse_standard_output(options->out, "the records of a study");
+    if (!options->dry) refuse_other_results(options->out, "store.sqlite");
     add_solver_commands(options->solver_commands);
     RunOptions run;
     run.threads = options->threads;

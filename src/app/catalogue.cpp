@@ -8,11 +8,11 @@
 
 #include "app/command.hpp"
 #include "app/figure.hpp"
+#include "app/result.hpp"
 #include "app/values.hpp"
 #include "core/error.hpp"
 #include "core/unit_text.hpp"
 #include "datasets/dataset.hpp"
-#include "io/output.hpp"
 #include "presets/preset.hpp"
 #include "report/terminal.hpp"
 #include "task/effect_card.hpp"
@@ -149,13 +149,14 @@ void add_catalogue(CLI::App& program) {
   describe->add_option("NAME", describe_options->word, "an id of `hysteron list`")->required();
   describe->add_flag("--json", describe_options->json, "JSON on standard output");
   describe->add_option("--figure", describe_options->figure,
-                       "instead, an SVG file: loops of a model, or convergence of a solver on the simulated damper");
+                       "instead, an SVG file: loops of a model, or convergence of a solver on the simulated damper; -: "
+                       "standard output");
   describe->footer("Example:\n  hysteron describe bouc-wen\n  hysteron describe bouc-wen --figure bouc-wen.svg");
   take_common_options(*describe);
   describe->callback([describe_options] {
     const std::string& id = describe_options->word;
     if (!describe_options->figure.empty()) {
-      write_file_atomically(describe_options->figure, figure_of(id));
+      write_result(describe_options->figure, figure_of(id));
       return;
     }
     if (describe_options->json) {

@@ -14,6 +14,7 @@
 #include <optional>
 
 #include "app/command.hpp"
+#include "app/markdown_page.hpp"
 #include "app/values.hpp"
 #include "challenge/effects.hpp"
 #include "challenge/hide.hpp"
@@ -21,6 +22,7 @@
 #include "challenge/run.hpp"
 #include "challenge/seal.hpp"
 #include "core/error.hpp"
+#include "core/printable.hpp"
 #include "io/campaign.hpp"
 #include "io/file.hpp"
 #include "io/output.hpp"
@@ -161,6 +163,7 @@ void write_hidden(const std::filesystem::path& out, const std::string& hash) {
   write_file_atomically(out / "hidden.json", json_text(result));
   const std::string text = hidden_markdown(result);
   write_file_atomically(out / "hidden.md", text);
+  write_file_atomically(out / "report.html", markdown_page(text, "Effects hidden in recordings"));
   fmt::print("{}", text);
 }
 
@@ -225,7 +228,8 @@ void run(const Options& options) {
       if (options.generate_only) return;
       const int failed = challenge::diagnose_all(out, diagnose_by_process(options), steps);
       line.finish();
-      if (failed > 0) fmt::print(stderr, "{} diagnoses failed, see {}/diagnoses/*/failed.txt\n", failed, options.out);
+      if (failed > 0)
+        fmt::print(stderr, "{} diagnoses failed, see {}/diagnoses/*/failed.txt\n", failed, printable(options.out));
     }
   }
   if (hidden) return write_hidden(out, hash);

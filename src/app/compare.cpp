@@ -9,6 +9,7 @@
 #include "app/command.hpp"
 #include "app/result.hpp"
 #include "core/error.hpp"
+#include "core/printable.hpp"
 #include "io/output.hpp"
 #include "report/html.hpp"
 
@@ -52,6 +53,8 @@ void run(const Options& options) {
   const Campaign campaign = load(data);
   if (!is_standard_output(options.out)) {
     check_output_folder(options.out);
+    refuse_other_results(options.out, "compare.json");
+    refuse_data_folder(options.out, data.data);
   }
   std::vector<std::string> remarks;
   ModelComparison comparison;
@@ -75,7 +78,7 @@ void run(const Options& options) {
   }
   say_beside(options.out, comparison_text(comparison.file));
   if (!is_standard_output(options.out)) {
-    fmt::print("report: {}\n", (out / "report.html").string());
+    fmt::print("report: {}\n", printable((out / "report.html").string()));
   }
 }
 

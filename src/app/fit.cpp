@@ -152,7 +152,7 @@ void tell(const FitResult& fit, const FitData& data, const FitOptions& options) 
   }
   say(is_standard_output(options.out)
           ? std::string("\n")
-          : fmt::format("\nreport: {}\n", (std::filesystem::path(options.out) / "report.html").string()));
+          : fmt::format("\nreport: {}\n", printable((std::filesystem::path(options.out) / "report.html").string())));
 }
 
 void run(const FitOptions& options) {

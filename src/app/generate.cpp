@@ -11,6 +11,7 @@
 #include "app/result.hpp"
 #include "app/values.hpp"
 #include "core/error.hpp"
+#include "core/printable.hpp"
 #include "core/suggest.hpp"
 #include "datasets/dataset.hpp"
 #include "datasets/support/shipped.hpp"
@@ -137,7 +138,7 @@ void add_generate(CLI::App& program) {
     const auto written = std::ranges::count_if(campaign.recordings, [&](const Recording& recording) {
       return recording.file.find(options->only) != std::string::npos;
     });
-    fmt::print("{} recordings in {}\n", written, options->out);
+    fmt::print("{} recordings in {}\n", written, printable(options->out));
   });
 }
 

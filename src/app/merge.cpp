@@ -5,8 +5,10 @@
 #include <memory>
 
 #include "app/command.hpp"
+#include "app/result.hpp"
 #include "app/study_output.hpp"
 #include "core/error.hpp"
+#include "core/printable.hpp"
 #include "study/gather.hpp"
 
 namespace hysteron::app {
@@ -23,6 +25,7 @@ void add_merge(CLI::App& program) {
   command->footer("Example:\n  hysteron merge part1 part2 part3 --out whole");
   command->callback([options] {
     refuse_standard_output(options->out, "the records of a study");
+    refuse_other_results(options->out, "store.sqlite");
     // Everything is read and compared before anything is written.
     std::string plan;
     std::string plan_from;
@@ -61,7 +64,7 @@ void add_merge(CLI::App& program) {
       whole.add(record.first, timings.contains(key) ? timings.at(key) : RunTiming{key, 0.0, {}, 1, 0});
     const StudyView view = view_of(whole, whole.records(), options->out);
     fmt::print("{} of {} runs in {}\n", view.analysis.at("done").get<std::size_t>(),
-               view.analysis.at("planned").get<std::size_t>(), options->out);
+               view.analysis.at("planned").get<std::size_t>(), printable(options->out));
   });
 }
 

@@ -4,11 +4,13 @@
 #include <memory>
 
 #include "app/command.hpp"
+#include "app/result.hpp"
+#include "app/study_output.hpp"
 #include "core/error.hpp"
+#include "core/printable.hpp"
 #include "io/file.hpp"
 #include "io/output.hpp"
 #include "report/html.hpp"
-#include "report/study.hpp"
 #include "study/gather.hpp"
 #include "task/diagnosis_text.hpp"
 #include "task/study.hpp"
@@ -36,7 +38,7 @@ void report_diagnosis(const std::filesystem::path& folder, const std::filesystem
   const std::string page = fit_report_html(page_of(folder, record));
   make_output_folder(out);
   write_file_atomically(out / "report.html", page);
-  fmt::print("{}", as_json ? json_text(record) : text + "report: " + (out / "report.html").string() + "\n");
+  fmt::print("{}", as_json ? json_text(record) : text + "report: " + printable((out / "report.html").string()) + "\n");
 }
 
 }  // namespace
@@ -71,18 +73,20 @@ void add_report(CLI::App& program) {
       if (options->times || options->ioh || options->mat) {
         throw InputError("--times, --ioh and --mat are of a study, " + options->folder + " holds a diagnosis");
       }
+      if (!options->out.empty()) refuse_other_results(options->out, "diagnosis.json");
       report_diagnosis(folder, options->out.empty() ? folder : std::filesystem::path(options->out), options->json);
       return;
     }
-    const Store store = open_gathered(options->folder);
-    const StudyView view = view_of(store, store.records(), options->folder);
     const std::filesystem::path out = options->out.empty() ? options->folder : options->out;
+    const Store store = open_gathered(options->folder);
+    if (!options->out.empty()) refuse_other_results(options->out, "store.sqlite");
+    const StudyView view = view_of(store, store.records(), options->folder);
     write_study_report(folder, out, view, {options->times, options->ioh, options->mat});
     if (options->json) {
       fmt::print("{}", json_text(view.analysis));
       return;
     }
-    fmt::print("{}\n{}\n", study_terminal(view.analysis, view.times), (out / "report.html").string());
+    fmt::print("{}\n{}\n", study_text(view), printable((out / "report.html").string()));
   });
 }
 

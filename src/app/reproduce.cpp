@@ -7,9 +7,11 @@
 #include <memory>
 
 #include "app/command.hpp"
+#include "app/result.hpp"
 #include "app/study_output.hpp"
 #include "app/values.hpp"
 #include "core/error.hpp"
+#include "core/printable.hpp"
 #include "core/suggest.hpp"
 #include "fit/solver.hpp"
 #include "io/output.hpp"
@@ -116,6 +118,7 @@ void run(const Options& options) {
                      " is tied to its own recordings, expected it with table-v, table-vi or table-vii");
   }
   refuse_standard_output(options.out, "records, a report and a table");
+  if (!options.out.empty()) refuse_other_results(options.out, "store.sqlite");
   ReproduceOptions used{options.seeds > 0 ? options.seeds : entry->seeds,
                         options.budget > 0 ? options.budget : entry->budget, options.data};
   Study study = entry->study(used);
@@ -128,7 +131,7 @@ void run(const Options& options) {
   const RunProgress progress = run_with_progress(plan, store, how, options.quiet);
   if (progress.found + progress.done < progress.planned) {
     fmt::print(stderr, "interrupted: {} of {} runs done{}\n", progress.found + progress.done, progress.planned,
-               options.out.empty() ? "; with --out DIR they would be kept" : " are kept in " + options.out);
+               options.out.empty() ? "; with --out DIR they would be kept" : " are kept in " + printable(options.out));
     return;
   }
   std::vector<RunRecord> records = store.records();
@@ -151,9 +154,10 @@ void run(const Options& options) {
   }
   fmt::print("{}\n{}\n{}\n\n", entry->title, entry->source, effort_text(used));
   for (const StudyTable& one : result.tables) fmt::print("{}\n{}\n", one.title, table(one.header, one.rows));
-  for (const std::string& line : result.findings) fmt::print("{}\n", line);
+  for (const std::string& line : result.findings) fmt::print("{}\n", printable(line));
   for (const ReproducedPicture& picture : result.pictures) {
-    fmt::print("picture: {}\n", options.out.empty() ? "with --out DIR" : (out / (picture.id + ".svg")).string());
+    fmt::print("picture: {}\n",
+               options.out.empty() ? "with --out DIR" : printable((out / (picture.id + ".svg")).string()));
   }
   fmt::print("{}{}", list("As published:", result.remade), list("Not as published:", result.not_remade));
 }

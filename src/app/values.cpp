@@ -40,6 +40,17 @@ std::optional<std::uint64_t> whole_of(std::string_view text) {
   return value;
 }
 
+// "1200", "+1.2e3", "-.5": finite and decimal, neither 0x10 nor inf or nan.
+std::optional<double> decimal_of(std::string_view text) {
+  if (text.starts_with("+-")) return std::nullopt;
+  if (text.starts_with('+')) text.remove_prefix(1);
+  if (text.find_first_not_of("0123456789+-.eE") != std::string_view::npos) return std::nullopt;
+  double value = 0.0;
+  const auto read = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (read.ec != std::errc{} || read.ptr != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
 }  // namespace
 
 CLI::Validator whole_number(std::uint64_t low, std::uint64_t high) {
@@ -60,10 +71,8 @@ CLI::Validator seed_number() { return whole_number(0, std::numeric_limits<std::u
 CLI::Validator real_number(double low, double high) {
   const std::string range = fmt::format("{:g} to {:g}", low, high);
   return {[=](std::string& text) {
-            const char* begin = text.c_str();
-            char* end = nullptr;
-            const double value = std::strtod(begin, &end);
-            const bool good = end != begin && *end == '\0' && std::isfinite(value) && value >= low && value <= high;
+            const auto value = decimal_of(text);
+            const bool good = value && *value >= low && *value <= high;
             return good ? std::string{} : fmt::format("'{}' is not a number from {}", text, range);
           },
           range};
@@ -84,12 +93,9 @@ CLI::Validator one_of(const std::vector<std::string>& words) {
 }
 
 double parse_number(const std::string& option, const std::string& text) {
-  char* end = nullptr;
-  const double value = std::strtod(text.c_str(), &end);
-  if (text.empty() || *end != '\0' || !std::isfinite(value)) {
-    throw InputError(option + ": '" + text + "' is not a finite number");
-  }
-  return value;
+  const auto value = decimal_of(text);
+  if (!value) throw InputError(option + ": '" + text + "' is not a number, expected a decimal one, e.g. 1200 or 1.2e3");
+  return *value;
 }
 
 std::pair<std::string, std::string> split_pair(const std::string& option, const std::string& text,

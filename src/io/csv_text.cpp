@@ -3,6 +3,9 @@
 #include <array>
 #include <cassert>
 #include <charconv>
+#include <system_error>
+
+#include "core/printable.hpp"
 
 namespace hysteron {
 namespace {
@@ -31,6 +34,17 @@ std::string csv_of_columns(std::span<const std::string> names, std::span<const s
     text += '\n';
   }
   return text;
+}
+
+std::string name_cell(std::string_view name) {
+  std::string cell = printable(name);
+  if (cell.empty() || std::string_view("=+-@").find(cell.front()) == std::string_view::npos) return cell;
+  const char* const begin = cell.data() + (cell.front() == '+' ? 1 : 0);
+  const char* const end = cell.data() + cell.size();
+  double value = 0.0;
+  const auto read = std::from_chars(begin, end, value);
+  const bool number = read.ec == std::errc() && read.ptr == end;
+  return number ? cell : "'" + cell;
 }
 
 }  // namespace hysteron

@@ -1,6 +1,7 @@
 #include "task/study.hpp"
 
 #include "core/error.hpp"
+#include "io/csv_text.hpp"
 #include "io/json_reader.hpp"
 #include "io/mat5_writer.hpp"
 #include "io/output.hpp"
@@ -68,6 +69,20 @@ StudyView view_of(const std::string& plan, const std::optional<std::string>& ide
   return view;
 }
 
+namespace {
+
+// With the names of files and solvers as they stand in cells of tables.
+json with_names_of_cells(json plan) {
+  const auto rename = [](json& row, std::initializer_list<const char*> members) {
+    for (const char* member : members) row.at(member) = name_cell(row.at(member).get<std::string>());
+  };
+  for (json& problem : plan.at("problems")) rename(problem, {"label", "model", "data"});
+  for (json& solver : plan.at("solvers")) rename(solver, {"label"});
+  return plan;
+}
+
+}  // namespace
+
 std::map<std::string, std::string> study_report(const std::filesystem::path& folder, const StudyView& view,
                                                 const StudyFiles& wanted) {
   const std::vector<RunRecord>& records = view.records;
@@ -78,7 +93,7 @@ std::map<std::string, std::string> study_report(const std::filesystem::path& fol
     files["report.html"] = study_html(view.analysis, shown);
     files["report.md"] = study_markdown(view.analysis, shown);
     files["tables.tex"] = study_latex(view.analysis, shown);
-    files["runs.csv"] = runs_csv(view.plan, records);
+    files["runs.csv"] = runs_csv(with_names_of_cells(view.plan), records);
     files["traces.csv"] = traces_csv(view.plan, records);
     files["parameters.csv"] = parameters_csv(view.plan, records);
     files["columns.csv"] = data_dictionary_csv();

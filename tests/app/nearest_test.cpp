@@ -19,6 +19,9 @@ using Nearest = Program;
 
 TEST_F(Nearest, NamesAndFilesAreOffered) {
   fit();
+  testing::write(folder_ / "typed/r1.csv", testing::csv(1.0, 0.2));
+  testing::write(folder_ / "typed/campaign.toml",
+                 "schema = \"hysteron.campaign/1\"\n[[recording]]\nfile = \"r1.cvs\"\n");
   struct Typed {
     std::vector<std::string> words;
     std::string offered;
@@ -32,6 +35,13 @@ TEST_F(Nearest, NamesAndFilesAreOffered) {
       {{"fit", "data", "--model", "viscous", "--solver", "psoo", "--out", "out"}, "pso"},
       {{"fit", "data", "--model", "bouc-wen", "--by-current", "alpa:1", "--out", "out"}, "alpha"},
       {{"diagnose", "data", "--effects", "clerance", "--out", "out"}, "clearance"},
+      {{"fit", "data", "--model", "viscous", "--solver", "PSO", "--out", "out"}, "pso"},
+      {{"fit", "data", "--model", "Viscos", "--out", "out"}, "viscous"},
+      {{"fit", "data", "--model", "viscous", "--bounds", "c=1:2", "--out", "out"}, "c0"},
+      {{"fit", "data", "--model", "bouc-wen", "--bounds", "ALPHA=1:2", "--out", "out"}, "alpha"},
+      {{"fit", "data", "--model", "viscous", "--column", "forse=force", "--out", "out"}, "force"},
+      {{"export", "fitted/model.json", "--to", "C", "--out", "out"}, "c"},
+      {{"fit", "typed", "--model", "viscous", "--out", "out"}, "r1.csv"},
       {{"profile", "data", "--model", "viscous", "--solver", "psoo"}, "pso"},
       {{"generate", "rd8040-twn", "--out", "out"}, "rd8040-twin"},
       {{"describe", "bouc-wn"}, "bouc-wen"},

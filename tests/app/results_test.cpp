@@ -106,6 +106,26 @@ TEST_F(Results, NothingThatIsReadIsReplaced) {
             "error: --out p.xlsx: tables are not written as .xlsx, expected .csv or .mat\n");
 }
 
+// A model exported anew has another header where its steps or its parts differ.
+TEST_F(Results, AnExportIsReplacedByAnother) {
+  fit();
+  for (const char* target : {"c", "simulink", "modelica"}) {
+    const auto exported = [&](std::vector<std::string> more) {
+      std::vector<std::string> words = {"export", "fitted/model.json", "--to", target, "--out", target};
+      words.insert(words.end(), more.begin(), more.end());
+      const Outcome outcome = run(words);
+      EXPECT_EQ(outcome.status, 0) << target << outcome.err;
+      for (const fs::directory_entry& file : fs::recursive_directory_iterator(folder_ / target)) {
+        if (file.path().filename() == "bouc_wen.h") return read(file.path());
+      }
+      return std::string();
+    };
+    const std::string first = exported({});
+    EXPECT_FALSE(first.empty()) << target;
+    EXPECT_NE(exported({"--substeps", "4"}), first) << target;
+  }
+}
+
 TEST_F(Results, NothingOfAnotherHandIsReplaced) {
   fit();
   const auto refused = [&](const std::vector<std::string>& words, const fs::path& file, const std::string& why) {
