@@ -102,7 +102,7 @@ TEST(StepsBetweenSamples, TooFewAreRefusedAndEnoughAreNamed) {
     FAIL() << "one step does";
   } catch (const InputError& error) {
     const std::string message = error.what();
-    EXPECT_TRUE(message.starts_with("--substeps 1: too few steps ")) << message;
+    EXPECT_TRUE(message.starts_with("substeps 1: too few steps ")) << message;
     const std::string before = "expected ";
     exported.substeps = std::stoi(message.substr(message.find(before) + before.size()));
   }
