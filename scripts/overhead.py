@@ -5,9 +5,11 @@
 
 10,000 runs with 40 evaluations and with 400: processor time grows by 360 evaluations a run (and by what solvers do in
 them); the line through both, at no evaluations, is what planning, starting, scoring again, recording, checking and
-reporting take. Processor time, so that other work on the machine hardly changes it; the least of the repeats.
+reporting take. Processor time, which other work on the machine still lengthens, as caches and clock are shared; the least
+of the repeats. The page names the commit checked out, or what COMMIT in the environment says the program was built from.
 """
 import argparse
+import os
 import resource
 import shutil
 import subprocess
@@ -55,11 +57,14 @@ def main():
             if budget == budgets[0] and repeat == 0:
                 again = processor_seconds(bench)
         seconds[budget] = min(taken)
+    commit = os.environ.get("COMMIT") or subprocess.run(["git", "-C", str(root), "describe", "--always"], check=True,
+                                                        capture_output=True, text=True).stdout.strip()
     low, high = budgets
     slope = (seconds[high] - seconds[low]) / (high - low)
     each = (seconds[low] - low * slope) / runs
     lines = ["# Overhead of studies", "",
-             f"Made by `scripts/overhead.py`: {runs} runs on one thread, one recording, the cheapest model; processor time.",
+             f"Made by `scripts/overhead.py`: {runs} runs on one thread, one recording, the cheapest model; processor time. "
+             f"Program: commit {commit}.",
              "",
              "| evaluations a run | study s | a run ms |", "|---|---|---|",
              *(f"| {budget} | {seconds[budget]:.2f} | {1e3 * seconds[budget] / runs:.3f} |" for budget in budgets), "",

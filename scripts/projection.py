@@ -1,13 +1,15 @@
 #!/usr/bin/env python3
 """Writes results/projection.md: what a solver gains where the coordinates the force is affine in are solved in closed form.
 
-  scripts/projection.py [BINARY]
+  scripts/projection.py [BINARY [RECORDS]]
 
-Runs bench/studies/projection.toml; the records stay in build/results/projection; rerun the command to resume.
+Runs bench/studies/projection.toml; the records stay in RECORDS, build/results/projection; rerun the command to resume. The
+page names the commit checked out, or what COMMIT in the environment says the program was built from.
 """
 import collections
 import csv
 import math
+import os
 import statistics
 import subprocess
 import sys
@@ -15,7 +17,9 @@ from pathlib import Path
 
 root = Path(__file__).resolve().parent.parent
 binary = sys.argv[1] if len(sys.argv) > 1 else str(root / "build/release/hysteron")
-out = root / "build/results/projection"
+out = Path(sys.argv[2]) if len(sys.argv) > 2 else root / "build/results/projection"
+commit = os.environ.get("COMMIT") or subprocess.run(["git", "-C", str(root), "describe", "--always"], check=True, capture_output=True,
+                                                    text=True).stdout.strip()
 for command in (["bench", str(root / "bench/studies/projection.toml"), "--out", str(out), "--quiet"], ["report", str(out)]):
     if code := subprocess.run([binary, *command], stdout=subprocess.DEVNULL).returncode:
         sys.exit(code)
@@ -34,7 +38,7 @@ def median(solver, problem):
 
 seeds = len(costs[solvers[0], problems[0]])
 lines = ["# What it is worth to be spared the affine coordinates", "",
-         f"Made by `scripts/projection.py`: {len(problems)} problems, {seeds} seeds, 1000 evaluations. With `project = true` a solver "
+         f"Made by `scripts/projection.py`: {len(problems)} problems, {seeds} seeds, 1000 evaluations. Program: commit {commit}. With `project = true` a solver "
          "searches the coordinates the force is not affine in, three of seven of bouc-wen and two of six of hyperbolic-tangent; a point then "
          "costs one evaluation more for each affine coordinate, here five in all, so that it sees a fifth of the points.", "",
          "Median NRMSE without and with; gain: geometric mean over the problems of their ratio. The noise of the recordings is 1 % of "

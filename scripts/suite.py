@@ -1,16 +1,18 @@
 #!/usr/bin/env python3
 """Writes results/suite.md and results/suite.svg: solvers ranked with problems as blocks, at several budgets.
 
-  scripts/suite.py [BINARY] [--budgets 100:3,1000:1] [--long 10000:1] [--without DATA,MODEL] [--threads N]
+  scripts/suite.py [BINARY] [--budgets 100:3,1000:1] [--long 10000:1] [--without DATA,MODEL] [--threads N] [--records DIR]
 
 BUDGET:SEEDS each. Runs bench/studies/suite.toml once a budget, without the data and models of those labels, with the solvers
 of its comment line "# where built: ..." that the program has, and at the long budget the part of it that its file names in a
 comment line "# long: models ...; recordings ...". The records stay in
-build/results/suite; rerun the command to resume.
+build/results/suite or DIR; rerun the command to resume. The page names the commit checked out, or what COMMIT in the
+environment says the program was built from.
 """
 import argparse
 import json
 import math
+import os
 import re
 import subprocess
 import sys
@@ -23,6 +25,7 @@ parser.add_argument("--budgets", default="100:3,1000:1")
 parser.add_argument("--long", default="10000:1", help="empty: leave it out")
 parser.add_argument("--without", default="", help="labels of [[data]] and models to leave out")
 parser.add_argument("--threads", type=int, default=0)
+parser.add_argument("--records", type=Path, default=root / "build/results/suite")
 options = parser.parse_args()
 
 source = (root / "bench/studies/suite.toml").read_text(encoding="utf-8")
@@ -33,7 +36,9 @@ added = [name for name in optional if name in known]
 missing = [name for name in optional if name not in known]
 quoted = "".join(f', "{name}"' for name in added)
 source = re.sub(r"^(solvers = \[[^\]]*)\]", lambda found: f"{found[1]}{quoted}]", source, flags=re.M)
-out = root / "build/results/suite"
+out = options.records.absolute()
+commit = os.environ.get("COMMIT") or subprocess.run(["git", "-C", str(root), "describe", "--always"], check=True, capture_output=True,
+                                             text=True).stdout.strip()
 out.mkdir(parents=True, exist_ok=True)
 reference = "random-search"
 
@@ -147,6 +152,18 @@ def over_the_first(analysis):
     return table
 
 
+def headline(analysis):
+    """What the places say of the first, and what the intervals say of those that share the first place."""
+    rows = analysis["ranking"]["rows"]
+    leader, *others = [label(analysis, row["solver"]) for row in rows if row["place"] == 1]
+    if not others:
+        return f"By the ranks {leader} is ahead of all others."
+    over = over_the_first(analysis)
+    told = [(word, [name for name in others if over[name][1] == word]) for word in ("better", "equal", "undecided", "worse")]
+    said = "; ".join(f"{word} {', '.join(names)}" for word, names in told if names)
+    return f"The ranks do not tell the {len(others) + 1} at the first place apart. By the intervals over {leader}, listed first: {said}."
+
+
 def ranks_apart(analysis, member):
     """solver -> mean rank among the problems of a kind, which has so many of them."""
     ranking = analysis.get(member)
@@ -221,10 +238,10 @@ command = "scripts/suite.py" + "".join(
 lines = ["# Solvers on a suite of problems", "",
          f"Made by `{command}` from `bench/studies/suite.toml`: {len(results[0][2]['problems'])} problems "
          f"({len({p['model'] for p in results[0][2]['problems']})} models on {len({p['data'] for p in results[0][2]['problems']})} "
-         "recordings, of which none chose a default), defaults as shipped. Every budget is a study of its own, as several solvers "
+         f"recordings, of which none chose a default), defaults as shipped. Program: commit {commit}. Every budget is a study of its own, as several solvers "
          "set their population by the budget." +
          (f" Left out of the study for their length: {options.without.replace(',', ', ')}." if options.without else "") +
-         (f" The rows {', '.join(added)} are solvers of libraries that a build may be without." if added else "") +
+         (f" The rows {', '.join(added)} are solvers of libraries that a build may be without (docs/dependencies.md)." if added else "") +
          (f" Not in this build and left out: {', '.join(missing)}." if missing else "") +
          ("" if not options.long else
           f" {results[-1][0]} evaluations: the part of the suite that is cheap enough, {len(results[-1][2]['problems'])} problems."), "",
@@ -240,11 +257,8 @@ lines = ["# Solvers on a suite of problems", "",
 for budget, part, analysis in results:
     ranking = analysis["ranking"]
     random = against_random(analysis)
-    first = [label(analysis, row["solver"]) for row in ranking["rows"] if row["place"] == 1]
     lines += [f"## {budget} evaluations", "",
-              (f"No difference is shown among the {len(first)} that share the first place: {', '.join(first)}. "
-               if len(first) > 1 else f"{first[0]} is shown to be ahead of all others. ") +
-              f"{ranking['blocks']} blocks, {seeds_of[budget]} {'seed' if seeds_of[budget] == 1 else 'seeds'}, critical difference {ranking['critical_difference']:.2f} ranks.", ""]
+              f"{headline(analysis)} {ranking['blocks']} blocks, {seeds_of[budget]} {'seed' if seeds_of[budget] == 1 else 'seeds'}, critical difference {ranking['critical_difference']:.2f} ranks.", ""]
     first_target = analysis["fixed_target"][0]["target"]
     reached = to_target(analysis, first_target)
     over = over_the_first(analysis)
@@ -272,10 +286,11 @@ for budget, part, analysis in results:
     else:
         lines.append("No solver is worse than random search on any problem.")
     lines.append("")
+alone = [str(budget) for budget, seeds in seeds_of.items() if seeds == 1]
 lines += ["Likely reasons, not measured, why some are worse than random search: a population has made two to ten generations by 100 evaluations, each bound "
           "to where its first points fell, while random search still looks everywhere; a local method (pattern search, the "
           "simplex, BOBYQA) spends such a budget around one random start, and BOBYQA and pattern search also end in a local "
-          "minimum later. With one seed a problem, single cases are chance too.", ""]
+          "minimum later." + (f" At {', '.join(alone)} evaluations, with one seed a problem, single cases are chance too." if alone else ""), ""]
 lines += ["## Distributions and profiles", "",
           "![Targets reached, performance profile and data profile at each budget](suite.svg)", "",
           "Targets reached: share of (problem, seed, target) over evaluations, 41 targets from 0.1 % to 1000 % above the best "
