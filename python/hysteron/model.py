@@ -274,7 +274,8 @@ def fit(recordings, model=None, *, by_current=None, by_frequency=None, by=None, 
     "interpolation": "cubic", "excitation": "auto"}, the recordings are of a mass on the damper; threads: 0 takes OMP_NUM_THREADS or all cores;
     progress: a function that is called with a Progress now and then. Ctrl-C, or an exception of `progress`, ends it."""
     by = _words.laws(by)
-    recordings = as_recordings(recordings, need_force=response is None, conditions=by)
+    # As the program reads them: of a mass the force may be what excites it, or missing.
+    recordings = as_recordings(recordings, need_force=response is None, conditions=by, motion_only=response is not None)
     refuse_numbers(recordings, "fit")
     if response is not None:
         defaults = {"stiffness": 0.0, "damping": 0.0, "interpolation": "cubic", "excitation": "auto"}

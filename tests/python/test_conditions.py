@@ -129,6 +129,20 @@ class Conditions(InFolder):
         with self.assertRaisesRegex(hysteron.InputError, "no force column, expected one for excitation force"):
             hysteron.fit(rig, "viscous", response={"mass": mass, "excitation": "force"})
 
+    def test_under_a_force(self):
+        # What `respond` writes: the force on the mass, with that of the damper beside it.
+        damper = hysteron.fit("pressed/p0.csv", "viscous", fix={"f0": 0.0, "k0": 0.0}, budget=1000)
+        time = numpy.arange(800) / 200
+        load = hysteron.recording(time=time, force=300 * numpy.sin(25 * time) + 200 * numpy.sin(61 * time), name="load",
+                                  excitation=True)
+        damper.respond(load, 10, stiffness=4e3, out="shaker.csv")
+        model = hysteron.fit("shaker.csv", "viscous", response={"mass": 10, "stiffness": 4e3}, fix={"f0": 0.0, "k0": 0.0},
+                             budget=1000)
+        c0 = damper.parameters.loc["c0", "value"]
+        self.assertAlmostEqual(model.parameters.loc["c0", "value"], c0, delta=0.01 * c0)
+        self.assertEqual(model.fit_json["response"]["excitation"], "force")
+        self.same(model)
+
 
 if __name__ == "__main__":
     unittest.main()
