@@ -209,6 +209,7 @@ TestVector test_vector(const ExportedModel& exported, const Recording& motion) {
   TestVector result;
   result.frequency = target.frequency;
   result.samples = samples_of(target.motion);
+  result.corners = target.motion.beyond_corners.size();
   give_ahead(exported.drive_ahead(), target.motion, result.samples);
   if (target.preroll > 0) {
     result.lead_in = samples_of(target.lead_in);

@@ -21,14 +21,15 @@ struct ExportedModel {
   std::string name;         // as names.hpp wants it
   double tolerance = 1e-4;  // of the integration, as in simulate
   int most_substeps = default_most_substeps;
-  int substeps = 0;  // always so many; 0: as many as the stiffness asks for
+  int substeps = 0;                   // always so many; 0: as many as the stiffness asks for
   DriveKind drive = DriveKind::none;  // what the drive is; none: not known
   std::string holds_at = {};          // "pressure = 2e5 Pa": values of conditions that it holds at; empty: of none
 
   [[nodiscard]] std::string title() const;  // and the conditions it holds at
   [[nodiscard]] bool follows_drive() const;
   [[nodiscard]] bool follows_frequency() const;
-  // s by which the drive has to be given ahead of the motion, where an effect leads it and parameters follow it; else 0.
+  // s by which the drive has to be given ahead of the motion, where an effect leads it and parameters follow it; else
+  // 0.
   [[nodiscard]] double drive_ahead() const;
   // What the drive of a sample is: its unit, and its time where it is given ahead.
   [[nodiscard]] std::string about_drive() const;
@@ -63,6 +64,8 @@ struct TestVector {
   std::vector<double> force;  // N, one a sample: by simulate, but in the steps that the exported code takes
   // Largest difference to what simulate gives, as a share of its largest force; none where the steps are its own.
   std::optional<double> off_simulate;
+  // Of the motion, where straight lines of it meet: simulate knows them and exported code does not.
+  std::size_t corners = 0;
 
   // By which a replay may differ, as a share of the largest force.
   [[nodiscard]] double allowed() const;

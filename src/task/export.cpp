@@ -39,6 +39,15 @@ std::string about_steps(const TestVector& vector) {
       100.0 * *vector.off_simulate));
 }
 
+// Where a replay cannot give the force of simulate; else empty.
+std::string about_corners(const TestVector& vector) {
+  if (vector.corners == 0) return "";
+  return "\n" +
+         wrapped(fmt::format("The motion of the test vector has {}, where straight lines of it meet: `simulate` knows "
+                             "them and exported code does not, so that its replay differs around them.",
+                             vector.corners == 1 ? "a corner" : fmt::format("{} corners", vector.corners)));
+}
+
 // Where the drive has to be known ahead; else empty.
 std::string about_drive(const ExportedModel& exported) {
   const double ahead = exported.drive_ahead();
@@ -101,7 +110,7 @@ ModelExport export_model(StoredModel stored, const std::map<std::string, Conditi
   Export written = target.write(exported, vector);
   ModelExport result;
   result.folder = (one_file ? out.parent_path() : out).string();
-  result.note = written.note + "\n" + about_drive(exported) + about_steps(vector);
+  result.note = written.note + "\n" + about_drive(exported) + about_steps(vector) + about_corners(vector);
   if (one_file && written.files.size() == 1) {
     result.files[out.filename().string()] = std::move(written.files.begin()->second);
   } else {

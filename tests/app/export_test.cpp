@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -54,6 +55,21 @@ TEST_F(Exported, StepsThatAreTooFewAreRefusedAndOthersSayWhatTheyCost) {
   EXPECT_NE(outcome.out.find("differs from that of `simulate`"), std::string::npos) << outcome.out;
   const Outcome free = run({"export", "fitted/model.json", "--to", "c", "--out", "free"});
   EXPECT_EQ(free.out.find("differs from that of `simulate`"), std::string::npos) << free.out;
+}
+
+// Their replay would call itself wrong, and nothing would say why.
+TEST_F(Exported, CornersOfTheMotionAreTold) {
+  std::string triangle = "time [s],displacement [mm],force [N],current [A]\n";
+  for (int n = 0; n < 200; ++n) {
+    const double turn = std::fmod(0.0125 * n + 0.0031, 1.0);
+    triangle += std::to_string(0.01 * n) + "," + std::to_string(20.0 * std::fabs(turn - 0.5)) + ",1,0.5\n";
+  }
+  testing::write(folder_ / "triangle.csv", triangle);
+  const Outcome told = run({"export", "fitted/model.json", "--to", "c", "--motion", "triangle.csv", "--out", "c"});
+  EXPECT_EQ(told.status, 0) << told.err;
+  EXPECT_NE(told.out.find("corners, where straight lines of it meet"), std::string::npos) << told.out;
+  const Outcome sine = run({"export", "fitted/model.json", "--to", "c", "--out", "plain"});
+  EXPECT_EQ(sine.out.find("corner"), std::string::npos) << sine.out;
 }
 
 TEST_F(Exported, NamesThatNoLanguageTakesAreRefused) {
