@@ -42,10 +42,10 @@ std::string about_steps(const TestVector& vector) {
 // Where a replay cannot give the force of simulate; else empty.
 std::string about_corners(const TestVector& vector) {
   if (vector.corners == 0) return "";
-  return "\n" +
-         wrapped(fmt::format("The motion of the test vector has {}, where straight lines of it meet: `simulate` knows "
-                             "them and exported code does not, so that its replay differs around them.",
-                             vector.corners == 1 ? "a corner" : fmt::format("{} corners", vector.corners)));
+  return wrapped(
+      fmt::format("The motion of the test vector has {}, where straight lines of it meet: `simulate` knows "
+                  "them and exported code does not, so that its replay differs around them.",
+                  vector.corners == 1 ? "a corner" : fmt::format("{} corners", vector.corners)));
 }
 
 // Where the drive has to be known ahead; else empty.
