@@ -81,10 +81,8 @@ Judgement with_recording_checks(Judgement judgement, const Searching& searching)
 Judgement behind_asked_or_better(Searching searching, const std::string& asked, const SearchProgress& progress,
                                  std::vector<std::string>& notes) {
   double reached = 0.0;
-  // Of the whole, where no other law is searched behind.
-  constexpr double of_search = 0.6;
   Search asked_search = search_behind(asked, searching, [&](double share, const std::string& stage) {
-    reached = of_search * share;
+    reached = 0.5 * share;
     progress(reached, stage);
   });
   // So much of what is left from where it came.

@@ -18,8 +18,6 @@ constexpr double unsure_of_noise = 0.05;
 constexpr double far_from_noise = 4.0;
 // Stages of a search, richer laws among them.
 constexpr std::size_t most_stages = 8;
-// Share of the time of a step that its stage takes; then what was refitted is compared on recordings left out.
-constexpr double of_stage = 0.6;
 
 bool cannot_be_missed(const Extension& part) { return !part.is_law() && has_one_form(part.effect); }
 
@@ -67,9 +65,10 @@ void grow(Course& course, const std::vector<Extension>& effects, int most_effect
     const std::string what = added == 0 ? "looking at " + std::to_string(candidates.size()) + " hypotheses"
                                         : "looking for more behind " + joined_names(course.current.what);
     const auto done = [&](double share) { progress(0.1 + 0.5 * (added + share) / most_effects, what); };
+    // Half of it looks and refits, the other compares on recordings left out.
     done(0.0);
     std::vector<Tried> tried = stage(course.bench, course.current, candidates, course.independent, nullptr, course.told,
-                                     [&](double share) { done(of_stage * share); });
+                                     [&](double share) { done(0.5 * share); });
     // What a good model leaves tells the independent samples better than what a bad one does.
     if (!tried.empty() && tried.front().fit) {
       course.independent = std::max(course.independent, misfit_of(course.bench, *tried.front().fit).independent);
@@ -93,7 +92,7 @@ void grow(Course& course, const std::vector<Extension>& effects, int most_effect
       if (!one.fit || one.gain <= (told ? 0.0 : least_gain_of_a_place * squared(course.current.cost))) {
         return false;
       }
-      done(of_stage + (1.0 - of_stage) * compared++ / refitted);
+      done(0.5 + 0.5 * compared++ / refitted);
       after = left_out(course.bench, *one.fit);
       if (told) {
         return true;

@@ -32,9 +32,6 @@ constexpr double refuted = 2.0;
 constexpr std::ptrdiff_t most_in_series = 2;
 // The highest order of a law in the drive where it varies within recordings.
 constexpr int most_order = 3;
-// Shares of the time of a stage after which all hypotheses have been looked at, and the refits are done.
-constexpr double looked_at = 0.3;
-constexpr double refits_done = 0.7;
 
 // The highest order of a law in the drive that the recordings can tell.
 int highest_order(const std::vector<Recording>& recordings) {
@@ -130,7 +127,6 @@ std::vector<Tried> stage(const Workbench& bench, const Fit& before, const std::v
   }
   const std::vector<Scored> scores =
       scored(bench, before, open, also, elements > 0 ? starts_behind_series : std::size_t{0});
-  if (done) done(looked_at);
   const std::vector<bool> refit = chosen(scores, always, elements > 0 ? refitted_behind_series : refitted_at_most);
   std::vector<Tried> result(scores.size());
   std::vector<std::size_t> refitted;
@@ -158,7 +154,7 @@ std::vector<Tried> stage(const Workbench& bench, const Fit& before, const std::v
     result[k] = weighed(scores[k].part, fit, squares, before.dimension(), independent);
     if (!done) return;
     const std::scoped_lock lock(counting);
-    done(looked_at + (refits_done - looked_at) * static_cast<double>(++count) / static_cast<double>(refitted.size()));
+    done(static_cast<double>(++count) / static_cast<double>(refitted.size()));
   });
   std::ranges::stable_sort(result, better);
   std::vector<Fit> best;
