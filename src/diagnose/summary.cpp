@@ -112,7 +112,7 @@ std::string sentence_of_errors(const Diagnosis& diagnosis) {
   // Members of a set are one cause.
   const std::vector<Named> names = listed(diagnosis.verdict);
   const auto causes = std::ranges::count_if(names, [](const Named& named) { return !named.in_place_of; });
-  // What an effect does is told of it alone: where more than effects is new, that is said.
+  // What laws take off is not told of the effects.
   std::string subject = !diagnosis.verdict.doubtful.empty() || causes == 0 ? "The augmented model"
                         : causes == 1                                      ? "It"
                                                                            : "Together they";
@@ -146,7 +146,8 @@ std::string sentence_of_unknown(const Diagnosis& diagnosis) {
   }
   const std::string richer = diagnosis.search.richer_dependence();
   const std::string instead = law_instead(diagnosis.search);
-  if (verdict.unknown_share < 0.005) {
+  constexpr double printed = 0.005;  // less is printed as 0 %
+  if (verdict.unknown_share < printed) {
     if (!verdict.effects.empty()) return "All of the misfit above the noise has a name.";
     const std::string by = !verdict.suggestions.empty() ? "what is suggested" : !instead.empty() ? instead : richer;
     return by.empty() ? by : "All of the misfit above the noise is explained by " + by + ".";
@@ -161,7 +162,7 @@ std::string sentence_of_unknown(const Diagnosis& diagnosis) {
                                                                        : "");
   } else if (!richer.empty()) {
     const double left = diagnosis.search.misfit.structure / diagnosis.search.base_misfit.structure;
-    if (const double by_laws = verdict.unknown_share - left; by_laws >= 0.005) {
+    if (const double by_laws = verdict.unknown_share - left; by_laws >= printed) {
       rest = fmt::format("; {} goes with {}", percent(by_laws), richer);
     }
   }
