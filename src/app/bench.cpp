@@ -10,6 +10,7 @@
 #include "core/error.hpp"
 #include "core/printable.hpp"
 #include "mpi/mpi_peers.hpp"
+#include "report/study.hpp"
 #include "study/gather.hpp"
 #include "study/study_file.hpp"
 
@@ -55,7 +56,7 @@ void conclude(const Plan& plan, Store& store, const RunProgress& progress, const
   fmt::print("{} run{} done, {} found in {}\n\n", progress.done, progress.done == 1 ? "" : "s", progress.found,
              printable(out));
   const StudyView view = view_of(store, std::move(records), out);
-  fmt::print("{}\nThe whole report: hysteron report {}\n", study_text(view), printable(out));
+  fmt::print("{}\nThe whole report: hysteron report {}\n", study_terminal(view.analysis, view.times), printable(out));
 }
 
 // As one of several ranks of mpirun. Only the first says anything, and all end with the same status.

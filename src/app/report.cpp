@@ -5,12 +5,12 @@
 
 #include "app/command.hpp"
 #include "app/result.hpp"
-#include "app/study_output.hpp"
 #include "core/error.hpp"
 #include "core/printable.hpp"
 #include "io/file.hpp"
 #include "io/output.hpp"
 #include "report/html.hpp"
+#include "report/study.hpp"
 #include "study/gather.hpp"
 #include "task/diagnosis_text.hpp"
 #include "task/study.hpp"
@@ -86,7 +86,7 @@ void add_report(CLI::App& program) {
       fmt::print("{}", json_text(view.analysis));
       return;
     }
-    fmt::print("{}\n{}\n", study_text(view), printable((out / "report.html").string()));
+    fmt::print("{}\n{}\n", study_terminal(view.analysis, view.times), printable((out / "report.html").string()));
   });
 }
 

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "core/printable.hpp"
-#include "report/study.hpp"
 #include "report/terminal.hpp"
 
 namespace hysteron::app {
@@ -21,12 +19,6 @@ void StudyProgress::show(const RunProgress& now) {
                          now.found > 0 ? fmt::format(" ({} found)", now.found) : "",
                          static_cast<double>(now.done) / std::max(seconds, 1e-9),
                          best_ < diverged_cost ? format_number(best_, 4) : "-", label_of(plan_, now.index)));
-}
-
-std::string study_text(const StudyView& view) {
-  nlohmann::json analysis = view.analysis;
-  analysis["title"] = printable(analysis.at("title").get<std::string>());
-  return study_terminal(analysis, view.times);
 }
 
 RunProgress run_with_progress(const Plan& plan, Store& store, const RunOptions& options, bool quiet) {

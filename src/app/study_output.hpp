@@ -2,7 +2,6 @@
 #pragma once
 
 #include <chrono>
-#include <string>
 #include <vector>
 
 #include "app/command.hpp"
@@ -24,9 +23,6 @@ class StudyProgress {
   std::chrono::steady_clock::time_point begun_ = std::chrono::steady_clock::now();
   double best_ = diverged_cost;
 };
-
-// study_terminal, for a terminal whatever the title holds.
-std::string study_text(const StudyView& view);
 
 // begin_study and run_plan, with a progress line.
 RunProgress run_with_progress(const Plan& plan, Store& store, const RunOptions& options, bool quiet);

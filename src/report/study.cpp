@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "core/printable.hpp"
 #include "core/unit_text.hpp"
 #include "report/html.hpp"
 #include "report/latex.hpp"
@@ -357,7 +358,7 @@ std::string study_verdict(const json& analysis) {
 }
 
 std::string study_terminal(const json& analysis, const json& times) {
-  std::string text = analysis.at("title").get<std::string>() + "\n" + state_of(analysis) + "\n\n";
+  std::string text = printable(analysis.at("title").get<std::string>()) + "\n" + state_of(analysis) + "\n\n";
   for (const StudyTable& one : study_tables(analysis, times)) {
     if (one.id == "fixed-target" || one.id == "pairs-by-problem" || one.id == "problems" || one.id == "identifiability")
       continue;
