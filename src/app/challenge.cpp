@@ -14,7 +14,6 @@
 #include <optional>
 
 #include "app/command.hpp"
-#include "app/markdown_page.hpp"
 #include "app/values.hpp"
 #include "challenge/effects.hpp"
 #include "challenge/hide.hpp"
@@ -163,7 +162,6 @@ void write_hidden(const std::filesystem::path& out, const std::string& hash) {
   write_file_atomically(out / "hidden.json", json_text(result));
   const std::string text = hidden_markdown(result);
   write_file_atomically(out / "hidden.md", text);
-  write_file_atomically(out / "report.html", markdown_page(text, "Effects hidden in recordings"));
   fmt::print("{}", text);
 }
 
@@ -228,8 +226,9 @@ void run(const Options& options) {
       if (options.generate_only) return;
       const int failed = challenge::diagnose_all(out, diagnose_by_process(options), steps);
       line.finish();
-      if (failed > 0)
+      if (failed > 0) {
         fmt::print(stderr, "{} diagnoses failed, see {}/diagnoses/*/failed.txt\n", failed, printable(options.out));
+      }
     }
   }
   if (hidden) return write_hidden(out, hash);
