@@ -4,6 +4,8 @@
 #include <numeric>
 #include <utility>
 
+#include "core/lower_case.hpp"
+
 namespace hysteron {
 namespace {
 
@@ -24,13 +26,6 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
     two_up = std::exchange(above, std::move(row));
   }
   return above.back();
-}
-
-std::string lower_case(std::string_view text) {
-  std::string result(text);
-  std::ranges::transform(result, result.begin(),
-                         [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-  return result;
 }
 
 }  // namespace

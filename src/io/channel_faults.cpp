@@ -200,8 +200,9 @@ std::optional<Placeholder> placeholder_of(const std::vector<double>& values) {
       }
       result.low = std::min(result.low, values[first]);
       result.high = std::max(result.high, values[first]);
-      if (first > 0 && values[first - 1] != end)
+      if (first > 0 && values[first - 1] != end) {
         widest = std::max(widest, std::fabs(values[first] - values[first - 1]));
+      }
     });
     // A friction, or a drive that is switched, has two values.
     if (!(widest > 0.0)) continue;

@@ -4,6 +4,8 @@
 #include <string>
 #include <string_view>
 
+#include "core/lower_case.hpp"
+
 namespace hysteron {
 
 // Without spaces and tabs at both ends.
@@ -14,8 +16,6 @@ namespace hysteron {
 
 // With spaces in place of no-break spaces.
 [[nodiscard]] std::string plain_blanks(std::string_view text);
-
-[[nodiscard]] std::string lower_case(std::string_view text);
 
 // In single quotes for a one-line message: control bytes shown as '?', long text shortened.
 [[nodiscard]] std::string in_quotes(std::string_view text);
