@@ -127,7 +127,7 @@ Recording motion_for_testing() {
   constexpr double rise = 0.3;
   constexpr double w = 2.0 * std::numbers::pi * 1.7;
   Recording recording;
-  recording.file = "test motion";
+  recording.file = "the test motion";
   recording.drive_kind = DriveKind::current;
   for (int n = 0; n <= static_cast<int>(rate * duration); ++n) {
     const double t = n / rate;
@@ -150,21 +150,17 @@ namespace {
 std::vector<TestSample> samples_of(const Motion& motion) {
   std::vector<TestSample> result;
   for (std::size_t n = 0; n < motion.time.size(); ++n) {
-    double slope = 0.0;
-    if (n < motion.intervals.size()) {
-      slope = motion.intervals[n].course.v[1] / motion.intervals[n].length;
-    } else if (n > 0) {
-      slope = cubic_slope(motion.intervals[n - 1].course.v, 1.0) / motion.intervals[n - 1].length;
-    }
-    result.push_back({motion.time[n], motion.x[n], motion.v[n], slope, motion.a[n], motion.jerk[n],
+    result.push_back({motion.time[n], motion.x[n], motion.v[n], velocity_slope(motion, n), motion.a[n], motion.jerk[n],
                       motion.drive.empty() ? 0.0 : motion.drive[n]});
   }
   return result;
 }
 
-// Whether it marches as simulate does.
-bool in_its_own_steps(const ExportedModel& exported) {
-  return exported.substeps == 0 && exported.most_substeps == default_most_substeps;
+// As the exported code sees the samples.
+Target without_foresight(Target target) {
+  target.motion = without_foresight(std::move(target.motion));
+  if (target.preroll > 0) target.lead_in = beginning_of(target.motion, target.lead_in.time.size());
+  return target;
 }
 
 // In the steps that the exported code takes.
@@ -195,7 +191,7 @@ double TestVector::allowed() const {
   constexpr double rounding = 1e-6;
   // Steps that hardly hold the equations let rounding grow: two runs then agree to a part of what either is off.
   constexpr double of_the_error = 0.01;
-  return std::max(rounding, of_the_error * off_simulate.value_or(0.0));
+  return steps_limited ? std::max(rounding, of_the_error * off_simulate) : rounding;
 }
 
 TestVector test_vector(const ExportedModel& exported, const Recording& motion) {
@@ -205,36 +201,34 @@ TestVector test_vector(const ExportedModel& exported, const Recording& motion) {
   recording.earlier.clear();  // exported code begins cold and as new
   ObjectiveOptions options;
   options.tolerance = exported.tolerance;
-  Target target = make_target(recording, options, false);
-  TestVector result;
-  result.frequency = target.frequency;
-  result.samples = samples_of(target.motion);
-  result.corners = target.motion.beyond_corners.size();
-  give_ahead(exported.drive_ahead(), target.motion, result.samples);
-  if (target.preroll > 0) {
-    result.lead_in = samples_of(target.lead_in);
-    give_ahead(exported.drive_ahead(), target.lead_in, result.lead_in);
-  }
-  result.force = predict(exported.model, exported.held, exported.terms, target);
-  if (const auto time = diverges_at(result.force, recording)) {
+  const Target target = make_target(recording, options, false);
+  const std::vector<double> wanted = predict(exported.model, exported.held, exported.terms, target);
+  if (const auto time = diverges_at(wanted, recording)) {
     throw WorkError(fmt::format(
-        "export: the force of the model does not stay finite on the {} from {:g} s on, so that there is "
+        "export: the force of the model does not stay finite on {} from {:g} s on, so that there is "
         "nothing to check an exported copy with; expected the motion of a recording that the model holds for",
         recording.file, *time));
   }
-  if (in_its_own_steps(exported)) {
-    return result;
+  Target seen = without_foresight(target);
+  TestVector result;
+  result.frequency = seen.frequency;
+  result.samples = samples_of(seen.motion);
+  result.corners = target.motion.beyond_corners.size();
+  give_ahead(exported.drive_ahead(), seen.motion, result.samples);
+  if (seen.preroll > 0) {
+    result.lead_in = samples_of(seen.lead_in);
+    give_ahead(exported.drive_ahead(), seen.lead_in, result.lead_in);
   }
-  const std::vector<double> wanted = std::move(result.force);
-  result.force = force_as_exported(exported, target);
+  result.steps_limited = exported.substeps > 0 || exported.most_substeps != default_most_substeps;
+  result.force = force_as_exported(exported, seen);
   if (const auto time = diverges_at(result.force, recording)) {
     const bool fixed = exported.substeps > 0;
     const int steps = fixed ? exported.substeps : exported.most_substeps;
     throw OptionError(
         (fixed ? Option::substeps : Option::most_substeps) +
-        fmt::format(" {}: too few steps between two samples, the force does not stay finite on the {} from {:g} s on; "
+        fmt::format(" {}: too few steps between two samples, the force does not stay finite on {} from {:g} s on; "
                     "expected {} or more{}",
-                    steps, recording.file, *time, enough_steps(exported, target, recording),
+                    steps, recording.file, *time, enough_steps(exported, seen, recording),
                     fixed ? ", or 0 for as many as the stiffness asks for" : ""));
   }
   double apart = 0.0;

@@ -1,7 +1,6 @@
 // What every target of `export` starts from: an identified model, and a motion with its force to check a copy with.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -61,10 +60,11 @@ struct TestVector {
   double frequency = 0.0;           // Hz
   std::vector<TestSample> lead_in;  // marched beforehand, where the recording begins in mid-motion
   std::vector<TestSample> samples;
-  std::vector<double> force;  // N, one a sample: by simulate, but in the steps that the exported code takes
-  // Largest difference to what simulate gives, as a share of its largest force; none where the steps are its own.
-  std::optional<double> off_simulate;
-  // Of the motion, where straight lines of it meet: simulate knows them and exported code does not.
+  std::vector<double> force;  // N, one a sample: as the exported code takes its steps, from one sample to the next
+  // Largest difference to what simulate gives, as a share of its largest force.
+  double off_simulate = 0.0;
+  bool steps_limited = false;  // by --substeps or --most-substeps
+  // Of the motion, where straight lines of it meet: later samples tell simulate of them, and exported code has none.
   std::size_t corners = 0;
 
   // By which a replay may differ, as a share of the largest force.

@@ -36,29 +36,6 @@ void take_circumstances(const Recording& recording, Target& target) {
   }
 }
 
-// The first samples of a motion as one of their own.
-Motion beginning_of(const Motion& motion, std::size_t count) {
-  Motion result;
-  if (is_lean(motion)) {
-    prepare(motion, 0, count, result);
-    return result;
-  }
-  copy_settings(motion, result);
-  const auto first = [&](const auto& from, auto& to, std::size_t length) {
-    to.assign(from.begin(), from.begin() + static_cast<std::ptrdiff_t>(std::min(length, from.size())));
-  };
-  first(motion.time, result.time, count);
-  first(motion.x, result.x, count);
-  first(motion.v, result.v, count);
-  first(motion.a, result.a, count);
-  first(motion.jerk, result.jerk, count);
-  first(motion.drive, result.drive, count);
-  first(motion.load, result.load, count);
-  first(motion.intervals, result.intervals, count - 1);
-  result.beyond_corners = motion.beyond_corners;
-  return result;
-}
-
 // The measured force less its fastest noise: at each sample the parabola through the five samples around it.
 std::vector<double> smoothed_force(const Recording& recording) {
   constexpr std::array<double, 5> weights = {-3.0 / 35.0, 12.0 / 35.0, 17.0 / 35.0, 12.0 / 35.0, -3.0 / 35.0};
@@ -147,6 +124,28 @@ std::size_t run_in_samples(const Recording& recording) {
 }
 
 }  // namespace
+
+Motion beginning_of(const Motion& motion, std::size_t count) {
+  Motion result;
+  if (is_lean(motion)) {
+    prepare(motion, 0, count, result);
+    return result;
+  }
+  copy_settings(motion, result);
+  const auto first = [&](const auto& from, auto& to, std::size_t length) {
+    to.assign(from.begin(), from.begin() + static_cast<std::ptrdiff_t>(std::min(length, from.size())));
+  };
+  first(motion.time, result.time, count);
+  first(motion.x, result.x, count);
+  first(motion.v, result.v, count);
+  first(motion.a, result.a, count);
+  first(motion.jerk, result.jerk, count);
+  first(motion.drive, result.drive, count);
+  first(motion.load, result.load, count);
+  first(motion.intervals, result.intervals, count - 1);
+  result.beyond_corners = motion.beyond_corners;
+  return result;
+}
 
 std::vector<double> Target::conditions_at(std::size_t n) const {
   std::vector<double> result;

@@ -49,6 +49,9 @@ struct Target {
   [[nodiscard]] std::vector<double> conditions_at(std::size_t n) const;
 };
 
+// The first `count` samples of a motion as one of their own.
+Motion beginning_of(const Motion& motion, std::size_t count);
+
 Target make_target(const Recording& recording, const ObjectiveOptions& options, bool lean);
 // Lean where the recording is long.
 Target make_target(const Recording& recording, const ObjectiveOptions& options);

@@ -174,6 +174,26 @@ double acceleration_along(const MotionCourse& course, double length) {
   return detail::change_of_velocity(course) / length;
 }
 
+// Bounds of the motion behind a sample.
+struct Pace {
+  double speed;         // m/s
+  double acceleration;  // m/s^2
+};
+
+Pace pace_of(const Motion& motion, std::size_t n) {
+  if (n >= motion.intervals.size()) return {0.0, 0.0};
+  const MotionInterval& interval = motion.intervals[n];
+  return {interval.speed, acceleration_along(interval.course, interval.length)};
+}
+
+// Where the motion goes on as at the sample, for as long as the interval before it.
+Pace pace_expected(const Motion& motion, std::size_t n) {
+  const double h = n > 0 ? motion.intervals[n - 1].length : 0.0;
+  const double slope = velocity_slope(motion, n);
+  return {std::max(std::fabs(motion.v[n]), std::fabs(motion.v[n] + h * slope)) + 8.0 / 27.0 * h * std::fabs(slope),
+          std::fabs(slope)};
+}
+
 // Over the part [from, to] of interval n; `start` belongs to `from` when `known`.
 template <class T>
 void march_segment(const Assembly<T>& system, const Motion& motion, std::size_t n, double from, double to, bool known,
@@ -242,21 +262,24 @@ void march_assembly(const CompositeModel& model, const Motion& motion, const T* 
       system.set_parameters(p + (n - begin) * stride);
     }
     const bool last = n >= motion.intervals.size();
-    // No guess from the interval before: a march in pieces gives the bits of one in a single piece.
-    start.relief.speed.fill(value_t<T>(0.0));
-    start.relief.resistance.fill(value_t<T>(0.0));
-    system.start(current, detail::input_of_sample<T>(motion, n), last ? 0.0 : motion.intervals[n].speed,
-                 last ? 0.0 : acceleration_along(motion.intervals[n].course, motion.intervals[n].length), start);
+    const auto start_at = [&](const Pace& pace) {
+      // No guess from the interval before: a march in pieces gives the bits of one in a single piece.
+      start.relief.speed.fill(value_t<T>(0.0));
+      start.relief.resistance.fill(value_t<T>(0.0));
+      system.start(current, detail::input_of_sample<T>(motion, n), pace.speed, pace.acceleration, start);
+    };
+    start_at(motion.foresight ? pace_of(motion, n) : pace_expected(motion, n));
     out[n - begin] = start.force;
     if (last) {
       continue;
     }
+    if (!motion.foresight) start_at(pace_of(motion, n));
     const MotionInterval& interval = motion.intervals[n];
     if (stride > 0) {
       detail::parameters_between(p + (n - begin) * stride, stride, between.data());
       system.set_parameters(between.data());
     }
-    bool known = stride == 0 && interval.corner < 0;
+    bool known = motion.foresight && stride == 0 && interval.corner < 0;
     detail::in_parts(interval, [&](double from, double to) {
       march_segment<T>(system, motion, n, from, to, known, room, current);
       known = false;

@@ -188,9 +188,16 @@ inline double change_of_velocity(const MotionCourse& course) {
   const double* c = course.v;
   return std::fabs(c[1]) + 2.0 * std::fabs(c[2]) + 3.0 * std::fabs(c[3]);
 }
+// Whether the velocity changes sign behind interval n, as far as its own end tells: along a parabola.
+inline bool reversal_expected(const Motion& motion, std::size_t n) {
+  const double h = motion.intervals[n].length;
+  const double v = motion.v[n + 1];
+  return v * (v + h * (velocity_slope(motion, n + 1) + 0.5 * h * motion.jerk[n + 1])) < 0.0;
+}
 [[gnu::always_inline]] inline bool near_reversal(const Motion& motion, std::size_t n) {
-  return motion.intervals[n].reversal || (n > 0 && motion.intervals[n - 1].reversal) ||
-         (n + 1 < motion.intervals.size() && motion.intervals[n + 1].reversal);
+  if (motion.intervals[n].reversal || (n > 0 && motion.intervals[n - 1].reversal)) return true;
+  if (!motion.foresight) return reversal_expected(motion, n);
+  return n + 1 < motion.intervals.size() && motion.intervals[n + 1].reversal;
 }
 
 // Rates within a step, and the states they are taken at.

@@ -121,11 +121,16 @@ void go_smoothly(double x0, double x1, double v0, double v1, double slope0, doub
 void add_intervals(const Samples& all, Motion& motion) {
   const std::vector<double> slope = slopes(all.time, all.velocity, all.first, all.last);
   const auto corner_at = [&](std::size_t n) {
-    return n + 1 < all.time.size() ? corner_of(all.time, all.displacement, all.velocity, n) : std::nullopt;
+    return motion.foresight && n + 1 < all.time.size() ? corner_of(all.time, all.displacement, all.velocity, n)
+                                                       : std::nullopt;
   };
   motion.intervals.resize(all.last > all.first ? all.last - all.first - 1 : 0);
   motion.beyond_corners.clear();
-  std::optional<VelocityCorner> before = all.first > 0 ? corner_at(all.first - 1) : std::nullopt;
+  if (motion.intervals.empty()) return;
+  const auto slope_behind = [](const std::optional<VelocityCorner>& corner, double smooth) {
+    return corner ? corner->end_slope : smooth;
+  };
+  double start_slope = all.first > 0 ? slope_behind(corner_at(all.first - 1), slope[0]) : slope[0];
   std::optional<VelocityCorner> here = corner_at(all.first);
   for (std::size_t n = 0; n < motion.intervals.size(); ++n) {
     MotionInterval& interval = motion.intervals[n];
@@ -134,7 +139,7 @@ void add_intervals(const Samples& all, Motion& motion) {
     if (here.has_value()) {
       turn(*here, motion.x[n], motion.x[n + 1], interval, motion.beyond_corners);
     } else {
-      go_smoothly(motion.x[n], motion.x[n + 1], motion.v[n], motion.v[n + 1], before ? before->end_slope : slope[n],
+      go_smoothly(motion.x[n], motion.x[n + 1], motion.v[n], motion.v[n + 1], start_slope,
                   next ? next->start_slope : slope[n + 1], interval);
     }
     hermite(interval.length, motion.a[n], motion.a[n + 1], motion.jerk[n], motion.jerk[n + 1], interval.a);
@@ -146,12 +151,18 @@ void add_intervals(const Samples& all, Motion& motion) {
     interval.end[1] = cubic(interval.course.v, 1.0);
     interval.end[2] = cubic(interval.a, 1.0);
     interval.end[3] = cubic_slope(interval.a, 1.0) / interval.length;
-    before = here;
+    start_slope = slope_behind(here, slope[n + 1]);
     here = next;
   }
 }
 
 }  // namespace
+
+double velocity_slope(const Motion& motion, std::size_t n) {
+  if (n < motion.intervals.size()) return motion.intervals[n].course.v[1] / motion.intervals[n].length;
+  if (n == 0) return 0.0;
+  return cubic_slope(motion.intervals[n - 1].course.v, 1.0) / motion.intervals[n - 1].length;
+}
 
 Motion make_motion(std::span<const double> time, std::span<const double> displacement, std::span<const double> velocity,
                    std::span<const double> drive, double tolerance, std::span<const double> acceleration) {
@@ -171,6 +182,7 @@ void copy_settings(const Motion& from, Motion& to) {
   to.balance_iterations = from.balance_iterations;
   to.element_rate_limit = from.element_rate_limit;
   to.implicit_elements = from.implicit_elements;
+  to.foresight = from.foresight;
 }
 
 Motion make_lean_motion(std::span<const double> time, std::span<const double> displacement,
@@ -196,6 +208,12 @@ void prepare(const Motion& lean, std::size_t first, std::size_t last, Motion& pi
   part(lean.load, piece.load);
   piece.jerk = slopes(lean.time, lean.a, first, last);
   add_intervals({lean.time, lean.x, lean.v, first, last}, piece);
+}
+
+Motion without_foresight(Motion motion) {
+  motion.foresight = false;
+  add_intervals({motion.time, motion.x, motion.v, 0, motion.time.size()}, motion);
+  return motion;
 }
 
 namespace {

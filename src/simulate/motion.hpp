@@ -70,6 +70,8 @@ struct Motion {
   double element_rate_limit = 5e4;
   // Steps that do not follow the elements (simulate/implicit.hpp).
   bool implicit_elements = false;
+  // Whether a march knows the interval after the one that it is in (without_foresight).
+  bool foresight = true;
 };
 
 // The one that holds on the part of an interval that begins at theta = from.
@@ -79,10 +81,18 @@ inline const MotionCourse& course_from(const Motion& motion, const MotionInterva
              : interval.course;
 }
 
+// Slope of the velocity at sample n, m/s^2, which the intervals on both sides have where no corner is near. Not for
+// lean motions.
+double velocity_slope(const Motion& motion, std::size_t n);
+
 // Arrays of equal length; time strictly increasing (s), displacement (m), velocity (m/s), drive (A or V, may be empty),
 // acceleration (m/s^2; empty: the differences of the velocity).
 Motion make_motion(std::span<const double> time, std::span<const double> displacement, std::span<const double> velocity,
                    std::span<const double> drive, double tolerance = 1e-4, std::span<const double> acceleration = {});
+
+// As code sees it that is given one sample after the other, beside the damper: no corners, which only later samples
+// tell, and whether the velocity changes sign behind an interval is guessed from its slope there. Not for lean motions.
+Motion without_foresight(Motion motion);
 
 // For comparing hypotheses with each other, not for forces: kinks between samples are not resolved, and neither is the
 // relaxation of series elements that is over between two samples.

@@ -28,24 +28,23 @@ std::string name_of(const ExportRequest& request, const StoredModel& stored, con
   return name;
 }
 
-// What the steps asked for cost; empty where they are those of simulate.
-std::string about_steps(const TestVector& vector) {
-  if (!vector.off_simulate) {
+// By how much the exported code is expected to differ from simulate, and why; empty where it is not.
+std::string about_force(const TestVector& vector) {
+  constexpr double rounding = 1e-6;
+  if (vector.off_simulate <= rounding && !vector.steps_limited) {
     return "";
   }
-  return wrapped(fmt::format(
-      "In these steps the force differs from that of `simulate` by up to {:.2g} % of the largest force, on the "
-      "motion of the test vector.",
-      100.0 * *vector.off_simulate));
-}
-
-// Where a replay cannot give the force of simulate; else empty.
-std::string about_corners(const TestVector& vector) {
-  if (vector.corners == 0) return "";
-  return wrapped(
-      fmt::format("The motion of the test vector has {}, where straight lines of it meet: `simulate` knows "
-                  "them and exported code does not, so that its replay differs around them.",
-                  vector.corners == 1 ? "a corner" : fmt::format("{} corners", vector.corners)));
+  std::string text = fmt::format(
+      "{} the force differs from that of `simulate` by up to {:.2g} % of the largest force, on the motion of the test "
+      "vector.",
+      vector.steps_limited ? "In these steps" : "Marched from one sample to the next", 100.0 * vector.off_simulate);
+  if (vector.corners > 0) {
+    text += fmt::format(
+        " That motion has {}, where straight lines of it meet: `simulate` is told of them by later "
+        "samples, which exported code does not have.",
+        vector.corners == 1 ? "a corner" : fmt::format("{} corners", vector.corners));
+  }
+  return wrapped(text);
 }
 
 // Where the drive has to be known ahead; else empty.
@@ -110,7 +109,7 @@ ModelExport export_model(StoredModel stored, const std::map<std::string, Conditi
   Export written = target.write(exported, vector);
   ModelExport result;
   result.folder = (one_file ? out.parent_path() : out).string();
-  result.note = written.note + "\n" + about_drive(exported) + about_steps(vector) + about_corners(vector);
+  result.note = written.note + "\n" + about_drive(exported) + about_force(vector);
   if (one_file && written.files.size() == 1) {
     result.files[out.filename().string()] = std::move(written.files.begin()->second);
   } else {

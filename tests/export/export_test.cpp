@@ -66,6 +66,7 @@ TEST_P(EveryEntry, InC) {
   const ExportedModel exported = model_of(GetParam());
   const TestVector vector = test_vector(exported, motion_for_testing());
   ASSERT_GT(peak(vector.force), 1.0);
+  EXPECT_LE(vector.off_simulate, 1e-6);
   write(export_c(exported, vector).files, folder.path());
   const Outcome built = shell(strict + exported.name + "_test.c " + exported.name + ".c -lm -o replay", folder.path());
   ASSERT_EQ(built.status, 0) << built.err;

@@ -66,7 +66,7 @@ TEST_P(Steps, FixedOnesAreReplayed) {
   exported.substeps = 32;
   for (const Recording& motion : {first_samples(motion_for_testing(), 200), in_mid_motion()}) {
     const TestVector vector = test_vector(exported, motion);
-    ASSERT_TRUE(vector.off_simulate);
+    ASSERT_TRUE(vector.steps_limited);
     expect_right_replay(exported, vector);
   }
 }
@@ -75,12 +75,52 @@ TEST_P(Steps, LimitedOnesAreReplayed) {
   ExportedModel exported = model_of(GetParam());
   exported.most_substeps = 16;
   const TestVector vector = test_vector(exported, first_samples(motion_for_testing(), 200));
-  ASSERT_TRUE(vector.off_simulate);
+  ASSERT_TRUE(vector.steps_limited);
   expect_right_replay(exported, vector);
 }
 
-TEST(StepsBetweenSamples, TheirOwnAreThoseOfSimulate) {
-  EXPECT_FALSE(test_vector(model_of({"bouc-wen", {}}), motion_for_testing()).off_simulate);
+// Straight lines, which meet between samples; with the velocity of either line at its samples.
+Recording triangle() {
+  Recording recording;
+  constexpr double period = 1.0;
+  constexpr double speed = 0.04;
+  for (int n = 0; n < 400; ++n) {
+    const double t = n / 301.0;
+    const double phase = std::fmod(t + 0.1, period);
+    const bool rises = phase < 0.5 * period;
+    recording.time.push_back(t);
+    recording.displacement.push_back(speed * ((rises ? phase : period - phase) - 0.25 * period));
+    recording.velocity.push_back(rises ? speed : -speed);
+  }
+  return recording;
+}
+
+// Its velocity changes sign where its slope does not tell.
+Recording rough() {
+  Recording recording = in_mid_motion();
+  double noise = 0.4;
+  for (double& v : recording.velocity) {
+    noise = 3.9 * noise * (1.0 - noise);  // chaotic, in (0, 1)
+    v += 0.01 * (noise - 0.5);
+  }
+  return recording;
+}
+
+TEST_P(Steps, TheirOwnAreReplayedOnAnyMotion) {
+  const ExportedModel exported = model_of(GetParam());
+  for (const Recording& motion : {triangle(), rough()}) {
+    const TestVector vector = test_vector(exported, motion);
+    ASSERT_FALSE(vector.steps_limited);
+    EXPECT_DOUBLE_EQ(vector.allowed(), 1e-6);
+    expect_right_replay(exported, vector);
+  }
+}
+
+TEST(StepsBetweenSamples, CornersAreToldBySamplesThatExportedCodeDoesNotHave) {
+  const TestVector vector = test_vector(model_of({"bouc-wen", {}}), triangle());
+  EXPECT_EQ(vector.corners, 2U);
+  EXPECT_GT(vector.off_simulate, 1e-3);
+  EXPECT_EQ(test_vector(model_of({"bouc-wen", {}}), motion_for_testing()).corners, 0U);
 }
 
 // Its inner states relax within microseconds, a thousandth of the sampling interval of the test motion.
