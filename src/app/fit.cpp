@@ -210,10 +210,14 @@ void add_fit(CLI::App& program) {
   add_data_options(*command, options->data);
   add_keep_option(*command, options->data);
   command->add_option("--model", options->model, "damper law, see `hysteron list models`");
-  command->add_option("--effects", options->effects, "effects put behind the law, see `hysteron list effects`")
+  command
+      ->add_option("--effects", options->effects,
+                   "effects put behind the law, joined by commas, see `hysteron list effects`")
       ->delimiter(',')
       ->allow_extra_args(false);
-  command->add_option("--solver", options->solvers, "solvers, compared when several; default multistart-lm")
+  command
+      ->add_option("--solver", options->solvers,
+                   "solvers, joined by commas and compared when several; default multistart-lm")
       ->delimiter(',')
       ->allow_extra_args(false);
   add_solver_option(*command, options->solver_commands);

@@ -165,9 +165,8 @@ class System {
     in.jerk = 1e4;
     if (evaluate(links_.size(), s.data(), in, nullptr) != plain) {
       throw InputError(
-          "respond: the force depends on the jerk of the motion (sensor-delay), which belongs to a recording's "
-          "channels "
-          "and not to a device, expected a model without it");
+          "the force depends on the jerk of the motion (sensor-delay), which belongs to a recording's channels and not "
+          "to a device; expected a model without it");
     }
     in.jerk = 0.0;
     in.a = 3.7;
@@ -310,7 +309,7 @@ class Integrator {
 void require_response(const CompositeModel& model, const std::vector<double>& p, bool follows_varying_drive) {
   for (const Part* effect : model.effects) {
     if (follows_varying_drive && (effect->on_double.excite != nullptr || effect->on_double.recall != nullptr)) {
-      throw InputError("respond: " + std::string(effect->id) +
+      throw InputError(std::string(effect->id) +
                        " acts on a drive that varies, which is not offered yet; expected a constant drive");
     }
   }

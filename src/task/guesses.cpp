@@ -161,7 +161,8 @@ void refuse_excitation(const StoredModel& stored, const std::string& path, const
   for (const Recording& recording : recordings) {
     if (!stored.excited.contains(recording.sha256)) continue;
     throw InputError(recording.file + ": its force excites the mass whose motion " + path +
-                     " was identified from, and is not the damper's; expected recordings of the damper's own force "
+                     " was identified from, and is not the damper's; expected recordings of the damper's own force, in "
+                     "files of their own "
                      "(fit.json has the errors of the motion, `respond` simulates it)");
   }
   remarks.push_back(
