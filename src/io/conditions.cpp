@@ -76,6 +76,7 @@ void refuse_shared(const ConditionSource& source, const std::vector<ConditionSou
 
 std::string_view unit_of_plain(std::string_view name) {
   if (name == "pressure") return "Pa";
+  if (name == clock_condition) return "s";
   if (name == quantity_name(Quantity::temperature)) return "degC";
   if (name == quantity_name(Quantity::current)) return "A";
   if (name == quantity_name(Quantity::voltage)) return "V";
@@ -245,23 +246,23 @@ void take_numbers(Recording& recording, const ReadOptions& options) {
   }
 }
 
-void agree_on_units(std::vector<Recording>& recordings) {
+void agree_on_units(const std::vector<Recording>& recordings) {
   if (recordings.empty()) return;
   for (std::size_t c = 0; c < recordings.front().conditions.size(); ++c) {
     std::string unit;
     std::string first;
     for (const Recording& recording : recordings) {
       const ConditionChannel& condition = recording.conditions[c];
-      if (condition.unit.empty() || condition.unit == unit) continue;
-      if (!unit.empty()) {
-        throw InputError(recording.file, 0,
-                         in_quotes(condition.name) + " is in " + in_quotes(condition.unit) + " and in " +
-                             in_quotes(unit) + " in " + in_quotes(first) + ", expected one unit that can be converted");
+      if (first.empty()) {
+        unit = condition.unit;
+        first = recording.file;
       }
-      unit = condition.unit;
-      first = recording.file;
+      if (condition.unit == unit) continue;
+      const auto in = [](const std::string& one) { return one.empty() ? "has no unit" : "is in " + in_quotes(one); };
+      throw InputError(recording.file, 0,
+                       in_quotes(condition.name) + " " + in(condition.unit) + ", and " + in(unit) + " in " +
+                           in_quotes(first) + ", expected one unit that can be converted");
     }
-    for (Recording& recording : recordings) recording.conditions[c].unit = unit;
   }
 }
 

@@ -76,8 +76,7 @@ void thin_conditions(std::vector<std::vector<double>>& values, std::size_t sampl
 // channel, any other is kept beside its unused columns. InputError where the file records the same.
 void take_numbers(Recording& recording, const ReadOptions& options);
 
-// InputError where two recordings have a condition in different units; a number without a unit takes that of the
-// others.
-void agree_on_units(std::vector<Recording>& recordings);
+// InputError where two recordings have a condition in different units, or one in none.
+void agree_on_units(const std::vector<Recording>& recordings);
 
 }  // namespace hysteron

@@ -572,6 +572,11 @@ void follow_conditions(StoredModel& stored, const std::vector<Recording>& record
                          ", which parameters of the model follow, expected a column or a number for it");
       }
       refuse_other_unit(condition, here->unit, recording.file);
+      if (here->unit != condition.unit) {
+        const auto in = [](const std::string& unit) { return unit.empty() ? "has no unit" : "is in '" + unit + "'"; };
+        throw InputError(recording.file + ": the " + condition.name + " " + in(here->unit) + ", and " +
+                         in(condition.unit) + " in the model, expected a unit in both or in neither");
+      }
     }
     if (!std::ranges::equal(recording.conditions, first, {}, &ConditionChannel::name, &ConditionChannel::name)) {
       throw InputError(recording.file + ": other conditions than " + recordings.front().file +

@@ -128,6 +128,14 @@ TEST_F(Pressed, TheModelIsUsedAtOtherValues) {
   const Outcome responded = run({"respond", "a/model.json", "bare.csv", "--excitation", "force", "--mass", "20", "--at",
                                  "pressure=2 bar", "--out", "m.csv"});
   EXPECT_EQ(responded.status, 0) << responded.err;
+  std::string unitless = read(folder_ / "new.csv");
+  unitless.replace(unitless.find("pressure [bar]"), 14, "pressure");
+  write(folder_ / "unitless.csv", unitless);
+  const Outcome unknown = run({"score", "a/model.json", "unitless.csv"});
+  EXPECT_EQ(unknown.status, 2);
+  EXPECT_EQ(unknown.err,
+            "error: unitless.csv: the pressure has no unit, and is in 'Pa' in the model, expected a unit in both or in "
+            "neither\n");
   // Beyond what was fitted it is said.
   const Outcome far = run({"simulate", "a/model.json", "bare.csv", "--at", "pressure=9 bar", "--out", "f.csv"});
   EXPECT_EQ(far.status, 0);

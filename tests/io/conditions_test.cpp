@@ -147,6 +147,18 @@ TEST(Conditions, ACampaignGivesNumbersAndLaws) {
   }
 }
 
+TEST(Conditions, AColumnWithoutAUnitBesideOneWithAUnitIsRefused) {
+  const TemporaryFolder folder;
+  folder.write("r1.csv", with_column("pressure [bar]", [](int) { return std::string("2"); }));
+  folder.write("r2.csv", with_column("pressure", [](int) { return std::string("2"); }));
+  folder.write("campaign.toml", schema + "[by.pressure]\nc0 = 1\n");
+  const std::string message =
+      message_of<InputError>([&] { static_cast<void>(load_campaign({folder.path().string()})); });
+  EXPECT_NE(message.find("r2.csv: 'pressure' has no unit, and is in 'Pa' in 'r1.csv', expected one unit"),
+            std::string::npos)
+      << message;
+}
+
 TEST(Conditions, UnitsThatCannotBeConvertedMustAgree) {
   const TemporaryFolder folder;
   folder.write("r1.csv", plain());
