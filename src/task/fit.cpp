@@ -19,6 +19,7 @@
 #include "task/model_file.hpp"
 #include "task/page.hpp"
 #include "task/rate.hpp"
+#include "task/remarks.hpp"
 #include "task/residual_record.hpp"
 #include "task/stages.hpp"
 #include "task/track.hpp"
@@ -286,6 +287,19 @@ bool on_base(Excites excitation, std::vector<Recording>& responses) {
   return result;
 }
 
+// A response under nothing is a free decay, which a column that nothing knows may contradict.
+std::vector<std::string> free_decays(const std::vector<Recording>& responses) {
+  std::vector<std::string> remarks;
+  for (const Recording& recording : responses) {
+    if (!recording.force.empty() || !recording.base.empty() || recording.unused.empty()) continue;
+    std::string columns;
+    for (const UnusedColumn& column : recording.unused) columns += (columns.empty() ? "'" : "', '") + column.name;
+    remarks.push_back(fmt::format("{}: no force on the mass and no base: taken as a free decay, without {}'",
+                                  recording.file, columns));
+  }
+  return remarks;
+}
+
 // What is wrong with the model on these recordings.
 void check_before(const Layout& layout, const FitData& data, const FitRequest& request) {
   if (request.rig) {
@@ -345,10 +359,11 @@ Message drive_hint(const Identification& result, const std::vector<Recording>& r
 
 FitData fit_data(Campaign campaign, FitRequest& request) {
   require_usable(campaign.recordings, request.rig ? ForceOf::excitation : ForceOf::damper);
-  FitData data{std::move(campaign), {}, {}};
+  FitData data{std::move(campaign), {}, {}, {}};
   if (request.rig) {
     data.responses = std::move(data.campaign.recordings);
     request.rig->base = on_base(request.excitation, data.responses);
+    data.remarks = free_decays(data.responses);
     data.campaign.recordings = damper_recordings(data.responses, *request.rig);
   }
   data.model = request.model.empty() ? data.campaign.model : request.model;
@@ -449,6 +464,7 @@ FitResult fit_campaign(const FitData& data, const FitRequest& request, const std
   }
 
   fit.warnings = remarks;
+  append(fit.warnings, data.remarks);
   fit.warnings.insert(fit.warnings.end(), result.warnings.begin(), result.warnings.end());
   fit.drive_hint = drive_hint(result, campaign.recordings, objective);
   if (!fit.drive_hint.empty()) fit.warnings.push_back(fit.drive_hint.plain());

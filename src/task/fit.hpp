@@ -29,6 +29,7 @@ struct FitData {
   Campaign campaign;                 // of the damper alone
   std::vector<Recording> responses;  // the motion under the force on the mass, with a rig
   std::string model;
+  std::vector<std::string> remarks;  // on what the responses were taken for
 };
 // Throws InputError for what cannot be fitted, before any work: unusable recordings, wrong names, laws that
 // two stages need, a model that cannot respond or depends on a rate that is not recorded. Parameter laws that the

@@ -75,6 +75,18 @@ TEST_F(ResponseOfAMass, WhatIsWrittenIsIdentifiedFrom) {
   EXPECT_LT(json::parse(read(folder_ / "direct/fit.json")).at("nrmse").at("fit").get<double>(), 1e-6);
 }
 
+TEST_F(ResponseOfAMass, AnExcitationUnderAnotherNameIsNotTakenForNoneSilently) {
+  std::string text = read(folder_ / "shaker/motion.csv");
+  text.replace(text.find("force [N],damper force [N]"), 26, "Shaker [N],Cell [N]");
+  write(folder_ / "shaker/motion.csv", text);
+  const Outcome outcome = fit_response();
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.err.find("warning: motion.csv: no force on the mass and no base: taken as a free decay, without "
+                             "'Shaker [N]', 'Cell [N]'"),
+            std::string::npos)
+      << outcome.err;
+}
+
 TEST_F(ResponseOfAMass, ItsForceIsNotTakenForTheDampers) {
   const Outcome outcome = run({"fit", "shaker", "--model", "viscous", "--out", "out"});
   EXPECT_EQ(outcome.status, 2);
