@@ -580,10 +580,16 @@ function printedUnit(unit) {
 const unitWords = (unit) => String(unit || "").replace(/\^(-?\d+)/g, (_, power) => superscript(power)).replace(/ (?!per )/g, "\u00a0");
 const printedTerm = (p) => (String(p.unit).includes("/V") ? p.name.replace("*i", "*u") : p.name);
 
+// Without a finite derivative by any parameter, or interrupted: no errors, which says nothing of the data.
+const withoutErrors = parameters.length > 0 && !parameters.some((p) => isNumber(p.std_error)) && !list(report.sensitivity).some((row) => isNumber(row.value));
+const foundOpen = (p) => p.identifiable === false && !withoutErrors;
+const whyWithoutErrors = () => (list(report.sensitivity).length ? "No standard error could be computed: the derivatives of the simulation are not finite at these values. How well the data determine the parameters is not known."
+  : "No standard error could be computed. How well the data determine the parameters is not known.");
+
 function parameterRemarks(p) {
   const flags = [];
   if (p.at_bound) flags.push(badge(`at ${p.at_bound} bound`, "flag"));
-  if (p.identifiable === false) flags.push(badge("not identifiable from these data", "flag"));
+  if (foundOpen(p)) flags.push(badge("not identifiable from these data", "flag"));
   return flags.length ? el("span", {}, flags.flatMap((f, i) => (i ? [" ", f] : [f]))) : "";
 }
 
@@ -603,6 +609,7 @@ function modelSection() {
     list(report.effects).length ? el("p", {}, "Effects added to the model: ", report.effects.map((e, i) => [i ? ", " : "", el("code", {}, e)]).flat(), ".") : null,
     model.reference ? el("p", { class: "muted" }, "Source: ", model.reference) : null,
     parameters.length ? plainTable("Identified values. The bar shows the value and its interval between the search bounds (logarithmic where they are positive and far apart).", columns, rows) : null,
+    withoutErrors ? el("p", { class: "warning" }, whyWithoutErrors()) : null,
     report.on_bounds ? el("p", {}, `${report.on_bounds}.`) : null);
 }
 
@@ -757,7 +764,9 @@ const unitText = (unit) => printedUnit(unit).replace(/\^(-?\d+)/g, (_, power) =>
 const axisUnit = (unit) => (unit === "1" ? "" : unitText(unit));
 const withUnit = (p) => (p.unit === "1" ? p.name : `${p.name} [${unitText(p.unit)}]`);
 const withError = (c) => `${significant(c.value, 3)} ± ${significant(c.std_error, 1)}${c.unit === "1" ? "" : `\u00a0${unitText(c.unit)}`}`;
-const sameSign = (c) => `${Math.round(c.consistency * c.recordings)} of ${c.recordings}`;
+// A curvature over levels of the drive is one number of all recordings.
+const ofAllTogether = (c) => c.id === "drive-bend";
+const sameSign = (c) => (ofAllTogether(c) ? `one value of all ${c.recordings}` : `${Math.round(c.consistency * c.recordings)} of ${c.recordings}`);
 const capital = (text) => text.charAt(0).toUpperCase() + text.slice(1);
 const zOf = (score) => (score && score.std_error > 0 ? score.mean / score.std_error : null);
 // The signature contrast shows an effect at two standard errors in its sense, beyond 95 % of the placebos.
@@ -771,7 +780,9 @@ const glossary = [
   ["shape that predicts better", "What the augmented model holds, and what is less likely than not the cause."],
   ["distinguishable", "Of two effects one predicts fitted recordings that are left out in turn better, by two standard errors."],
   ["related effect", "One that is mistaken for another on many motions, or is its limit."],
-  ["noise floor", "The error that a perfect model would have."],
+  ["noise floor", "The error that a perfect model would have, as far as the recordings show it. Where the motion does not repeat itself only white noise is seen (high-pass): the floor is at least this much, and slow noise may add to it."],
+  ["share of the misfit", "Of an effect: what comes back when it is taken out. What several explain counts for each of them, so that their shares may add to more than 100 %. The part without a name is what stays and, of what all effects and shapes explain together, the part of the shapes, in proportion to their shares."],
+  ["confidence, probability", "Cut off to whole percent, not rounded: 89.7 % reads 89 %, so that none reads as of a higher grade than it has."],
 ];
 
 function diagnosisSection() {
@@ -820,7 +831,7 @@ function effectBlock(e, d) {
   if (c === null) {
     add("Signature contrast", "None can be taken from these recordings.");
   } else if (c) {
-    add("Signature contrast", `${capital(c.what)}: ${withError(c)}; z ${fmt(c.z, 2)}, beyond ${percent(c.placebo_quantile)} of the placebos, the same sign in ${sameSign(c)} recordings`,
+    add("Signature contrast", `${capital(c.what)}: ${withError(c)}; z ${fmt(c.z, 2)}, beyond ${percent(c.placebo_quantile)} of the placebos, ${ofAllTogether(c) ? "" : "the same sign in "}${sameSign(c)} recordings`,
       shows(c) ? "." : ". Not enough to show this effect by itself.");
   }
   if (!e.in_place_of && candidate) {
@@ -836,7 +847,7 @@ function effectBlock(e, d) {
   if (alike.length) add("Not distinguishable from", alike.map((id, i) => [i ? ", " : "", el("code", {}, id)]), isNumber(e.confidence_alone) ? `; the confidence that it is this one is ${probability(e.confidence_alone)}.` : ".");
   const lesser = list(e.less_likely);
   if (lesser.length) add("Less likely", lesser.map((id, i) => [i ? ", " : "", el("code", {}, id)]), " would do as well.");
-  if (isNumber(e.share_of_misfit)) add("Share of the misfit", `${rounded(e.share_of_misfit)}; held-out NRMSE ${fmt(e.nrmse_heldout_before, 3)} without it, ${fmt(e.nrmse_heldout_after, 3)} with it.`);
+  if (isNumber(e.share_of_misfit)) add("Share of the misfit", `${rounded(e.share_of_misfit)} comes back when it is taken out; held-out NRMSE ${fmt(e.nrmse_heldout_before, 3)} without it, ${fmt(e.nrmse_heldout_after, 3)} with it.`);
   if (e.experiment) add("Recording that would decide", `${capital(e.experiment)}.`);
   return el("div", { class: `effect ${e.grade || ""}` },
     el("h4", {}, e.in_place_of ? "or " : "", el("code", {}, e.id), isNumber(e.confidence) ? `, confidence ${probability(e.confidence)}${list(e.indistinguishable_from).length ? ` that it is this or ${e.indistinguishable_from.join(" or ")}` : ""}` : "", e.family ? el("span", { class: "muted" }, `, family ${e.family}`) : ""),
@@ -881,7 +892,7 @@ function shapesTable(augmented, named) {
 // The contrast of each recording as a dot, all together as the band of two standard errors.
 function contrastPlot(c) {
   const rows = list(c.of_recordings).filter((r) => isNumber(r.value));
-  if (rows.length < 2) return null;
+  if (rows.length < 2 || ofAllTogether(c)) return null;
   const [pitch, top, left, right, width] = [17, 6, 112, 12, 360];
   const height = top + pitch * rows.length + 34;
   const low = c.value - 2 * c.std_error;
@@ -902,7 +913,7 @@ function contrastPlot(c) {
 
 function placesTable(title, places) {
   if (!list(places).length) return null;
-  return [el("h3", {}, title), plainTable("Share of the misfit against share of the samples",
+  return [el("h3", {}, title), plainTable("Share of the misfit against share of the samples; each recording weighs the same in both",
     [{ title: "Where", head: true }, { title: "Variable" }, { title: "From", num: true }, { title: "To", num: true }, { title: "Unit" }, { title: "Share of misfit", num: true }, { title: "Share of samples", num: true }, { title: "Recordings" }],
     places.map((l) => [l.where || "", l.variable || "", fmt(l.from, 3), fmt(l.to, 3), l.unit || "–", percent(l.share_of_misfit), percent(l.share_of_samples), list(l.recordings).join(", ")]))];
 }
@@ -928,7 +939,7 @@ function contrastTable(evidence) {
   if (!rows.length) return null;
   return [
     el("h3", {}, "Signature contrasts"),
-    el("p", { class: "muted" }, "What only one mechanism does to the force, read off the residual of the base model without fitting. z is the value over its standard error; the placebo quantile is the share of placebos, the same residual moved against the motion, that are smaller."),
+    el("p", { class: "muted" }, "What only one mechanism does to the force, read off the residual of the base model without fitting. z is the value over its standard error, taken as Student's t of so many recordings (of fewer than three: half-cycles) and turned into the value of a standard normal that is as rare: with few recordings far less than the ratio. The placebo quantile is the share of placebos, the same residual moved against the motion, that are smaller."),
     plainTable("Strongest first", [{ title: "Contrast", head: true }, { title: "Value ± standard error", num: true }, { title: "z", num: true }, { title: "Placebo quantile", num: true }, { title: "Same sign in recordings", num: true }, { title: "Speaks for" }],
       [...rows].sort((a, b) => Math.abs(b.z) - Math.abs(a.z)).map((c) => [c.what, withError(c), fmt(c.z, 2), percent(c.placebo_quantile), sameSign(c),
         list(c.speaks_for).map((id, i) => `${id}${c.sign[i] === 0 ? "" : c.sign[i] > 0 ? " (above 0)" : " (below 0)"}`).join(", ")])),
@@ -1157,9 +1168,9 @@ function verdictLine() {
   const fitted = recordings.length - held;
   const check = held ? ` and checked on ${held} held out`
     : checked ? `; the held-out error is that of a fit without ${checked} of them` : "; no recording was held out";
-  const flagged = parameters.filter((p) => p.at_bound || p.identifiable === false).length;
+  const flagged = parameters.filter((p) => p.at_bound || foundOpen(p)).length;
   // Of a fit that was interrupted nobody knows.
-  const open = parameters.some((p) => !isNumber(p.std_error) && !p.at_bound && p.identifiable !== false);
+  const open = parameters.some((p) => !isNumber(p.std_error) && !p.at_bound && !foundOpen(p));
   const model = report.model ? report.model.title || report.model.id : "Model";
   return `${model}: ${plural(parameters.length, "parameter")} fitted to ${plural(fitted, "recording")}` +
     `${check}; ` +

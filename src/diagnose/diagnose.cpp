@@ -13,6 +13,7 @@
 #include "diagnose/judgement.hpp"
 #include "diagnose/search/of_fit.hpp"
 #include "diagnose/search/wording.hpp"
+#include "diagnose/shown.hpp"
 #include "diagnose/signal/noise.hpp"
 #include "diagnose/signal/thin.hpp"
 #include "diagnose/summary.hpp"
@@ -219,6 +220,7 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const Split& split
   diagnosis.verdict = std::move(judgement.verdict);
   diagnosis.contrasts = std::move(judgement.contrasts);
   diagnosis.drive = drive_kind_of(campaign.recordings);
+  name_units(diagnosis.evidence, diagnosis.drive);
   const std::vector<Named> names = listed(diagnosis.verdict);
   score_on_all(diagnosis.search, named_of(names, false), diagnosis.bench);
   if (diagnosis.asked) {

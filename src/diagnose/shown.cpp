@@ -7,6 +7,7 @@
 #include <cmath>
 #include <functional>
 
+#include "core/contrast_kind.hpp"
 #include "diagnose/judge/speaking.hpp"
 #include "diagnose/search/wording.hpp"
 
@@ -37,11 +38,41 @@ bool no_longer_shows(const Signature& row, const std::vector<Signature>& others)
 }
 
 std::string phrase_of(const Signature& row, const std::string& more) {
-  return fmt::format("{}, {} ({:.0f} of {} recordings{})", row.what, size_text(row.value, row.unit, 2),
-                     std::round(row.consistency * static_cast<double>(row.recordings)), row.recordings, more);
+  return fmt::format("{}, {} ({}{})", row.what, size_text(row.value, row.unit, 2), recordings_text(row), more);
+}
+
+void name_unit(std::vector<Signature>& signatures, std::string_view unit) {
+  for (Signature& row : signatures) {
+    if (is_of_all(row)) {
+      row.unit = unit;
+    }
+  }
 }
 
 }  // namespace
+
+bool is_of_all(const Signature& row) { return row.id == card_of(ContrastKind::drive_bend).id; }
+
+std::string recordings_text(const Signature& row) {
+  return is_of_all(row)
+             ? fmt::format("one value of all {} recordings", row.recordings)
+             : fmt::format("{:.0f} of {} recordings", std::round(row.consistency * static_cast<double>(row.recordings)),
+                           row.recordings);
+}
+
+void name_units(Evidence& evidence, DriveKind drive) {
+  if (drive == DriveKind::none) {
+    return;
+  }
+  const std::string_view unit = drive == DriveKind::voltage ? "N/V^2" : "N/A^2";
+  name_unit(evidence.signatures, unit);
+  for (Candidate& candidate : evidence.candidates) {
+    name_unit(candidate.signatures, unit);
+  }
+  for (Evidence& asked : evidence.behind_asked) {
+    name_units(asked, drive);
+  }
+}
 
 std::string sentence_of_contrasts(const Evidence& evidence, const std::vector<Named>& names) {
   const bool replaced = !evidence.behind_asked.empty();

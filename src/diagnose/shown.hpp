@@ -4,9 +4,20 @@
 #include <string>
 #include <vector>
 
+#include "core/recording.hpp"
 #include "diagnose/judge/verdict.hpp"
 
 namespace hysteron {
+
+// Whether a contrast is one number of all recordings together, of which none has a value of its own:
+// a curvature over levels of the drive.
+bool is_of_all(const Signature& row);
+
+// "3 of 4 recordings": those whose own value has the sign of all.
+std::string recordings_text(const Signature& row);
+
+// Units that hold the drive's, where it is known: "N/A^2".
+void name_units(Evidence& evidence, DriveKind drive);
 
 // Of contrasts that speak for nothing in `names`, loudest first: of what the law asked for leaves, with those that are
 // gone behind the law in its place, and of what shows only behind that one. Empty where none speaks.

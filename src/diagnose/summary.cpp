@@ -36,8 +36,7 @@ std::string phrase_of(const Diagnosis& diagnosis, const Named& named, std::size_
   const std::optional<Speaking> speaking = speaking_for(named, diagnosis.evidence);
   if (speaking && shows(*speaking)) {
     const Signature& row = *speaking->signature;
-    shown += fmt::format("{}seen in {:.0f} of {} recordings", shown.empty() ? "" : "; ",
-                         std::round(row.consistency * static_cast<double>(row.recordings)), row.recordings);
+    shown += fmt::format("{}seen in {}", shown.empty() ? "" : "; ", recordings_text(row));
   }
   if (!shown.empty()) {
     text += " (" + shown + ")";
@@ -104,6 +103,12 @@ std::string law_with_parts(const std::string& law, const std::string& asked) {
   return parts.empty() ? law : law + ", which includes " + joined(parts, " and ") + ",";
 }
 
+// "noise 0.010"; where the motion does not repeat slow noise is not seen.
+std::string noise_text(const Diagnosis& diagnosis) {
+  return fmt::format("noise {}{:#.2g}", diagnosis.noise_floor_method == NoiseMethod::cycles ? "" : "at least ",
+                     diagnosis.noise_floor_heldout);
+}
+
 std::string sentence_of_errors(const Diagnosis& diagnosis) {
   const Search& search = diagnosis.search;
   const double before = search.base.heldout;
@@ -124,14 +129,14 @@ std::string sentence_of_errors(const Diagnosis& diagnosis) {
                           law_with_parts(instead, search.base.what.model), search.base.what.model);
   }
   if (search.augmented.what == search.base.what) {
-    return fmt::format("The held-out error of {} is {:#.2g} (noise {:#.2g}).", search.base.what.model, before,
-                       diagnosis.noise_floor_heldout);
+    return fmt::format("The held-out error of {} is {:#.2g} ({}).", search.base.what.model, before,
+                       noise_text(diagnosis));
   }
   const bool many = subject == "Together they";
   // As printed, with two digits: what is the same there has not changed.
   const std::string from = fmt::format("{:#.2g}", before);
   const std::string to = fmt::format("{:#.2g}", after);
-  const std::string noise = fmt::format("noise {:#.2g}", diagnosis.noise_floor_heldout);
+  const std::string noise = noise_text(diagnosis);
   if (from == to) {
     return fmt::format("{} {} the held-out error at {} ({}).", subject, many ? "leave" : "leaves", from, noise);
   }
@@ -156,21 +161,30 @@ std::string sentence_of_unknown(const Diagnosis& diagnosis) {
   if (!instead.empty()) {
     // A part of the law is gone with the law.
     const auto beside_the_law = [](const Named& named) { return !named.of_law; };
+    const bool by_names = std::ranges::any_of(verdict.effects, beside_the_law);
+    const bool by_suggestions = std::ranges::any_of(verdict.suggestions, beside_the_law);
     rest = "; the rest is explained by " + instead +
-           (std::ranges::any_of(verdict.effects, beside_the_law)       ? " and what is named"
-            : std::ranges::any_of(verdict.suggestions, beside_the_law) ? " and what is suggested"
-                                                                       : "");
+           (by_names && by_suggestions ? " and what is named or suggested"
+            : by_names                 ? " and what is named"
+            : by_suggestions           ? " and what is suggested"
+                                       : "");
   } else if (!richer.empty()) {
     const double left = diagnosis.search.misfit.structure / diagnosis.search.base_misfit.structure;
     if (const double by_laws = verdict.unknown_share - left; by_laws >= printed) {
       rest = fmt::format("; {} goes with {}", percent(by_laws), richer);
     }
   }
+  // Shapes and names may explain the same, so that the share of a name and this may add to more than all.
+  const auto shape = [](const Named& named) { return !named.of_law && named.share_of_misfit > 0.0; };
+  const bool with_shapes = rest.empty() && !verdict.effects.empty() && std::ranges::any_of(verdict.doubtful, shape);
+  const bool only_suggested = !verdict.suggestions.empty() && verdict.effects.empty() && instead.empty();
   return fmt::format("{} of the misfit of {} above the noise {}{}.", capital(percent(verdict.unknown_share)),
                      diagnosis.search.base.what.model,
-                     verdict.suggestions.empty() || !instead.empty() ? "has no name"
-                     : verdict.effects.empty()                       ? "is explained by nothing that is suggested"
-                                                                     : "is explained by nothing named or suggested",
+                     only_suggested                 ? "is explained by nothing that is suggested"
+                     : !verdict.suggestions.empty() ? "is explained by nothing named or suggested"
+                     : with_shapes ? "has no name: it stays or is the part of unnamed shapes in what names and "
+                                     "shapes explain together"
+                                   : "has no name",
                      rest);
 }
 
@@ -185,7 +199,8 @@ std::string sentence_of_place(const Diagnosis& diagnosis) {
   const bool named = place.where.starts_with(place.variable);
   const std::string where =
       named ? "where the " + place.variable + " is" + place.where.substr(place.variable.size()) : place.where;
-  return fmt::format("{} of {} sits {} ({} of the samples).", capital(percent(place.share_of_misfit)),
+  return fmt::format("{} of {} sits {} ({} of the samples, each recording weighing the same).",
+                     capital(percent(place.share_of_misfit)),
                      left ? "what stays" : "the misfit of " + diagnosis.search.base.what.model, where,
                      percent(place.share_of_samples));
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "diagnose/record.hpp"
@@ -39,6 +40,14 @@ Identification identification_of(const Diagnosis& diagnosis, const Campaign& cam
   outcome.run.cost = fit.cost;
   result.solvers.push_back(outcome);
   estimate(result, Objective(*fit.layout, fitted, objective), fit.point, campaign.recordings.front().drive_kind);
+  // Without a finite derivative nothing was found of the data: there are no errors, and no parameter is known to be
+  // open.
+  const auto known = [](const ScaledSensitivity& one) { return std::isfinite(one.value); };
+  if (!result.sensitivities.empty() && std::ranges::none_of(result.sensitivities, known)) {
+    for (Estimate& row : result.estimates) {
+      row.identifiable = true;
+    }
+  }
   return result;
 }
 
@@ -180,7 +189,10 @@ DiagnosisRecords records_of(const Diagnosis& diagnosis, const Campaign& recorded
                                  {{"label", "Noise floor, held out"},
                                   {"value", format_number(diagnosis.noise_floor_heldout, 3)},
                                   {"note", "fitted " + format_number(diagnosis.noise_floor, 3) + ", by " +
-                                               std::string(word_of(diagnosis.noise_floor_method))}}});
+                                               std::string(word_of(diagnosis.noise_floor_method)) +
+                                               (diagnosis.noise_floor_method == NoiseMethod::cycles
+                                                    ? ""
+                                                    : "; at least: slow noise is not seen where no motion repeats")}}});
   records.page = std::move(page);
   return records;
 }

@@ -87,7 +87,7 @@ std::string names_text(const json& record) {
 }
 
 std::string places_text(const std::string& title, const json& places) {
-  std::string text = places.empty() ? "" : "\n" + title + "\n";
+  std::string text = places.empty() ? "" : "\n" + title + " (each recording weighs the same):\n";
   for (const json& place : places) {
     text +=
         item(fmt::format("{}: {:.0f} % of the misfit in {:.0f} % of the samples", text_of(place, "where"),
@@ -136,8 +136,8 @@ std::string diagnosis_text(const json& record) {
   std::string text = fmt::format("verdict: {}\n{}\n", text_of(record, "verdict"), summary_text(record));
   text += errors_text(record);
   text += names_text(record);
-  text += places_text("where the base model's misfit sits:", list_of(record, "locations"));
-  text += places_text("where the augmented model's misfit sits:", list_of(record.at("augmented"), "locations"));
+  text += places_text("where the base model's misfit sits", list_of(record, "locations"));
+  text += places_text("where the augmented model's misfit sits", list_of(record.at("augmented"), "locations"));
   text += hidden_text(record);
   text += alike_text(record);
   text += "\n" + wrapped("next experiment: " + text_of(record, "next_experiment"));

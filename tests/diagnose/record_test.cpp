@@ -214,6 +214,28 @@ TEST(Record, SaysOfNoEffectWhatALawDoes) {
             std::string::npos)
       << richer;
   EXPECT_NE(richer.find("80 % goes with a richer dependence of c0 and f0 on the drive."), std::string::npos) << richer;
+  // What a name and a shape both explain counts in the share of each.
+  changed = *diagnosis;
+  changed.verdict.unknown_share = 0.2;
+  changed.verdict.doubtful.emplace_back().id = "force-drift";
+  changed.verdict.doubtful.back().share_of_misfit = 0.2;
+  changed.shapes.emplace_back();
+  changed.summary = summary_of(changed);
+  EXPECT_NE(paragraph(changed).find("has no name: it stays or is the part of unnamed shapes in what names and shapes "
+                                    "explain together."),
+            std::string::npos)
+      << paragraph(changed);
+  // Neither are suggestions names behind a law that takes the place of the one asked for.
+  changed = *diagnosis;
+  changed.verdict.unknown_share = 0.2;
+  changed.search.augmented.what.model = "lugre";
+  changed.verdict.suggestions = changed.verdict.effects;
+  changed.parameters.insert(changed.parameters.end(), diagnosis->parameters.begin(), diagnosis->parameters.end());
+  changed.summary = summary_of(changed);
+  EXPECT_NE(paragraph(changed).find("is explained by nothing named or suggested; the rest is explained by lugre and "
+                                    "what is named or suggested."),
+            std::string::npos)
+      << paragraph(changed);
   // A suggestion is no name.
   changed = *diagnosis;
   changed.verdict.unknown_share = 0.0;
@@ -222,6 +244,26 @@ TEST(Record, SaysOfNoEffectWhatALawDoes) {
   changed.summary = summary_of(changed);
   EXPECT_NE(paragraph(changed).find("is explained by what is suggested."), std::string::npos) << paragraph(changed);
   EXPECT_EQ(paragraph(changed).find("has a name"), std::string::npos) << paragraph(changed);
+}
+
+TEST(Record, SaysWhatItsNumbersAreOf) {
+  const auto diagnosis = diagnosis_of(campaign_with({"inertia"}, {{"inertia.m", 8.0}}, 0.01), few);
+  Diagnosis changed = *diagnosis;
+  Location place;
+  place.where = "speed above 20 mm/s";
+  place.variable = "speed";
+  place.share_of_misfit = 0.7;
+  place.share_of_samples = 0.2;
+  changed.locations_left = {place};
+  changed.noise_floor_method = NoiseMethod::cycles;
+  changed.summary = summary_of(changed);
+  EXPECT_NE(paragraph(changed).find("(noise 0."), std::string::npos) << paragraph(changed);
+  EXPECT_NE(paragraph(changed).find("is above 20 mm/s (20 % of the samples, each recording weighing the same)."),
+            std::string::npos)
+      << paragraph(changed);
+  changed.noise_floor_method = NoiseMethod::mixed;
+  changed.summary = summary_of(changed);
+  EXPECT_NE(paragraph(changed).find("(noise at least 0."), std::string::npos) << "slow noise is not seen everywhere";
 }
 
 TEST(Record, WhereNothingIsMissing) {

@@ -46,5 +46,22 @@ TEST(Shown, SaysWhatIsGoneBehindTheLawThatTakesThePlace) {
             "Whatever the cause, the residual of modified-bouc-wen shows: what travel is, 20 N (6 of 8 recordings).");
 }
 
+TEST(Shown, ACurvatureOverTheDriveIsOneValueInItsUnit) {
+  Evidence evidence;
+  evidence.model = "bouc-wen";
+  evidence.signatures = {signature("drive-bend", "magnetic-saturation", 4.0), signature("first", "stiction", 3.5)};
+  Candidate candidate;
+  candidate.signatures = evidence.signatures;
+  evidence.candidates = {candidate};
+  name_units(evidence, DriveKind::voltage);
+  EXPECT_EQ(sentence_of_contrasts(evidence, {}),
+            "Whatever the cause, the residual of bouc-wen shows: what drive-bend is, 20 N/V^2 (one value of all 8 "
+            "recordings); what first is, 20 N (6 of 8 recordings).");
+  EXPECT_EQ(evidence.candidates[0].signatures[0].unit, "N/V^2");
+  name_units(evidence, DriveKind::current);
+  EXPECT_EQ(evidence.signatures[0].unit, "N/A^2");
+  EXPECT_EQ(evidence.signatures[1].unit, "N");
+}
+
 }  // namespace
 }  // namespace hysteron

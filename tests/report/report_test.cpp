@@ -109,6 +109,18 @@ TEST(Html, BytesThatAreNotUtf8DoNotFail) {
   EXPECT_NO_THROW(fit_report_html(report));
 }
 
+// The words of the page say what its numbers are.
+TEST(Html, SaysWhatItsNumbersAre) {
+  const std::string page = without_data(fit_report_html(small_report()));
+  EXPECT_EQ(page.find("z is the value over its standard error;"), std::string::npos);
+  for (const char* words :
+       {"taken as Student's t of so many recordings", "each recording weighs the same in both",
+        "the floor is at least this much", "may add to more than 100 %", "Cut off to whole percent, not rounded",
+        "No standard error could be computed", "one value of all ${c.recordings}"}) {
+    EXPECT_NE(page.find(words), std::string::npos) << words;
+  }
+}
+
 TEST(Html, EmptyReportIsAPage) {
   EXPECT_NE(fit_report_html(json::object()).find("<title>Hysteron report</title>"), std::string::npos);
 }
