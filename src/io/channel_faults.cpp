@@ -52,6 +52,22 @@ constexpr double held_else = 0.25;
 // more.
 constexpr double turns = 0.25;
 
+// Of a setting, below zero and above.
+constexpr double least_nines_below = 99.0;
+constexpr double least_nines_above = 9999.0;
+
+// Whether it is written in nines, 9999 or 999.99; the conversion of its unit to and fro may have rounded it.
+bool is_of_nines(double size) {
+  constexpr double rounded = 1e-9;
+  for (const double scale : {1.0, 10.0, 100.0}) {
+    const double digits = std::round(scale * size);
+    const double power = std::log10(digits + 1.0);
+    if (std::fabs(scale * size - digits) <= rounded * digits && std::fabs(power - std::round(power)) < 1e-12)
+      return true;
+  }
+  return false;
+}
+
 std::vector<double> thinned(const std::vector<double>& values) {
   const std::size_t stride = values.size() / most_looked_at + 1;
   std::vector<double> some;
@@ -208,6 +224,28 @@ std::optional<Placeholder> placeholder_of(const std::vector<double>& values) {
     if (!(widest > 0.0)) continue;
     const double beyond = std::max(result.low - end, end - result.high);
     if (longest >= least_placeholders && beyond > std::max(result.high - result.low, far_step * widest)) return result;
+  }
+  return std::nullopt;
+}
+
+std::optional<Placeholder> placeholder_of_setting(const std::vector<double>& values) {
+  if (values.empty()) return std::nullopt;
+  const auto [smallest, largest] = std::ranges::minmax(values);
+  for (const double end : {smallest, largest}) {
+    if ((end < 0.0 ? -end < least_nines_below : end < least_nines_above) || !is_of_nines(std::fabs(end))) continue;
+    Placeholder result{end, 0, 0, largest, smallest};
+    for (std::size_t n = 0; n < values.size(); ++n) {
+      if (values[n] == end) {
+        if (result.count == 0) result.first = n;
+        ++result.count;
+      } else {
+        result.low = std::min(result.low, values[n]);
+        result.high = std::max(result.high, values[n]);
+      }
+    }
+    const double beyond = std::max(result.low - end, end - result.high);
+    const double far = std::max({result.high - result.low, std::fabs(result.low), std::fabs(result.high)});
+    if (2 * result.count <= values.size() && beyond > far) return result;
   }
   return std::nullopt;
 }

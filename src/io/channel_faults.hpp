@@ -46,6 +46,12 @@ struct Placeholder {
 };
 std::optional<Placeholder> placeholder_of(const std::vector<double>& values);
 
+// Likewise of a channel that is set to a level, or to several, as a drive, a temperature and a pressure are: one more
+// level is no placeholder unless it is a number of nines, below zero from -99 on or from 9999 on, further from all
+// others than they span and than the largest of them is from zero. In the unit of the file, in any number of samples up
+// to half.
+std::optional<Placeholder> placeholder_of_setting(const std::vector<double>& values);
+
 // The longest stretch in which the channel holds one value while `other` rises and falls by a quarter of its span and
 // more, as it does not where the damper rests or yields: a channel that froze. Nothing where the channel has so few
 // values that it holds others as long.

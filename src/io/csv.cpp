@@ -89,6 +89,7 @@ struct Survey {
   std::uint64_t newlines = 0;
   std::uint64_t returns = 0;
   bool quotes = false;
+  char last = '\0';
   std::optional<std::uint64_t> nul_line;
 
   void add(std::string_view part) {
@@ -103,7 +104,33 @@ struct Survey {
     newlines += static_cast<std::uint64_t>(std::ranges::count(part, '\n'));
     returns += static_cast<std::uint64_t>(std::ranges::count(part, '\r'));
     quotes = quotes || part.find('"') != std::string_view::npos;
+    if (!part.empty()) last = part.back();
   }
+};
+
+// Whether the last number of a text may be cut off: those above it all have as many decimals, and it has fewer.
+class LastDecimals {
+ public:
+  // Takes the next number; whether it is such.
+  bool look(std::string_view number) {
+    // Fewer might end with a digit other than zero by chance, as those without zeros at their end do.
+    constexpr std::size_t fewest = 100;
+    const std::size_t digits = number.find_first_not_of("+-");
+    const bool plain = digits != std::string_view::npos && digits < 2 &&
+                       number.find_first_not_of("0123456789.,", digits) == std::string_view::npos;
+    const std::size_t mark = number.find_last_of(".,");
+    const std::size_t decimals = mark == std::string_view::npos ? 0 : number.size() - 1 - mark;
+    const bool fewer = alike_ && plain && count_ >= fewest && decimals < decimals_;
+    alike_ = plain && (count_ == 0 || (alike_ && decimals == decimals_));
+    decimals_ = decimals;
+    ++count_;
+    return fewer;
+  }
+
+ private:
+  std::size_t count_ = 0;
+  std::size_t decimals_ = 0;
+  bool alike_ = true;
 };
 
 class CsvReader {
@@ -136,6 +163,7 @@ class CsvReader {
     if (means_) {
       for (std::size_t c = 0; c < conditions_.size(); ++c) condition_values_[c] = condition_means_[c].take();
     }
+    remark_on_settings(sources_, channels_, conditions_, condition_values_, columns_, options_, file_);
     std::vector<ConditionChannel> conditions = make_conditions(conditions_, std::move(condition_values_), channels_);
     Recording recording = make_recording(std::move(channels_));
     recording.conditions = std::move(conditions);
@@ -367,6 +395,7 @@ class CsvReader {
     std::vector<std::string_view> fields;
     std::string_view line;
     int separators_alone = 0;  // the line of the first row of these
+    const bool open_ended = survey_.last != '\n' && survey_.last != '\r';
     while (next_line(line)) {
       // Below a table a spreadsheet leaves rows of empty cells.
       if (is_separators(line)) {
@@ -392,6 +421,9 @@ class CsvReader {
         }
       }
       check_time();
+      if (open_ended) {
+        cut_short_ = decimals_.look(unquoted(fields[columns_.size() - 1])) && !ended_;
+      }
       take_row();
     }
     const std::size_t count = rows_read_;
@@ -401,6 +433,12 @@ class CsvReader {
     }
     tell_dialect();
     doubt_mark();
+    if (cut_short_ && options_.remark) {
+      options_.remark({file_, Remark::Kind::dialect, "cut",
+                       "line " + std::to_string(line_) +
+                           ", the last, has no line end and fewer decimals in its last number than all lines above: a "
+                           "file that is cut off within that number looks so; remove the line, or copy the file anew"});
+    }
   }
 
   // What is not plain: lines that are left out, and decimal commas, with what separates the columns then.
@@ -555,6 +593,8 @@ class CsvReader {
   bool decimal_comma_ = false;  // a comma may stand in a number
   DecimalMark mark_;
   bool ended_ = true;  // the current line has a line end
+  LastDecimals decimals_;
+  bool cut_short_ = false;  // the last line, within its last number
   std::vector<Column> columns_;
   std::vector<std::string_view> units_above_;
   Sources sources_;

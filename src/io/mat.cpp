@@ -65,6 +65,7 @@ class MatReader {
     if (made_time) present[0].column = 0;
     thin(channels, present, options_, file_);
     thin_conditions(values, samples, options_);
+    remark_on_settings(sources, channels, followed, values, columns_, options_, file_);
     std::vector<ConditionChannel> conditions = make_conditions(followed, std::move(values), channels);
     Recording recording = make_recording(std::move(channels));
     recording.conditions = std::move(conditions);

@@ -66,6 +66,7 @@ class RecordingMaker {
     const std::size_t samples = values_[time_at].size();
     thin(values_, sources_, options_, file_);
     thin_conditions(condition_values_, samples, options_);
+    remark_on_settings(sources_, values_, conditions_, condition_values_, columns_, options_, file_);
     std::vector<ConditionChannel> conditions = make_conditions(conditions_, std::move(condition_values_), values_);
     Recording recording = make_recording(std::move(values_));
     recording.conditions = std::move(conditions);

@@ -15,12 +15,21 @@
 namespace hysteron {
 namespace {
 
-// A leap is so many times longer than each of this many steps on either side, this part of the span at least, and the
-// channel moves on both sides by this part of the leap: a step of the motion itself has rest on one side.
+// A leap is so many times longer than each of this many steps on either side and than the noise of the channel, and
+// this part of the span at least.
 constexpr double longer = 8.0;
 constexpr std::size_t steps_beside = 4;
 constexpr double least_leap = 0.02;
-constexpr double moving = 0.005;
+// A step of the motion itself has rest on one side. The channel moves where it goes by this part of the leap, and
+// beyond its noise, within this part of the time of a usual stroke, whatever the sampling rate. Strokes are larger than
+// this part of the span.
+constexpr double moving = 0.02;
+constexpr double near = 0.125;
+constexpr double least_stroke = 0.1;
+
+// A channel that leaves its path stays away for so many samples at most; one of so many does.
+constexpr std::size_t longest_excursion = 2;
+constexpr std::size_t fewest_samples_each = 50;
 
 // A dropout has so many samples at most, and there are so many.
 constexpr std::size_t longest_dropout = 10;
@@ -33,28 +42,110 @@ constexpr double least_hold = 1.8;
 // A converter's steps are of one or two sizes where those of a held signal are of many.
 constexpr std::size_t fewest_sizes = 10;
 
+double step_at(const std::vector<double>& values, std::size_t n) { return std::fabs(values[n + 1] - values[n]); }
+
+// Samples of the channel over the strokes that they make.
+std::size_t samples_a_stroke(const std::vector<double>& values) {
+  const double least = least_stroke * span_of(values);
+  double furthest = values.front();
+  double sign = 0.0;  // of the stroke that goes on
+  std::size_t strokes = 1;
+  for (const double value : values) {
+    if (sign == 0.0 && std::fabs(value - furthest) > least) sign = std::copysign(1.0, value - furthest);
+    if (sign * (furthest - value) > least) {
+      ++strokes;
+      sign = -sign;
+      furthest = value;
+    } else if (sign * (value - furthest) > 0.0) {
+      furthest = value;
+    }
+  }
+  return values.size() / strokes;
+}
+
+// How a channel goes on from sample `from`, beside a leap: forwards or backwards.
+struct Beside {
+  std::size_t held = 0;  // samples more that have the value of `from`
+  bool moves = false;    // behind these it goes further than `enough` within `reach` samples, by steps below `widest`
+};
+Beside beside(const std::vector<double>& values, std::size_t from, bool forwards, std::size_t reach, double enough,
+              double widest) {
+  const std::size_t left = forwards ? values.size() - 1 - from : from;
+  const auto at = [&](std::size_t k) { return values[forwards ? from + k : from - k]; };
+  Beside result;
+  while (result.held < left && at(result.held + 1) == values[from]) ++result.held;
+  for (std::size_t k = result.held + 1; k <= std::min(left, result.held + reach); ++k) {
+    if (std::fabs(at(k) - at(k - 1)) >= widest) break;
+    if (std::fabs(at(k) - values[from]) > enough) {
+      result.moves = true;
+      break;
+    }
+  }
+  return result;
+}
+
 }  // namespace
 
 std::optional<Leap> leap_of(const std::vector<double>& time, const std::vector<double>& values) {
   Leap leap;
   for (std::size_t n = 0; n + 1 < values.size(); ++n) {
-    const double step = std::fabs(values[n + 1] - values[n]);
+    const double step = step_at(values, n);
     if (step > leap.size) leap = {n, step};
   }
   if (leap.after < steps_beside || leap.after + 1 + steps_beside >= values.size() ||
       leap.size < least_leap * span_of(values)) {
     return std::nullopt;
   }
-  double before = 0.0;
-  double after = 0.0;
+  double widest = 0.0;
   for (std::size_t k = 1; k <= steps_beside; ++k) {
-    before = std::max(before, std::fabs(values[leap.after - k + 1] - values[leap.after - k]));
-    after = std::max(after, std::fabs(values[leap.after + k + 1] - values[leap.after + k]));
+    widest = std::max({widest, step_at(values, leap.after - k), step_at(values, leap.after + k)});
   }
-  const bool alone = leap.size > longer * std::max(before, after);
   const double usual = (time.back() - time.front()) / static_cast<double>(time.size() - 1);
   const bool in_time = time[leap.after + 1] - time[leap.after] < 2.0 * usual;
-  return in_time && alone && std::min(before, after) > moving * leap.size ? std::optional(leap) : std::nullopt;
+  if (!in_time || leap.size <= longer * widest) return std::nullopt;
+  const double noise = channel_noise(time, values);
+  if (leap.size <= longer * noise) return std::nullopt;
+  const std::size_t stroke = samples_a_stroke(values);
+  const std::size_t reach = std::max(steps_beside, static_cast<std::size_t>(near * static_cast<double>(stroke)));
+  const double enough = std::max(moving * leap.size, longer * noise);
+  const Beside before = beside(values, leap.after, false, reach, enough, leap.size / longer);
+  const Beside after = beside(values, leap.after + 1, true, reach, enough, leap.size / longer);
+  // A channel that was stuck for less than a stroke leaps to where the motion went meanwhile.
+  const bool stuck = std::min(before.held, after.held) < reach && std::max(before.held, after.held) < stroke;
+  return before.moves && after.moves && stuck ? std::optional(leap) : std::nullopt;
+}
+
+std::optional<Excursion> excursion_of(const std::vector<double>& time, const std::vector<double>& values) {
+  constexpr std::size_t around = steps_beside + longest_excursion;
+  const double least = least_leap * span_of(values);
+  Excursion result;
+  double furthest = 0.0;
+  for (std::size_t n = steps_beside; n + around + 1 < values.size(); ++n) {
+    const double out = values[n + 1] - values[n];
+    if (std::fabs(out) <= least) continue;
+    for (std::size_t count = 1; count <= longest_excursion; ++count) {
+      const std::size_t last = n + count;
+      const double back = values[last + 1] - values[last];
+      const double size = std::min(std::fabs(out), std::fabs(back));
+      double widest = 0.0;
+      for (std::size_t k = 1; k <= steps_beside; ++k) {
+        widest = std::max({widest, step_at(values, n - k), step_at(values, last + k)});
+      }
+      const bool returns = out * back < 0.0 && size > std::max(least, longer * widest) &&
+                           std::fabs(values[last + 1] - values[n]) <= static_cast<double>(2 * (count + 1)) * widest;
+      if (!returns || (count == 2 && 2.0 * step_at(values, n + 1) > size)) continue;
+      ++result.count;
+      if (size > furthest) {
+        furthest = size;
+        result.at = n + 1;
+        result.from = values[n];
+      }
+      break;
+    }
+  }
+  const bool few = result.count * fewest_samples_each <= values.size();
+  return result.count > 0 && few && furthest > longer * channel_noise(time, values) ? std::optional(result)
+                                                                                    : std::nullopt;
 }
 
 std::optional<Dropouts> dropouts_of(const std::vector<double>& values) {

@@ -1,6 +1,6 @@
-// What displacement and velocity show of faults of the motion's channels: samples that are lost, moments of zeros, a
-// channel that is slower than the log, and a recorded velocity that lags the slope of the displacement or is off by a
-// constant.
+// What displacement and velocity show of faults of the motion's channels: samples that are lost, glitches, moments of
+// zeros, a channel that is slower than the log, and a recorded velocity that lags the slope of the displacement or is
+// off by a constant.
 #pragma once
 
 #include <cstddef>
@@ -11,14 +11,25 @@
 
 namespace hysteron {
 
-// The largest step of a channel that moves before and after it, many times longer than the steps around it: samples are
-// lost there, or two records were joined. Steps of time that are longer than the others make longer steps: a gap in the
-// times is no leap.
+// The largest step of a channel that moves before and after it, many times longer than the steps around it and than the
+// channel's resolution: samples are lost there, or two records were joined. A channel that stays at one value exactly
+// before or after it has to move on the other side of that. Steps of time that are longer than the others make longer
+// steps: a gap in the times is no leap.
 struct Leap {
   std::size_t after = 0;  // the step is from this sample to the next
   double size = 0.0;      // in the channel's unit
 };
 std::optional<Leap> leap_of(const std::vector<double>& time, const std::vector<double>& values);
+
+// One or two samples that a channel leaves for and comes back from, by steps many times longer than those around them
+// and than the channel's resolution: a glitch of a sensor within its range. The furthest, and how many there are; more
+// than one of fifty samples is how the channel is. Those beyond its range are told by io/outliers.hpp.
+struct Excursion {
+  std::size_t at = 0;  // index of a sample
+  double from = 0.0;   // the sample before
+  std::size_t count = 0;
+};
+std::optional<Excursion> excursion_of(const std::vector<double>& time, const std::vector<double>& values);
 
 // Stretches of few samples that are exactly zero, two or more of them, entered and left by jumps many times longer than
 // any step of the channel elsewhere, and back to where it may have gone meanwhile: a sensor or a transmission that

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "core/drive.hpp"
+#include "core/extent.hpp"
 #include "io/velocity.hpp"
 
 namespace hysteron {
@@ -111,6 +113,22 @@ std::vector<Outlier> outliers_of(std::span<const double> time, std::span<const d
     }
   }
   if (found.size() * fewest_samples_each > size) found.clear();
+  return found;
+}
+
+std::vector<Outlier> outliers_of_setting(const std::vector<double>& values) {
+  constexpr double far_from_level = 0.5;
+  std::vector<Outlier> found;
+  if (values.size() < fewest_samples) return found;
+  const std::vector<double> medians = medians_of_five(values);
+  const double level = peak_of(medians);
+  if (!(level > 0.0)) return found;
+  const double limit = std::max({span_of(medians), far_from_level * level, deviations * drive_noise(values)});
+  // A channel that begins or ends a sample late is none that strays.
+  for (std::size_t n = 2; n + 2 < values.size(); ++n) {
+    if (std::fabs(values[n] - medians[n]) > limit) found.push_back({n, medians[n], true});
+  }
+  if (found.size() * fewest_samples_each > values.size()) found.clear();
   return found;
 }
 

@@ -22,6 +22,11 @@ struct Outlier {
 // is: that is how the channel is.
 [[nodiscard]] std::vector<Outlier> outliers_of(std::span<const double> time, std::span<const double> values);
 
+// One or two samples side by side of a channel that is set to a level, or to several, far from the median of the five
+// samples about them: further than that median ever spans, than half of its largest size, and than the noise. A channel
+// that is set to zero throughout has no measure of far.
+[[nodiscard]] std::vector<Outlier> outliers_of_setting(const std::vector<double>& values);
+
 // Replaces the outliers of the force by what their neighbours say; their number.
 std::size_t replace_outliers(Recording& recording);
 

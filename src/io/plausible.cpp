@@ -167,8 +167,37 @@ bool drives_its_rig(const Recording& r) {
   return both < 0.0 && v_left > rounding * vv && f_left > rounding * ff && both * both > share * v_left * f_left;
 }
 
-// Samples that are lost, channels slower than the log, and a velocity that is none.
-void tell_of_motion(const Recording& recording, const Sources& sources, Remarks& remarks) {
+// Of a channel that is set to a level, in the unit of its column.
+void tell_of_setting(const std::string& column, const UnitConversion& unit, const std::vector<double>& time,
+                     const std::vector<double>& values, Remarks& remarks) {
+  std::vector<double> written(values.size());
+  std::ranges::transform(values, written.begin(), [&](double value) { return unit.from_si(value); });
+  if (const auto placeholder = placeholder_of_setting(written)) {
+    remarks.tell(
+        "placeholder of " + column,
+        fmt::format("column '{}' is exactly {:.6g} in {} sample{}, first at {:.4g} s, and all others are {}: a "
+                    "number that stands for missing samples looks so; cut them",
+                    column, placeholder->value, placeholder->count, placeholder->count == 1 ? "" : "s",
+                    time[placeholder->first],
+                    placeholder->low == placeholder->high
+                        ? fmt::format("{:.3g}", placeholder->low)
+                        : fmt::format("from {:.3g} to {:.3g}", placeholder->low, placeholder->high)));
+    return;
+  }
+  const std::vector<Outlier> out = outliers_of_setting(written);
+  const auto furthest =
+      std::ranges::max_element(out, {}, [&](const Outlier& one) { return std::fabs(written[one.at] - one.told); });
+  if (furthest == out.end()) return;
+  remarks.tell("outliers of " + column,
+               fmt::format("column '{}' is {:.3g} at {:.4g} s where its neighbours tell {:.3g}, {} sample{} like that: "
+                           "what follows it is taken to do so too",
+                           column, written[furthest->at], time[furthest->at], furthest->told, out.size(),
+                           out.size() == 1 ? "" : "s"));
+}
+
+// Samples that are lost, glitches unless those beyond the range are told, channels slower than the log, and a velocity
+// that is none.
+void tell_of_motion(const Recording& recording, const Sources& sources, bool glitches_told, Remarks& remarks) {
   const std::vector<double>& time = recording.time;
   if (const auto leap = leap_of(time, recording.displacement)) {
     remarks.tell("leap", fmt::format("the displacement leaps by {:.3g} mm between {:.4g} and {:.4g} s, far beyond its "
@@ -182,7 +211,17 @@ void tell_of_motion(const Recording& recording, const Sources& sources, Remarks&
                    fmt::format("the {} jumps to exactly 0 and back {} times, first at {:.4g} s, far beyond its other "
                                "steps: a sensor or a transmission that fails for moments looks so; cut these samples",
                                name, dropouts->count, time[dropouts->first]));
+      glitches_told = glitches_told || values == &recording.displacement;
     }
+  }
+  const auto glitch = glitches_told ? std::nullopt : excursion_of(time, recording.displacement);
+  if (glitch) {
+    remarks.tell("glitch",
+                 fmt::format("the displacement goes from {:.4g} to {:.4g} mm at {:.4g} s and back at once, far beyond "
+                             "its steps before and after, {} time{} like that: a sensor or a transmission that fails "
+                             "looks so; cut these samples",
+                             1e3 * glitch->from, 1e3 * recording.displacement[glitch->at], time[glitch->at],
+                             glitch->count, glitch->count == 1 ? "" : "s"));
   }
   const double step = (time.back() - time.front()) / static_cast<double>(time.size() - 1);
   for (const auto& [name, values] :
@@ -340,6 +379,7 @@ void remark_on_sizes(const Recording& recording, const Sources& sources, const s
                                     "motion in between is taken to be smooth",
                                     gap->length, gap->at, gap->length / gap->usual));
   }
+  bool glitches_told = false;
   for (const auto& [name, values, unit] :
        {std::tuple("displacement", &recording.displacement, "m"), std::tuple("force", &recording.force, "N")}) {
     const std::vector<double>& channel = *values;
@@ -358,6 +398,7 @@ void remark_on_sizes(const Recording& recording, const Sources& sources, const s
     const auto furthest = std::ranges::max_element(
         out, {}, [&channel](const Outlier& one) { return std::fabs(channel[one.at] - one.told); });
     if (furthest != out.end()) {
+      glitches_told = glitches_told || values == &recording.displacement;
       remarks.tell(std::string(name) + " outliers",
                    fmt::format("a {} of {:.3g} {} at {:.4g} s where its neighbours tell {:.3g} {}, {} samples like "
                                "that: outliers weigh on a fit and on its NRMSE",
@@ -365,7 +406,7 @@ void remark_on_sizes(const Recording& recording, const Sources& sources, const s
                                out.size()));
     }
   }
-  tell_of_motion(recording, sources, remarks);
+  tell_of_motion(recording, sources, glitches_told, remarks);
   if (const auto end = flat_end_of(recording.force); end && !placeholder_of(recording.force)) {
     remarks.tell("flat end",
                  fmt::format("the force stays at exactly {:.4g} N, an end of its range, for {:.0f} % of the "
@@ -405,6 +446,25 @@ void remark_on_sizes(const Recording& recording, const Sources& sources, const s
     }
   } else if (!recording.velocity.empty()) {
     tell_of_noise(recording, remarks);
+  }
+}
+
+void remark_on_settings(const Sources& sources, const Channels& channels,
+                        const std::vector<ConditionSource>& conditions, const std::vector<std::vector<double>>& values,
+                        const std::vector<Column>& columns, const ReadOptions& options, const std::string& file) {
+  if (!options.remark) return;
+  Remarks remarks(sources, columns, options, file);
+  const std::vector<double>& time = channels[static_cast<std::size_t>(Quantity::time)];
+  for (const Quantity quantity : {Quantity::current, Quantity::voltage, Quantity::temperature}) {
+    const auto q = static_cast<std::size_t>(quantity);
+    if (sources[q].column < 0) continue;
+    tell_of_setting(columns[static_cast<std::size_t>(sources[q].column)].text, sources[q].unit, time, channels[q],
+                    remarks);
+  }
+  for (std::size_t c = 0; c < conditions.size(); ++c) {
+    if (conditions[c].column < 0) continue;
+    tell_of_setting(columns[static_cast<std::size_t>(conditions[c].column)].text, conditions[c].unit.conversion, time,
+                    values[c], remarks);
   }
 }
 

@@ -518,5 +518,30 @@ TEST(Csv, DamagedFilesNeverCrash) {
   }
 }
 
+TEST(Csv, AFileCutWithinItsLastNumberIsTold) {
+  const auto told = [](int rows, const std::string& last, const char* decimals = "%.3f") {
+    std::string text = "time [s],displacement [m],force [N]\n";
+    for (int n = 0; n < rows; ++n) {
+      std::array<char, 32> force{};
+      (void)std::snprintf(force.data(), force.size(), decimals, 1000.0 * std::sin(0.1 * n));
+      text += std::to_string(0.01 * n) + "," + std::to_string(0.01 * std::cos(0.1 * n)) + "," + force.data() + "\n";
+    }
+    text += std::to_string(0.01 * rows) + ",0.001," + last;
+    bool cut = false;
+    ReadOptions options;
+    options.remark = [&](const Remark& remark) { cut = cut || remark.key == "cut"; };
+    (void)parse_csv(text, "a.csv", options);
+    return cut;
+  };
+  EXPECT_TRUE(told(200, "108"));
+  EXPECT_TRUE(told(200, "-1080.6"));
+  EXPECT_FALSE(told(200, "108\n")) << "the line has its end";
+  EXPECT_FALSE(told(200, "-1080.679")) << "whole";
+  EXPECT_FALSE(told(200, "108", "%.6g")) << "zeros are left out";
+  EXPECT_FALSE(told(200, "10", "%.0f")) << "whole numbers";
+  EXPECT_FALSE(told(200, "1", "%.3e")) << "exponents";
+  EXPECT_FALSE(told(50, "108")) << "too few to tell";
+}
+
 }  // namespace
 }  // namespace hysteron

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <numbers>
@@ -193,6 +194,76 @@ TEST(MotionFaults, AStepOfTheMotionIsNoLeap) {
     step.push_back(n < 200 ? 0.0 : 0.02);
   }
   EXPECT_FALSE(leap_of(time, step).has_value()) << "it rests before and after";
+}
+
+TEST(MotionFaults, ALeapIsToldAtAnySamplingRateAndBesideAReversal) {
+  for (const int rate : {500, 5000, 50000}) {
+    for (const double lost_from : {0.45, 0.62}) {  // in mid-stroke; 5 ms before a reversal
+      for (const double count : {1e-12, 1e-6}) {   // m, of the converter
+        std::vector<double> time;
+        std::vector<double> values;
+        for (int n = 0; n < 2 * rate; ++n) {
+          const double t = static_cast<double>(n) / rate;
+          time.push_back(t);
+          values.push_back(count * std::round(at(t < lost_from ? t : t + 0.11) / count));
+        }
+        const auto leap = leap_of(time, values);
+        ASSERT_TRUE(leap.has_value()) << rate << " " << lost_from << " " << count;
+        EXPECT_NEAR(time[leap->after], lost_from, 1.5 / rate);
+      }
+    }
+  }
+}
+
+TEST(MotionFaults, AChannelThatWasStuckForAMomentLeaps) {
+  std::vector<double> time;
+  std::vector<double> values;
+  for (int n = 0; n < 2000; ++n) {
+    time.push_back(0.001 * n);
+    values.push_back(at(n < 900 || n >= 1000 ? time.back() : 0.9));
+  }
+  const auto leap = leap_of(time, values);
+  ASSERT_TRUE(leap.has_value());
+  EXPECT_EQ(leap->after, 999U);
+}
+
+// Of what a converter, a hold and a motion in steps do.
+TEST(MotionFaults, StepsThatAreNoLeaps) {
+  const Stream noise(5);
+  std::vector<double> time, square, coarse, held, started;
+  for (int n = 0; n < 4000; ++n) {
+    const double t = 0.001 * n;
+    const double hiss = 1e-5 * noise.normal(static_cast<std::uint64_t>(n));
+    time.push_back(t);
+    square.push_back((n / 500 % 2 == 0 ? 0.01 : -0.01) + hiss);
+    coarse.push_back(5e-4 * std::round(at(t) / 5e-4));
+    held.push_back(at(0.001 * (n / 20 * 20)));
+    // Moved in one step after a rest that is longer than its strokes.
+    started.push_back(n < 1000 ? hiss : 0.01 + at(t - 1.0));
+  }
+  EXPECT_FALSE(leap_of(time, square).has_value());
+  EXPECT_FALSE(leap_of(time, coarse).has_value());
+  EXPECT_FALSE(leap_of(time, held).has_value());
+  EXPECT_FALSE(leap_of(time, started).has_value());
+  EXPECT_FALSE(excursion_of(time, square).has_value());
+  EXPECT_FALSE(excursion_of(time, coarse).has_value());
+  EXPECT_FALSE(excursion_of(time, held).has_value());
+  EXPECT_FALSE(excursion_of(time, started).has_value());
+}
+
+TEST(MotionFaults, ASampleOrTwoThatLeaveThePathWithinItsRange) {
+  for (const int samples : {1, 2}) {
+    const auto said =
+        remarks([&](double t, int n) { return at(t) + (n >= 700 && n < 700 + samples ? 0.005 : 0.0); }, true_v, true_f);
+    ASSERT_FALSE(said.empty()) << samples;
+    EXPECT_TRUE(said[0].starts_with("the displacement goes from -9.585 to -4.5")) << said[0];
+    EXPECT_NE(said[0].find(" at 1.4 s and back at once"), std::string::npos) << said[0];
+    EXPECT_NE(said[0].find(", 1 time like that"), std::string::npos) << said[0];
+  }
+  // Three are no glitch of one.
+  EXPECT_TRUE(std::ranges::none_of(
+      remarks([](double t, int n) { return at(t) + (n >= 700 && n < 703 ? 0.005 : 0.0); }, true_v, true_f),
+      [](const std::string& text) { return text.find("and back at once") != std::string::npos; }));
 }
 
 }  // namespace

@@ -340,5 +340,49 @@ TEST(Plausible, AVelocityThatIsNotTheSlope) {
              "the velocity runs against the displacement");
 }
 
+// Of a column that a damper is set to; 400 samples.
+std::vector<std::string> remarks_on_setting(const std::string& column, const std::vector<std::string>& followed,
+                                            const std::function<double(int sample)>& setting) {
+  std::string text = "time [s],displacement [mm],force [N]," + column + "\n";
+  for (int n = 0; n < 400; ++n) {
+    const double phase = 0.06 * n;
+    text += std::to_string(0.005 * n) + "," + std::to_string(10.0 * std::sin(phase)) + "," +
+            std::to_string(400.0 * std::cos(phase)) + "," + std::to_string(setting(n)) + "\n";
+  }
+  std::vector<std::string> said;
+  ReadOptions options;
+  options.conditions = followed;
+  options.remark = [&](const Remark& remark) { said.push_back(remark.text.plain()); };
+  (void)parse_csv(text, "a.csv", options);
+  return said;
+}
+
+TEST(Plausible, ANumberThatStandsForMissingSamplesOfASetting) {
+  expect_one(remarks_on_setting("pressure [bar]", {"pressure"}, [](int n) { return n < 6 ? -9999.0 : 3.0; }),
+             "column 'pressure [bar]' is exactly -9999 in 6 samples, first at 0 s, and all others are 3: a number");
+  expect_one(remarks_on_setting("valve [%]", {"valve"}, [](int n) { return n == 50   ? 99999.0
+                                                                           : n < 200 ? 0.0
+                                                                                     : 40.0; }),
+             "column 'valve [%]' is exactly 99999 in 1 sample, first at 0.25 s, and all others are from 0 to 40");
+  expect_one(remarks_on_setting("temperature [degC]", {"temperature"}, [](int n) { return n < 20 ? -99.0 : 50.0; }),
+             "column 'temperature [degC]' is exactly -99 in 20 samples");
+  // Levels of a valve, and of a heater that begins cold.
+  EXPECT_TRUE(remarks_on_setting("valve [%]", {"valve"}, [](int n) { return n < 20 ? 99.0 : 0.0; }).empty());
+  EXPECT_TRUE(remarks_on_setting("speed of fan [rpm]", {"speed of fan"}, [](int n) {
+                return n < 20 ? -999.0 : n < 200 ? 999.0 : 0.0;
+              }).empty());
+}
+
+TEST(Plausible, ADriveThatStrays) {
+  expect_one(remarks_on_setting("current [A]", {}, [](int n) { return n == 140 ? 30.0 : 2.0; }),
+             "column 'current [A]' is 30 at 0.7 s where its neighbours tell 2, 1 sample like that");
+  // Switched, late by a sample, in steps of a converter, off.
+  EXPECT_TRUE(
+      remarks_on_setting("current [A]", {}, [](int n) { return n / 20 % 2 == 0 || n == 70 ? 2.0 : 0.0; }).empty());
+  EXPECT_TRUE(remarks_on_setting("current [A]", {}, [](int n) { return n == 0 ? 0.0 : 2.0; }).empty());
+  EXPECT_TRUE(remarks_on_setting("current [A]", {}, [](int n) { return n % 90 == 8 ? 2.02 : 2.0; }).empty());
+  EXPECT_TRUE(remarks_on_setting("current [A]", {}, [](int n) { return n == 140 ? 0.01 : 0.0; }).empty());
+}
+
 }  // namespace
 }  // namespace hysteron
