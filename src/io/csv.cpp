@@ -524,7 +524,7 @@ class CsvReader {
     switch (parse_number(field, decimal_comma_, value)) {
       case NumberError::none:
         // Where commas separate the columns, only points between thousands are to be feared.
-        if (decimal_comma_ || !mark_.known()) {
+        if (decimal_comma_ || !mark_.known(index)) {
           if (const auto wrong = mark_.look(field, index, line_)) fail(line_, name_of(channel) + " " + *wrong);
         }
         value = condition == nullptr ? sources_[index].unit.to_si(value) : condition->unit.conversion.to_si(value);

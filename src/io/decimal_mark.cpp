@@ -34,12 +34,13 @@ std::string_view word_of(char mark) { return mark == ',' ? "comma" : "point"; }
 
 std::optional<std::string> DecimalMark::look(std::string_view number, std::size_t column, int line) {
   const std::size_t at = number.find_first_of(",.");
+  if (columns_.size() <= column) columns_.resize(column + 1);
+  Seen& seen = columns_[column];
   if (at == std::string_view::npos) {
-    if (known_) return std::nullopt;
-    if (columns_.size() <= column) columns_.resize(column + 1);
     const std::string_view digits = without_sign(number);
     const bool below = digits.size() <= in_a_group && digits_at(digits) == digits.size();
-    (below ? columns_[column].below : columns_[column].above) = true;
+    (below ? seen.below : seen.above) = true;
+    seen.hundreds = seen.hundreds || (below && digits.size() == in_a_group);
     return std::nullopt;
   }
   const char mark = number[at];
@@ -53,13 +54,11 @@ std::optional<std::string> DecimalMark::look(std::string_view number, std::size_
            std::to_string(line_) + " a " + std::string(word_of(mark_)) +
            ", expected one decimal mark in all numbers and none between thousands";
   }
-  if (known_) return std::nullopt;
   if (!may_be_thousands(number)) {
     known_ = true;
+    seen.decimals = true;
     return std::nullopt;
   }
-  if (columns_.size() <= column) columns_.resize(column + 1);
-  Seen& seen = columns_[column];
   if (seen.marked.empty()) {
     seen.marked = number;
     seen.line = line;
@@ -72,7 +71,13 @@ bool DecimalMark::is_other(std::string_view number) const {
 }
 
 std::optional<DecimalMark::Doubt> DecimalMark::doubt() const {
-  if (known_) return std::nullopt;
+  if (known_) {
+    const auto thousands = std::ranges::find_if(columns_, [](const Seen& seen) {
+      return seen.hundreds && !seen.marked.empty() && !seen.above && !seen.decimals;
+    });
+    if (thousands == columns_.end()) return std::nullopt;
+    return Doubt{static_cast<std::size_t>(thousands - columns_.begin()), thousands->line, thousands->marked, true};
+  }
   std::optional<Doubt> result;
   for (std::size_t k = 0; k < columns_.size(); ++k) {
     const Seen& seen = columns_[k];

@@ -14,8 +14,8 @@ class DecimalMark {
  public:
   // A number of a column as it is written; what is wrong with it, or nothing.
   [[nodiscard]] std::optional<std::string> look(std::string_view number, std::size_t column, int line);
-  // Whether a number was seen that has decimals for certain: the mark is known, and only the other one is wrong.
-  [[nodiscard]] bool known() const { return known_; }
+  // Whether nothing is left to be learned of a column: it has decimals for certain, and only the other mark is wrong.
+  [[nodiscard]] bool known(std::size_t column) const { return column < columns_.size() && columns_[column].decimals; }
   // Whether a number was seen with a comma.
   [[nodiscard]] bool is_comma() const { return mark_ == ','; }
   // Whether the number has the other mark than those before.
@@ -28,15 +28,17 @@ class DecimalMark {
     std::string text;
     bool likely = false;  // its column holds whole numbers below 1000 and none above
   };
-  // After the last number: the gravest doubt, where no number had decimals for certain.
+  // After the last number: the gravest doubt, where no number had decimals for certain; else that of a column whose
+  // whole numbers have up to three digits, and whose numbers with a mark all three behind it.
   [[nodiscard]] std::optional<Doubt> doubt() const;
 
  private:
-  // What a column held while the mark was not known.
   struct Seen {
-    bool below = false;  // whole numbers without a mark, below 1000
-    bool above = false;  // others
-    std::string marked;  // the first number with a mark
+    bool below = false;     // whole numbers without a mark, below 1000
+    bool hundreds = false;  // of these, such of three digits
+    bool above = false;     // others without a mark
+    bool decimals = false;  // for certain
+    std::string marked;     // the first number with a mark, where that may stand between thousands
     int line = 0;
   };
 
