@@ -261,7 +261,9 @@ void agree_on_units(const std::vector<Recording>& recordings) {
       const auto in = [](const std::string& one) { return one.empty() ? "has no unit" : "is in " + in_quotes(one); };
       throw InputError(recording.file, 0,
                        in_quotes(condition.name) + " " + in(condition.unit) + ", and " + in(unit) + " in " +
-                           in_quotes(first) + ", expected one unit that can be converted");
+                           in_quotes(first) + ", expected " +
+                           (condition.unit.empty() || unit.empty() ? "its unit in all recordings or in none"
+                                                                   : "one unit that can be converted"));
     }
   }
 }

@@ -154,7 +154,8 @@ TEST(Conditions, AColumnWithoutAUnitBesideOneWithAUnitIsRefused) {
   folder.write("campaign.toml", schema + "[by.pressure]\nc0 = 1\n");
   const std::string message =
       message_of<InputError>([&] { static_cast<void>(load_campaign({folder.path().string()})); });
-  EXPECT_NE(message.find("r2.csv: 'pressure' has no unit, and is in 'Pa' in 'r1.csv', expected one unit"),
+  EXPECT_NE(message.find("r2.csv: 'pressure' has no unit, and is in 'Pa' in 'r1.csv', expected its unit in "
+                         "all recordings or in none"),
             std::string::npos)
       << message;
 }
