@@ -42,6 +42,27 @@ double residual_correlation(const Objective& objective, const std::vector<Term>&
 
 namespace {
 
+// Where nothing was worked out.
+Uncertainty unknown(std::size_t dimension) {
+  const auto d = static_cast<Eigen::Index>(dimension);
+  return {std::vector<bool>(dimension, false),
+          {},
+          Eigen::MatrixXd::Zero(d, d),
+          Eigen::VectorXd::Zero(d),
+          Eigen::VectorXd::Zero(d)};
+}
+
+// Without any derivative nothing is known, least of all that the data leave all parameters open.
+bool without_derivatives(const Layout& layout, const Response& response) {
+  for (std::size_t k = 0; k < layout.dimension(); ++k) {
+    if (std::isfinite(response.gauss_newton[k * (layout.dimension() + 1)])) return false;
+  }
+  return true;
+}
+
+constexpr const char* no_derivatives =
+    "no standard errors: the derivatives of the simulation are not finite at these parameters";
+
 // Standard errors and 95 % intervals: the widest of the following and of what the jackknife says.
 // From the Gauss-Newton matrix at the optimum, free coordinates only, with the effective sample size
 // N (1 - r) / (1 + r) of residuals whose lag-1 correlation is r. Directions the data leave open make the parameters
@@ -132,16 +153,6 @@ std::optional<Interval> interval_of(const Term& term, const Parameter& card, dou
   return Interval{std::max(interval.lower, card.limits.lower), std::min(interval.upper, card.limits.upper)};
 }
 
-// Where nothing was worked out.
-Uncertainty unknown(std::size_t dimension) {
-  const auto d = static_cast<Eigen::Index>(dimension);
-  return {std::vector<bool>(dimension, false),
-          {},
-          Eigen::MatrixXd::Zero(d, d),
-          Eigen::VectorXd::Zero(d),
-          Eigen::VectorXd::Zero(d)};
-}
-
 void add_estimates(Identification& result, const Uncertainty& uncertainty, const std::vector<double>& u,
                    DriveKind drive_kind) {
   const Layout& layout = result.layout;
@@ -202,9 +213,13 @@ void estimate(Identification& result, const Objective& objective, const std::vec
     result.correlations = correlations(derivatives, u);
     result.sensitivities = sensitivities(objective.layout(), derivatives, measured_square(objective.targets()), u);
     result.bounds_met = bounds_text(objective.layout(), derivatives, u, drive_kind);
-    uncertainty = uncertainty_of(objective.layout(), derivatives,
-                                 static_cast<double>(objective.samples()) * (1.0 - r) / (1.0 + r), u,
-                                 [&](const std::vector<Eigen::Index>& free) { return jackknife(objective, u, free); });
+    if (without_derivatives(objective.layout(), derivatives)) {
+      result.warnings.emplace_back(no_derivatives);
+    } else {
+      uncertainty = uncertainty_of(
+          objective.layout(), derivatives, static_cast<double>(objective.samples()) * (1.0 - r) / (1.0 + r), u,
+          [&](const std::vector<Eigen::Index>& free) { return jackknife(objective, u, free); });
+    }
   } catch (const Stopped&) {
     result.warnings.emplace_back("interrupted before the standard errors were worked out");
   }
@@ -215,10 +230,14 @@ void estimate(Identification& result, const Response& derivatives, double indepe
               DriveKind drive_kind) {
   result.correlations = correlations(derivatives, u);
   result.bounds_met = bounds_text(result.layout, derivatives, u, drive_kind);
-  add_estimates(result,
-                uncertainty_of(result.layout, derivatives, independent, u,
-                               [](const std::vector<Eigen::Index>&) { return std::optional<Jackknife>(); }),
-                u, drive_kind);
+  Uncertainty uncertainty = unknown(result.layout.dimension());
+  if (without_derivatives(result.layout, derivatives)) {
+    result.warnings.emplace_back(no_derivatives);
+  } else {
+    uncertainty = uncertainty_of(result.layout, derivatives, independent, u,
+                                 [](const std::vector<Eigen::Index>&) { return std::optional<Jackknife>(); });
+  }
+  add_estimates(result, uncertainty, u, drive_kind);
 }
 
 }  // namespace hysteron

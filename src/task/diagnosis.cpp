@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <vector>
 
 #include "diagnose/record.hpp"
@@ -40,14 +39,6 @@ Identification identification_of(const Diagnosis& diagnosis, const Campaign& cam
   outcome.run.cost = fit.cost;
   result.solvers.push_back(outcome);
   estimate(result, Objective(*fit.layout, fitted, objective), fit.point, campaign.recordings.front().drive_kind);
-  // Without a finite derivative nothing was found of the data: there are no errors, and no parameter is known to be
-  // open.
-  const auto known = [](const ScaledSensitivity& one) { return std::isfinite(one.value); };
-  if (!result.sensitivities.empty() && std::ranges::none_of(result.sensitivities, known)) {
-    for (Estimate& row : result.estimates) {
-      row.identifiable = true;
-    }
-  }
   return result;
 }
 

@@ -56,6 +56,26 @@ const Estimate& estimate_of(const Identification& result, const std::string& nam
   throw std::runtime_error("no estimate of " + name);
 }
 
+// Of derivatives that are not finite, as beside a jump of the force, nothing follows for the data.
+TEST(Estimates, WithoutADerivativeNothingIsFoundOpen) {
+  const Layout layout(make_model("viscous", {}), DataScale{800.0, 0.02, 0.25}, {});
+  const std::vector<double> point(layout.dimension(), 0.5);
+  const std::size_t squares = layout.dimension() * layout.dimension();
+  for (const bool one_known : {false, true}) {
+    Response derivatives;
+    derivatives.cost = {0.1};
+    derivatives.gradient.assign(layout.dimension(), 0.0);
+    derivatives.gauss_newton.assign(squares, std::nan(""));
+    if (one_known) derivatives.gauss_newton.front() = 1.0;
+    Identification result{layout, layout.terms(point), {}, {}, 0, 0.0, {}, {}, {}};
+    estimate(result, derivatives, 100.0, point, DriveKind::none);
+    ASSERT_EQ(result.estimates.size(), layout.dimension());
+    EXPECT_FALSE(result.estimates.back().std_error);
+    EXPECT_EQ(result.estimates.back().identifiable, !one_known);
+    EXPECT_EQ(result.warnings.size(), one_known ? 0U : 1U);
+  }
+}
+
 class EveryModel : public ::testing::TestWithParam<const Part*> {};
 
 TEST_P(EveryModel, FindsItselfAgain) {
