@@ -110,6 +110,95 @@ bool explains(const Suspect& suspect, double factor, const Figures& figures,
   return true;
 }
 
+// Units of displacement and force that are wrong together: the columns have no units, and were taken in SI.
+struct Customary {
+  double displacement;  // m
+  double force;         // N
+  std::string_view units;
+};
+constexpr std::array<Customary, 2> customary = {{
+    {0.0254, 4.4482216152605, "inches and pounds-force"},
+    {0.0254, 9.80665, "inches and kilograms-force"},
+}};
+// What a recording with these units has, stroke and speed this far beyond those of all others and a force as far on the
+// other side of theirs, and how near it comes by the units. A drive within a twentieth is the same.
+constexpr double far_together = 10.0;
+constexpr double force_apart = 2.0;
+constexpr double near_together = 1.5;
+constexpr double same_drive = 1.05;
+
+// The ranges of the recordings beside `k` whose drive is no reason for the force to differ so: where the stroke is too
+// long (`sign` 1) and the force too small, theirs is no larger, else no smaller. Nothing where these are few.
+std::optional<std::array<Range, figure_count>> ranges_of_others(const std::vector<Recording>& recordings,
+                                                                const std::vector<Figures>& all, std::size_t k,
+                                                                double sign) {
+  std::array<Range, figure_count> ranges;
+  std::size_t alike = 0;
+  const double own = peak_of(recordings[k].drive);
+  for (std::size_t j = 0; j < all.size(); ++j) {
+    const double drive = peak_of(recordings[j].drive);
+    const bool no_reason = sign > 0.0 ? drive <= same_drive * own : own <= same_drive * drive;
+    if (j == k || recordings[j].drive_kind != recordings[k].drive_kind || !no_reason) continue;
+    ++alike;
+    for (const Figure f : {stroke, speed, force}) {
+      if (all[j][f] == 0.0) return std::nullopt;
+      ranges[f].low = alike == 1 ? all[j][f] : std::min(ranges[f].low, all[j][f]);
+      ranges[f].high = std::max(ranges[f].high, all[j][f]);
+    }
+  }
+  return alike >= fewest_alike ? std::optional(ranges) : std::nullopt;
+}
+
+// A stroke and a speed far beyond those of all others with a smaller force, or far below them with a larger one:
+// dampers do not so, and numbers in inches and pounds-force that are taken for SI do. Inches taken for millimetres, or
+// kilograms-force for newtons alone, look like another test of the same damper.
+std::optional<std::string> customary_units_of(const std::vector<Recording>& recordings, const std::vector<Figures>& all,
+                                              std::size_t k) {
+  const Figures& own = all[k];
+  if (own[stroke] == 0.0 || own[speed] == 0.0 || own[force] == 0.0) return std::nullopt;
+  for (const double sign : {1.0, -1.0}) {
+    const auto others = ranges_of_others(recordings, all, k, sign);
+    if (!others) continue;
+    const Range& x = (*others)[stroke];
+    const Range& v = (*others)[speed];
+    const Range& f = (*others)[force];
+    const bool apart = sign > 0.0 ? own[stroke] > far_together * x.high && own[speed] > far_together * v.high &&
+                                        force_apart * own[force] < f.low
+                                  : far_together * own[stroke] < x.low && far_together * own[speed] < v.low &&
+                                        own[force] > force_apart * f.high;
+    if (!apart) continue;
+    const auto range = [](const Range& of, double factor) {
+      const std::string low = fmt::format("{:.3g}", factor * of.low);
+      const std::string high = fmt::format("{:.3g}", factor * of.high);
+      return low == high ? low : low + " to " + high;
+    };
+    for (const Customary& units : customary) {
+      const double to_metres = std::pow(units.displacement, sign);
+      if (!x.holds(to_metres * own[stroke], near_together) || !v.holds(to_metres * own[speed], near_together) ||
+          !f.holds(std::pow(units.force, sign) * own[force], near_together)) {
+        continue;
+      }
+      return fmt::format(
+          "a stroke of {:.3g} mm with a force of {:.3g} N, and {} mm with {} N in the other recordings, as where the "
+          "numbers of {} are in {} and taken for m and N: check the units of displacement and force",
+          1e3 * own[stroke], own[force], range(x, 1e3), range(f, 1.0), sign > 0.0 ? "this one" : "the others",
+          units.units);
+    }
+  }
+  return std::nullopt;
+}
+
+void tell_of_customary_units(const std::vector<Recording>& recordings, std::vector<Figures> all,
+                             std::vector<Remark>& remarks) {
+  // A recorded velocity has the unit of the displacement here, or is told where it is held against its slope.
+  for (std::size_t k = 0; k < all.size(); ++k) all[k][speed] = peak_of(recordings[k].velocity);
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    if (const auto text = customary_units_of(recordings, all, k)) {
+      remarks.push_back({recordings[k].file, Remark::Kind::implausible, "units of displacement and force", *text});
+    }
+  }
+}
+
 // The drive of the recordings of one kind. Apart from the other figures, because dampers are driven over decades, and
 // one that is switched off has any small value.
 std::vector<double> drives_of(const std::vector<Recording>& recordings, DriveKind kind) {
@@ -189,6 +278,7 @@ std::vector<Remark> remarks_beside_others(const std::vector<Recording>& recordin
   std::vector<Remark> remarks;
   tell_of_drives(recordings, remarks);
   tell_of_zeros(recordings, remarks);
+  tell_of_customary_units(recordings, all, remarks);
   const auto ranges = ranges_of_most(all);
   if (!ranges) return remarks;
   for (std::size_t k = 0; k < all.size(); ++k) {

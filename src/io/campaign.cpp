@@ -1,6 +1,7 @@
 #include "io/campaign.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <optional>
 #include <set>
@@ -13,6 +14,7 @@
 #include "core/suggest.hpp"
 #include "io/block_means.hpp"
 #include "io/campaign_file.hpp"
+#include "io/clock_time.hpp"
 #include "io/conditions.hpp"
 #include "io/file.hpp"
 #include "io/format.hpp"
@@ -32,7 +34,10 @@ struct Item {
   fs::path base;     // absolute folder, for telling equal names apart
   Role role = Role::unassigned;
   std::map<std::string, ConditionNumber> numbers = {};
+  // Of campaign.toml, with its line.
   std::optional<double> start = {};
+  bool start_has_zone = false;
+  int start_line = 0;
 };
 
 std::string extension_of(const fs::path& path) { return lower_case(path.extension().string()); }
@@ -149,7 +154,8 @@ void add_folder(const fs::path& folder, Campaign& campaign, std::vector<Item>& i
                        "there is no recording " + in_quotes(entry.file) + " in the folder" +
                            nearest_beside(folder, entry.file) + ", expected a file with one");
     }
-    items.push_back({path, entry.file, base, entry.role, entry.numbers, entry.start});
+    items.push_back(
+        {path, entry.file, base, entry.role, entry.numbers, entry.start, entry.start_has_zone, entry.start_line});
   }
   if (!declared.entries.empty()) return;
   const auto names = names_in(folder);
@@ -247,6 +253,55 @@ void tell_clock(std::vector<Recording>& recordings, const ReadOptions& options) 
   for (Recording& recording : recordings) recording.unused.push_back({"clock [s]", *recording.started - first});
 }
 
+// A start by its clock: UTC where the text has a zone, else that of the place.
+struct ZonedStart {
+  double seconds = 0.0;
+  bool has_zone = false;
+  [[nodiscard]] std::string text() const { return clock_text(seconds) + (has_zone ? "Z" : ""); }
+};
+
+// Whether two texts of one start may be so far apart: by what a rounding to seconds or minutes leaves, and where one of
+// them tells its zone alone, by the offset of any.
+bool may_be_one(const ZonedStart& one, const ZonedStart& other) {
+  constexpr double minute = 60.0;
+  constexpr double furthest_zone = 14.0 * 3600.0;
+  constexpr double step_of_zones = 900.0;
+  const auto is_whole = [](const ZonedStart& start) { return std::fmod(start.seconds, minute) == 0.0; };
+  const double rounding = is_whole(one) || is_whole(other) ? minute : 1.0;
+  double apart = std::fabs(one.seconds - other.seconds);
+  if (one.has_zone != other.has_zone && apart <= furthest_zone + rounding) {
+    apart = std::fabs(std::remainder(apart, step_of_zones));
+  }
+  return apart < rounding;
+}
+
+// A start in campaign.toml goes before that of the file.
+void tell_two_starts(const Recording& recording, const ZonedStart& own, const ZonedStart& declared, int line,
+                     const ReadOptions& options) {
+  if (!options.remark || may_be_one(own, declared)) return;
+  options.remark({recording.file, Remark::Kind::implausible, "two starts",
+                  "it was started at " + declared.text() + " by line " + std::to_string(line) +
+                      " of campaign.toml and at " + own.text() +
+                      " by the file itself, expected one start: that of campaign.toml is taken"});
+}
+
+// Starts with a zone are in UTC, those without are by the clock of a place: between the two hours may be missing.
+void tell_zones(const std::vector<Recording>& recordings, const std::vector<bool>& has_zone,
+                const ReadOptions& options) {
+  const auto first = [&](bool zone) {
+    return static_cast<std::size_t>(std::ranges::find(has_zone, zone) - has_zone.begin());
+  };
+  const std::size_t with = first(true);
+  const std::size_t without = first(false);
+  if (!options.remark || with == recordings.size() || without == recordings.size()) return;
+  if (!std::ranges::all_of(recordings, has_start)) return;  // none is used
+  options.remark({recordings[without].file, Remark::Kind::implausible, "zone of start",
+                  "its start, " + ZonedStart{*recordings[without].started, false}.text() +
+                      ", names no time zone, and that of " + recordings[with].file + ", " +
+                      ZonedStart{*recordings[with].started, true}.text() +
+                      ", is in UTC: it was taken in UTC as well; expected a zone in all starts or in none"});
+}
+
 // Where parameters follow the clock and no recording holds a column or a number of it, it is that of the starts.
 void follow_clock(std::vector<Recording>& recordings) {
   const auto has_clock = [](const Recording& recording) {
@@ -295,18 +350,31 @@ Campaign load_campaign(const std::vector<std::string>& data, const ReadOptions& 
     const auto at = std::ranges::lower_bound(of_each.conditions, condition);
     if (at == of_each.conditions.end() || *at != condition) of_each.conditions.insert(at, condition);
   }
+  std::vector<bool> zones;  // whether the starts have one
   for (const auto& item : items) {
     of_each.numbers = item.numbers;
     for (const auto& [name, number] : options.numbers) of_each.numbers.insert_or_assign(name, number);
+    bool has_zone = false;
+    of_each.start_zone = [&has_zone](bool zone) { has_zone = zone; };
     campaign.recordings.push_back(load_recording(item.path, of_each));
     campaign.recordings.back().file = valid_utf8(item.name);
     remark_on_numbers(of_each, valid_utf8(item.name));
     take_numbers(campaign.recordings.back(), of_each);
-    if (item.start) campaign.recordings.back().started = item.start;
+    if (item.start) {
+      std::optional<double>& started = campaign.recordings.back().started;
+      const ZonedStart declared{*item.start, item.start_has_zone};
+      if (started) {
+        tell_two_starts(campaign.recordings.back(), {*started, has_zone}, declared, item.start_line, options);
+      }
+      started = item.start;
+      has_zone = item.start_has_zone;
+    }
+    zones.push_back(has_zone);
     // A number for the clock is meant, wherever the starts lie.
     if (of_each.numbers.contains(std::string(clock_condition))) campaign.recordings.back().started.reset();
     campaign.roles.push_back(item.role);
   }
+  tell_zones(campaign.recordings, zones, options);
   if (std::ranges::find(of_each.conditions, clock_condition) == of_each.conditions.end()) {
     tell_clock(campaign.recordings, options);
   } else {

@@ -136,7 +136,10 @@ class CampaignParser : private TomlReader {
       for (const auto& [key, value] : *table) {
         if (key.str() == "file" || key.str() == "role") continue;
         if (key.str() == "start") {
-          entry.start = start_of(value);
+          const std::string text = start_text(value);
+          entry.start = start_of(value, text);
+          entry.start_has_zone = has_zone(text);
+          entry.start_line = line_of(value);
           continue;
         }
         const ConditionNumber number = number_of(key, value);
@@ -151,15 +154,17 @@ class CampaignParser : private TomlReader {
   }
 
   // A date-time of TOML, or one in quotes.
-  [[nodiscard]] double start_of(const toml::node& node) const {
-    std::string text;
+  [[nodiscard]] static std::string start_text(const toml::node& node) {
     if (const auto* stated = node.as_date_time()) {
       std::ostringstream out;
       out << stated->get();
-      text = out.str();
-    } else if (const auto* quoted = node.as_string()) {
-      text = quoted->get();
+      return out.str();
     }
+    const auto* quoted = node.as_string();
+    return quoted == nullptr ? std::string() : quoted->get();
+  }
+
+  [[nodiscard]] double start_of(const toml::node& node, const std::string& text) const {
     const auto start = clock_time(text);
     if (!start) fail(node, "'start' is not a date and time, expected for example 2026-11-24T14:50:58");
     return *start;

@@ -18,7 +18,9 @@ inline constexpr int highest_order = 5;
 struct CampaignEntry {
   std::string file;  // relative to the folder, forward slashes
   Role role = Role::unassigned;
-  std::optional<double> start;                     // s since 1970
+  std::optional<double> start;  // s since 1970
+  bool start_has_zone = false;  // in UTC, else by the clock of the place
+  int start_line = 0;
   std::map<std::string, ConditionNumber> numbers;  // of the whole recording, by name
   int line = 0;                                    // of the entry, for messages
 };

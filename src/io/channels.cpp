@@ -462,17 +462,20 @@ Column split_column(std::string_view text) {
   return column;
 }
 
-void refuse_two_units(const Column& column, const std::string& name, const std::string& file, int line) {
-  // What is no unit is a note.
+bool contradict(std::string_view unit, std::string_view other) {
   const auto is_unit = [](std::string_view text) { return is_any_unit(text) || find_pressure(text).has_value(); };
-  if (!is_unit(column.unit) || !is_unit(column.other_unit)) return;
+  if (!is_unit(unit) || !is_unit(other)) return false;
   // "mm" and "millimetres" are one.
-  bool same = find_pressure(column.unit) == find_pressure(column.other_unit);
+  bool same = find_pressure(unit) == find_pressure(other);
   for (int i = 0; i < quantity_count; ++i) {
     const auto quantity = static_cast<Quantity>(i);
-    same = same && find_unit(quantity, column.unit) == find_unit(quantity, column.other_unit);
+    same = same && find_unit(quantity, unit) == find_unit(quantity, other);
   }
-  if (same) return;
+  return !same;
+}
+
+void refuse_two_units(const Column& column, const std::string& name, const std::string& file, int line) {
+  if (!contradict(column.unit, column.other_unit)) return;
   throw OptionError(file, line,
                     "column " + in_quotes(column.text) + " is given in " + in_quotes(column.unit) + " and in " +
                         in_quotes(column.other_unit) + ", expected one unit, or " + Option::column + " " + name +
@@ -506,8 +509,16 @@ Recording make_recording(Channels&& channels) {
   recording.force = take(Quantity::force);
   recording.temperature = take(Quantity::temperature);
   recording.base = take(Quantity::base);
-  // A channel that is zero while the rod moves was not connected: remark_on_sizes tells of it.
-  if (peak_of(recording.velocity) == 0.0 && span_of(recording.displacement) > 0.0) recording.velocity.clear();
+  // A channel that is zero while the rod moves was not connected, one that is any other number while it goes to and fro
+  // holds what was set: remark_on_sizes tells of both.
+  constexpr double to_and_fro = 0.1;
+  if (peak_of(recording.velocity) == 0.0 && span_of(recording.displacement) > 0.0) {
+    recording.velocity.clear();
+  } else if (!recording.velocity.empty() && span_of(recording.velocity) == 0.0 &&
+             turned_by(recording.displacement) > to_and_fro * span_of(recording.displacement)) {
+    recording.unused.push_back({std::string(set_velocity), recording.velocity.front()});
+    recording.velocity.clear();
+  }
   recording.velocity_measured = !recording.velocity.empty();
   recording.drive = take(Quantity::current);
   recording.drive_kind = DriveKind::current;

@@ -50,6 +50,8 @@ struct ReadOptions {
   // Group of a TDMS or MDF file, or sheet of a workbook, that alone is read; empty for all of them.
   std::string group = {};
   bool time_required = true;  // otherwise only a mapping and a column's whole name make it the time
+  // Told of the start that a file says for itself: whether it names a time zone.
+  std::function<void(bool has_zone)> start_zone = {};
 };
 
 // A column as the file names it.
@@ -89,6 +91,9 @@ inline constexpr double shortest_step = 1e-30;  // s
 // "force [kN]" or "force (kN)" -> name and unit; the unit is empty when there is none.
 [[nodiscard]] Column split_column(std::string_view text);
 
+// Whether both texts are units and not of one size. What is no unit is a note.
+[[nodiscard]] bool contradict(std::string_view unit, std::string_view other);
+
 // InputError at file:line where a column is given in two units; `name` is what --column calls it.
 void refuse_two_units(const Column& column, const std::string& name, const std::string& file, int line);
 
@@ -103,6 +108,9 @@ using Row = std::array<double, quantity_count>;
 // Where the channels have no time, one for laws that do not depend on the rate: equal steps, such that the fastest
 // speed between two samples is 0.1 m/s. Whether one was made.
 bool make_time(Channels& channels);
+
+// A velocity that is one number while the rod goes to and fro is none: it is kept as a column that no model uses.
+inline constexpr std::string_view set_velocity = "velocity [m/s]";
 
 // Checked channels in SI -> recording: a missing velocity is derived, current goes before voltage as the drive.
 [[nodiscard]] Recording make_recording(Channels&& channels);

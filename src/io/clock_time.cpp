@@ -1,9 +1,13 @@
 #include "io/clock_time.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <chrono>
+#include <cmath>
+#include <cstdint>
 #include <string>
 #include <utility>
 
@@ -97,6 +101,26 @@ std::optional<double> clock_time(std::string_view text) {
   const auto date = start_of_day(*year, *month, *day);
   if (!text.empty() || !date) return std::nullopt;
   return *date + *time - offset;
+}
+
+bool has_zone(std::string_view text) {
+  text = trimmed(text);
+  if (text.ends_with('Z')) return true;
+  const std::size_t sign = text.find_last_of("+-");
+  if (sign == std::string_view::npos) return false;
+  // A date has more behind its last hyphen.
+  const std::string_view offset = text.substr(sign + 1);
+  return offset.size() >= 4 && offset.size() <= 5 && offset.find_first_not_of("0123456789:") == std::string_view::npos;
+}
+
+std::string clock_text(double seconds) {
+  const std::chrono::sys_seconds moment{std::chrono::seconds(static_cast<std::int64_t>(std::floor(seconds)))};
+  const auto day = std::chrono::floor<std::chrono::days>(moment);
+  const std::chrono::year_month_day date(day);
+  const std::chrono::hh_mm_ss time(moment - day);
+  return fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02}", static_cast<int>(date.year()),
+                     static_cast<unsigned>(date.month()), static_cast<unsigned>(date.day()), time.hours().count(),
+                     time.minutes().count(), time.seconds().count());
 }
 
 std::optional<double> clock_time_with_month(std::string_view text) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <string_view>
 
 namespace hysteron {
@@ -9,6 +10,12 @@ namespace hysteron {
 // "2026-11-24T14:50:58", also with a space for the T, without seconds or with decimals of them, and with Z or an offset
 // +01:00 behind; s since 1970-01-01T00:00 of the same clock, UTC with an offset. Nothing for any other text.
 [[nodiscard]] std::optional<double> clock_time(std::string_view text);
+
+// Whether a text that clock_time() reads, or a comment that clock_time_in() does, ends with Z or an offset.
+[[nodiscard]] bool has_zone(std::string_view text);
+
+// "2026-11-24T14:50:58", to the second.
+[[nodiscard]] std::string clock_text(double seconds);
 
 // "12:30:05 12-JAN-2020" and "12-Jan-2020 12:30:05", in s since 1970-01-01T00:00 of the same clock; nothing for any
 // other text. The month is in letters: numbers leave in doubt which one is the day.

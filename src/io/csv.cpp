@@ -136,8 +136,9 @@ class LastDecimals {
 class CsvReader {
  public:
   // Text in memory.
-  CsvReader(std::string_view text, const std::string& file, const ReadOptions& options)
-      : text_(text), file_(file), options_(options) {
+  CsvReader(std::string_view text, const std::string& file, const ReadOptions& options,
+            const std::vector<std::string>& units)
+      : text_(text), file_(file), options_(options), units_elsewhere_(units.begin(), units.end()) {
     survey_.add(text);
   }
   // Text of which the head is in memory, enough for what comes before the rows, and `rest` is to be read on.
@@ -222,9 +223,14 @@ class CsvReader {
       if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
       const auto first = line.find_first_not_of(" \t");
       if (first != std::string_view::npos && line[first] != '#') return true;
-      if (!in_rows_ && !started_) started_ = clock_time_in(line);
+      if (!in_rows_ && !started_) read_start(line);
     }
     return false;
+  }
+
+  void read_start(std::string_view comment) {
+    started_ = clock_time_in(comment);
+    if (started_ && options_.start_zone) options_.start_zone(has_zone(comment));
   }
 
   static char delimiter_of(std::string_view line) {
@@ -336,6 +342,7 @@ class CsvReader {
     for (const auto cell : cells) columns_.push_back(split_column(unquoted(cell)));
     read_unit_row();
     take_units(units_above_);
+    take_units(units_elsewhere_);
     sources_ = assign_columns(columns_, options_, file_, header_line_);
     conditions_ = assign_conditions(columns_, sources_, options_, file_, header_line_);
     condition_row_.resize(conditions_.size());
@@ -365,7 +372,13 @@ class CsvReader {
   // Of the columns, from a row of its own.
   void take_units(const std::vector<std::string_view>& cells) {
     for (std::size_t i = 0; i < std::min(cells.size(), columns_.size()); ++i) {
-      (columns_[i].unit.empty() ? columns_[i].unit : columns_[i].other_unit) = without_brackets(unquoted(cells[i]));
+      Column& column = columns_[i];
+      const std::string_view unit = without_brackets(unquoted(cells[i]));
+      if (column.unit.empty()) {
+        column.unit = unit;
+      } else if (!contradict(column.unit, column.other_unit)) {
+        column.other_unit = unit;
+      }
     }
   }
 
@@ -597,6 +610,7 @@ class CsvReader {
   bool cut_short_ = false;  // the last line, within its last number
   std::vector<Column> columns_;
   std::vector<std::string_view> units_above_;
+  std::vector<std::string_view> units_elsewhere_;
   Sources sources_;
   bool in_rows_ = false;
   Channels channels_;
@@ -616,7 +630,12 @@ class CsvReader {
 }  // namespace
 
 Recording parse_csv(std::string_view text, const std::string& file, const ReadOptions& options) {
-  return CsvReader(text, file, options).run();
+  return parse_csv(text, file, options, {});
+}
+
+Recording parse_csv(std::string_view text, const std::string& file, const ReadOptions& options,
+                    const std::vector<std::string>& units) {
+  return CsvReader(text, file, options, units).run();
 }
 
 Recording read_csv(const std::filesystem::path& path, const ReadOptions& options) {

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/recording.hpp"
 #include "io/channels.hpp"
@@ -16,6 +17,9 @@ namespace hysteron {
 // channel may hold anything. Decimal commas are read where the comma does not separate columns. Recording::file and
 // sha256 are left empty. Everything wrong is an InputError with the line.
 [[nodiscard]] Recording parse_csv(std::string_view text, const std::string& file, const ReadOptions& options = {});
+// The same with units of the columns, in their order, that stand elsewhere than in the text; empty where none does.
+[[nodiscard]] Recording parse_csv(std::string_view text, const std::string& file, const ReadOptions& options,
+                                  const std::vector<std::string>& units);
 // The same of a file, a few MiB of it in memory at a time; read twice where it is longer. Sets Recording::sha256.
 [[nodiscard]] Recording read_csv(const std::filesystem::path& path, const ReadOptions& options = {});
 // Lines of a file behind its first, comments and what comes before a header among them.

@@ -187,6 +187,7 @@ class RecordingMaker {
       column.text += (column.text.empty() ? "[" : " [") + unit + "]";
     }
     if (!unit.empty()) column.other_unit = std::exchange(column.unit, unit);
+    if (!contradict(column.unit, column.other_unit)) column.other_unit = without_blanks(channel.other_unit);
     return column;
   }
 

@@ -29,6 +29,8 @@ struct MeasuredChannel {
   std::string group;  // or sheet; may be empty
   std::string name;   // units may stand behind it as in a CSV header
   std::string unit;   // as the file gives it; empty where it does not
+  // That the file gives beside it.
+  std::string other_unit = {};
   std::size_t count = 0;
   // The numbers, `count` of them, read when they are asked for; InputError where they cannot be.
   std::function<std::vector<double>()> values;

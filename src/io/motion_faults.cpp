@@ -27,6 +27,14 @@ constexpr double moving = 0.02;
 constexpr double near = 0.125;
 constexpr double least_stroke = 0.1;
 
+// A counter that overflows jumps by nearly its range, what is half of it is looked at; once in so many samples at most.
+// Its speed on one side is at least this part of that on the other.
+constexpr double wraps_by = 0.5;
+constexpr double nearly = 0.9;
+constexpr std::size_t fewest_samples_a_wrap = 10;
+constexpr double same_speed = 0.5;
+constexpr std::size_t fewest_at_reversals = 4;
+
 // A channel that leaves its path stays away for so many samples at most; one of so many does.
 constexpr std::size_t longest_excursion = 2;
 constexpr std::size_t fewest_samples_each = 50;
@@ -115,6 +123,62 @@ std::optional<Leap> leap_of(const std::vector<double>& time, const std::vector<d
   return before.moves && after.moves && stuck ? std::optional(leap) : std::nullopt;
 }
 
+std::optional<Wrap> wrap_of(const std::vector<double>& time, const std::vector<double>& values) {
+  if (values.size() < 2 * steps_beside) return std::nullopt;
+  const double span = span_of(values);
+  const auto is_jump = [&](std::size_t n) { return step_at(values, n) > wraps_by * span; };
+  std::vector<std::size_t> jumps;
+  for (std::size_t n = 0; n + 1 < values.size(); ++n) {
+    if (is_jump(n)) jumps.push_back(n);
+  }
+  if (jumps.empty() || jumps.size() * fewest_samples_a_wrap > values.size()) return std::nullopt;
+  const double noise = channel_noise(time, values);
+  const double usual = (time.back() - time.front()) / static_cast<double>(time.size() - 1);
+  const std::size_t reach =
+      std::max(steps_beside, static_cast<std::size_t>(near * static_cast<double>(samples_a_stroke(values))));
+  // From a sample on, in steps of one, as far as the channel moves on against the jump: its speed, 0 where it does not.
+  double widest = 0.0;  // of these steps
+  const auto speed_beside = [&](std::size_t from, bool forwards, double sign) {
+    const std::size_t left = forwards ? values.size() - 1 - from : from;
+    double speed = 0.0;
+    for (std::size_t k = 1; k <= std::min(left, reach); ++k) {
+      const std::size_t at = forwards ? from + k : from - k;
+      const double step = forwards ? values[at] - values[at - 1] : values[at + 1] - values[at];
+      if (is_jump(forwards ? at - 1 : at) || sign * step > 4.0 * noise) break;
+      widest = std::max(widest, std::fabs(step));
+      const double way = forwards ? values[at] - values[from] : values[from] - values[at];
+      if (k < 2 || sign * way > -longer * noise) continue;
+      speed = way / std::fabs(time[at] - time[from]);
+      if (k >= steps_beside) break;
+    }
+    return speed;
+  };
+  std::optional<Wrap> first;
+  std::size_t alike_ones = 0;
+  std::size_t against = 0;  // the jump, on both sides
+  for (const std::size_t n : jumps) {
+    const double sign = std::copysign(1.0, values[n + 1] - values[n]);
+    widest = 0.0;
+    const double before = speed_beside(n, false, sign);
+    const double after = speed_beside(n + 1, true, sign);
+    // What is no jump from one end of the range to the other, or lies in a gap of the times, is another fault.
+    const double size = step_at(values, n);
+    const bool whole = size >= nearly * span || size + 2.0 * widest >= span;
+    if (!whole || 4.0 * widest > size || time[n + 1] - time[n] >= 2.0 * usual) return std::nullopt;
+    if (before == 0.0 || after == 0.0) continue;
+    ++against;
+    const double slow = std::min(std::fabs(before), std::fabs(after));
+    const bool same = slow >= same_speed * std::max(std::fabs(before), std::fabs(after));
+    if (!first || (same && alike_ones == 0)) {
+      first = Wrap{n, size + 0.5 * (std::fabs(before) + std::fabs(after)) * usual, before, after, jumps.size()};
+    }
+    alike_ones += same ? 1 : 0;
+  }
+  // Beside a reversal the speeds differ; what goes against so many jumps, each time on both sides, turns there.
+  const bool all = against == jumps.size() && against >= fewest_at_reversals;
+  return 2 * against > jumps.size() && (alike_ones > 0 || all) ? first : std::nullopt;
+}
+
 std::optional<Excursion> excursion_of(const std::vector<double>& time, const std::vector<double>& values) {
   constexpr std::size_t around = steps_beside + longest_excursion;
   const double least = least_leap * span_of(values);
@@ -190,10 +254,13 @@ std::optional<double> held_samples_of(const std::vector<double>& values) {
   if (lengths.size() < fewest_holds || sizes.size() < fewest_sizes) return std::nullopt;
   const double usual = median_of(lengths);
   const auto count_of = [&](double length) { return static_cast<double>(std::ranges::count(lengths, length)); };
-  const double same = count_of(usual) + std::max(count_of(usual - 1.0), count_of(usual + 1.0));
-  const auto count = static_cast<double>(lengths.size());
-  const double mean = std::accumulate(lengths.begin(), lengths.end(), 0.0) / count;
-  return same >= alike * count && mean >= least_hold ? std::optional(mean) : std::nullopt;
+  const double shorter = count_of(usual - 1.0);
+  const double longer_ones = count_of(usual + 1.0);
+  const double of_usual = count_of(usual);
+  const double same = of_usual + std::max(shorter, longer_ones);
+  // Of these alone: a few long stretches, as where a force is cut off or a rod rests, are no holds.
+  const double mean = usual + (longer_ones >= shorter ? longer_ones : -shorter) / same;
+  return same >= alike * static_cast<double>(lengths.size()) && mean >= least_hold ? std::optional(mean) : std::nullopt;
 }
 
 VelocityFault velocity_fault_of(const Recording& recording) {

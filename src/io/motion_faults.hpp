@@ -21,6 +21,17 @@ struct Leap {
 };
 std::optional<Leap> leap_of(const std::vector<double>& time, const std::vector<double>& values);
 
+// Jumps by nearly the whole range of the channel, each against the way that it goes on both sides and at the same
+// speed: a counter that overflows and begins again at the other end. Nothing where any jump is of another kind.
+struct Wrap {
+  std::size_t after = 0;  // the first is from this sample to the next
+  double range = 0.0;     // of the counter, about, in the channel's unit
+  double before = 0.0;    // speed, per s
+  double behind = 0.0;
+  std::size_t count = 0;  // of the jumps
+};
+std::optional<Wrap> wrap_of(const std::vector<double>& time, const std::vector<double>& values);
+
 // One or two samples that a channel leaves for and comes back from, by steps many times longer than those around them
 // and than the channel's resolution: a glitch of a sensor within its range. The furthest, and how many there are; more
 // than one of fifty samples is how the channel is. Those beyond its range are told by io/outliers.hpp.

@@ -195,11 +195,22 @@ void tell_of_setting(const std::string& column, const UnitConversion& unit, cons
                            out.size() == 1 ? "" : "s"));
 }
 
-// Samples that are lost, glitches unless those beyond the range are told, channels slower than the log, and a velocity
-// that is none.
-void tell_of_motion(const Recording& recording, const Sources& sources, bool glitches_told, Remarks& remarks) {
+// Samples that are lost, a counter that overflowed, glitches unless those beyond the range are told, channels slower
+// than the log, and a velocity that is none.
+void tell_of_motion(const Recording& recording, const Sources& sources, const std::optional<Wrap>& wrap,
+                    bool glitches_told, Remarks& remarks) {
   const std::vector<double>& time = recording.time;
-  if (const auto leap = leap_of(time, recording.displacement)) {
+  if (wrap) {
+    remarks.tell(
+        "wrap",
+        fmt::format("the displacement jumps from {:.4g} to {:.4g} mm behind sample {}, at {:.4g} s, nearly its whole "
+                    "range, and goes on at {:.3g} mm/s where it came at {:.3g} mm/s: a counter that overflows looks "
+                    "so, {} time{} here; add its range, about {:.4g} mm, at each",
+                    1e3 * recording.displacement[wrap->after], 1e3 * recording.displacement[wrap->after + 1],
+                    wrap->after + 1, time[wrap->after], 1e3 * wrap->behind, 1e3 * wrap->before, wrap->count,
+                    wrap->count == 1 ? "" : "s", 1e3 * wrap->range));
+    glitches_told = true;
+  } else if (const auto leap = leap_of(time, recording.displacement)) {
     remarks.tell("leap", fmt::format("the displacement leaps by {:.3g} mm between {:.4g} and {:.4g} s, far beyond its "
                                      "steps before and after: lost samples or two records joined look so; cut there",
                                      1e3 * leap->size, time[leap->after], time[leap->after + 1]));
@@ -238,9 +249,14 @@ void tell_of_motion(const Recording& recording, const Sources& sources, bool gli
   }
   const auto& velocity = sources[static_cast<std::size_t>(Quantity::velocity)];
   if (velocity.column >= 0 && !recording.velocity_measured) {
+    const auto set = std::ranges::find(recording.unused, set_velocity, &UnusedColumn::name);
     remarks.tell(
         "no velocity",
-        "the velocity is 0 throughout while the displacement moves: it is taken from the displacement instead");
+        set == recording.unused.end()
+            ? "the velocity is 0 throughout while the displacement moves: it is taken from the displacement instead"
+            : fmt::format("the velocity is {:.4g} m/s throughout while the displacement goes to and fro: a speed that "
+                          "was set looks so; it is taken from the displacement instead",
+                          set->mean));
   }
 }
 
@@ -338,6 +354,7 @@ void remark_on_sizes(const Recording& recording, const Sources& sources, const s
       moves ? std::ranges::max(recording.displacement) - std::ranges::min(recording.displacement) : 0.0;
   const double speed = peak_of(recording.velocity);
   const double force = peak_of(recording.force);
+  const std::optional<Wrap> wrap = moves ? wrap_of(recording.time, recording.displacement) : std::nullopt;
   remarks.judge(Quantity::displacement, stroke_m, stroke, fmt::format("a stroke of {:.3g} m", stroke));
   if (!recording.force.empty()) {
     remarks.judge(Quantity::force, force_n, force, fmt::format("a force of {:.3g} N", force));
@@ -353,7 +370,7 @@ void remark_on_sizes(const Recording& recording, const Sources& sources, const s
   }
   if (recording.velocity_measured) {
     remarks.judge(Quantity::velocity, speed_m_s, speed, fmt::format("a speed of {:.3g} m/s", speed));
-  } else if (!remarks.told()) {
+  } else if (!remarks.told() && !wrap) {
     // Where only one of the two has no unit, that one is in question; of both, the displacement rather.
     const bool assumed = remarks.assumed(Quantity::displacement);
     remarks.judge(assumed ? Quantity::displacement : Quantity::time, speed_m_s, speed,
@@ -371,7 +388,7 @@ void remark_on_sizes(const Recording& recording, const Sources& sources, const s
   for (std::size_t n = 0; n < recording.force.size(); ++n) {
     power = std::max(power, std::fabs(recording.force[n] * recording.velocity[n]));
   }
-  if (!remarks.told() && !recording.force.empty()) {
+  if (!remarks.told() && !wrap && !recording.force.empty()) {
     remarks.judge(Quantity::force, power_w, power, fmt::format("a power of {:.3g} W, force times velocity,", power));
   }
   if (const auto gap = gap_in(recording.time)) {
@@ -406,7 +423,7 @@ void remark_on_sizes(const Recording& recording, const Sources& sources, const s
                                out.size()));
     }
   }
-  tell_of_motion(recording, sources, glitches_told, remarks);
+  tell_of_motion(recording, sources, wrap, glitches_told, remarks);
   if (const auto end = flat_end_of(recording.force); end && !placeholder_of(recording.force)) {
     remarks.tell("flat end",
                  fmt::format("the force stays at exactly {:.4g} N, an end of its range, for {:.0f} % of the "

@@ -95,5 +95,38 @@ TEST(BesideOthers, TheDriveDoesNotJudgeTheOtherChannels) {
   }
 }
 
+// 10 mm at 1 Hz with 900 N, by the units of its displacement and force.
+Recording in_units(const std::string& file, double metres, double newtons, double drive = 1.0) {
+  Recording result = recording(file, {drive}, DriveKind::current, newtons);
+  for (double& x : result.displacement) x /= metres;
+  for (double& v : result.velocity) v /= metres;
+  return result;
+}
+
+TEST(BesideOthers, InchesAndPoundsForceThatAreTakenForSi) {
+  constexpr double inch = 0.0254;
+  constexpr double lbf = 4.4482216152605;
+  constexpr double kgf = 9.80665;
+  const auto beside = [&](const Recording& odd) {
+    return said_of({in_units("a", 1.0, 1.0), in_units("b", 1.2, 1.1), in_units("c", 0.9, 0.9), odd});
+  };
+  EXPECT_EQ(beside(in_units("d", inch, lbf)),
+            Lines{"d: a stroke of 787 mm with a force of 202 N, and 16.7 to 22.2 mm with 818 to 1e+03 N in the other "
+                  "recordings, as where the numbers of this one are in inches and pounds-force and taken for m and N: "
+                  "check the units of displacement and force"});
+  EXPECT_EQ(beside(in_units("d", inch, kgf)).size(), 1U);
+  // One in SI among others that are not.
+  const Lines among = said_of({in_units("a", inch, lbf), in_units("b", inch, 1.1 * lbf), in_units("c", 1.0, 1.0)});
+  ASSERT_EQ(among.size(), 1U);
+  EXPECT_NE(among[0].find("the numbers of the others are in inches and pounds-force"), std::string::npos) << among[0];
+  // What a damper may do: a longer stroke with a larger force, or with as large a one; a smaller force of a smaller
+  // drive; one of the two alone.
+  EXPECT_EQ(beside(in_units("d", inch, 1.0 / lbf)), Lines{});
+  EXPECT_EQ(beside(in_units("d", inch, 1.0)), Lines{});
+  EXPECT_EQ(beside(in_units("d", inch, lbf, 0.1)), Lines{});
+  EXPECT_EQ(beside(in_units("d", 1.0, lbf)), Lines{});
+  EXPECT_EQ(said_of({in_units("a", 1.0, 1.0), in_units("d", inch, lbf)}), Lines{}) << "of two either may be right";
+}
+
 }  // namespace
 }  // namespace hysteron

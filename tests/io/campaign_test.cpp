@@ -127,6 +127,58 @@ TEST(Campaign, WrongTomlIsOneClearLine) {
   EXPECT_EQ(message.find('\n'), std::string::npos);
 }
 
+// What is told of a folder whose recordings say these starts, and campaign.toml those; empty where none does.
+std::vector<std::string> told_of_starts(const std::vector<std::pair<std::string, std::string>>& starts) {
+  const TemporaryFolder folder;
+  std::string toml = schema;
+  for (std::size_t k = 0; k < starts.size(); ++k) {
+    const std::string name = "r" + std::to_string(k + 1) + ".csv";
+    const auto& [own, declared] = starts[k];
+    folder.write(name, (own.empty() ? "" : "# start: " + own + "\n") + good);
+    toml += "[[recording]]\nfile = \"" + name + "\"\n" + (declared.empty() ? "" : "start = " + declared + "\n");
+  }
+  folder.write("campaign.toml", toml);
+  std::vector<std::string> said;
+  ReadOptions options;
+  options.remark = [&](const Remark& remark) {
+    if (remark.text.plain().find("start") != std::string::npos)
+      said.push_back(remark.file + ": " + remark.text.plain());
+  };
+  (void)load_campaign({folder.path().string()}, options);
+  return said;
+}
+
+using Lines = std::vector<std::string>;
+
+TEST(Campaign, AStartThatIsNotThatOfTheFileIsTold) {
+  EXPECT_EQ(told_of_starts({{"2026-11-24T14:50:58", "2026-11-24T15:50:58"}, {"", "2026-11-24T16:00:00"}}),
+            Lines{"r1.csv: it was started at 2026-11-24T15:50:58 by line 4 of campaign.toml and at 2026-11-24T14:50:58 "
+                  "by the file itself, expected one start: that of campaign.toml is taken"});
+  // The same, to the minute, and to the hour of a zone.
+  for (const std::string same : {"2026-11-24T14:50:58", "2026-11-24T14:50:58.4", "2026-11-24T14:50:00",
+                                 "2026-11-24T13:50:58Z", "2026-11-24T20:20:58+05:30"}) {
+    const Lines said = told_of_starts({{"2026-11-24T14:50:58", same}});
+    EXPECT_EQ(said, Lines{}) << same;
+  }
+  EXPECT_EQ(told_of_starts({{"2026-11-24T14:50:58", "2026-11-24T13:47:58Z"}}).size(), 1U);
+}
+
+TEST(Campaign, StartsWithAndWithoutAZoneAreTold) {
+  const Lines told = {
+      "r1.csv: its start, 2026-11-24T14:50:58, names no time zone, and that of r2.csv, 2026-11-24T15:00:00Z, is in "
+      "UTC: "
+      "it was taken in UTC as well; expected a zone in all starts or in none"};
+  EXPECT_EQ(told_of_starts({{"2026-11-24T14:50:58", ""}, {"2026-11-24T15:00:00Z", ""}}), told);
+  EXPECT_EQ(told_of_starts({{"2026-11-24T14:50:58", ""}, {"2026-11-24T16:00:00+01:00", ""}}), told);
+  EXPECT_EQ(told_of_starts({{"", "2026-11-24T14:50:58"}, {"", "2026-11-24T15:00:00Z"}}), told);
+  EXPECT_EQ(told_of_starts({{"2026-11-24T14:50:58", ""}, {"2026-11-24T15:00:00", "2026-11-24T15:00:00Z"}}), told);
+  // Of one kind, whatever its offsets.
+  EXPECT_EQ(told_of_starts({{"2026-11-24T14:50:58", ""}, {"2026-11-24T15:00:00", ""}}), Lines{});
+  EXPECT_EQ(told_of_starts({{"2026-11-24T14:50:58Z", ""}, {"2026-11-24T16:00:00+01:00", ""}}), Lines{});
+  EXPECT_EQ(told_of_starts({{"2026-11-24T14:50:58Z", ""}, {"2026-11-24T15:50:58", "2026-11-24T15:50:58-01:00"}}),
+            Lines{});
+}
+
 TEST(Campaign, WrongArguments) {
   const TemporaryFolder folder;
   const auto path = folder.path().string();

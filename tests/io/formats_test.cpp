@@ -133,6 +133,48 @@ TEST(Formats, MappingsAndGroupsReachChannels) {
   EXPECT_EQ(read("TDMS", tdms::file_of(table), options).force[0], 20e3);
 }
 
+// A start in UTC beside one by the clock of the place.
+TEST(Formats, EveryFormatTellsWhetherItsStartHasAZone) {
+  const auto zone_of = [](std::string_view format, const std::string& bytes) {
+    std::optional<bool> zone;
+    ReadOptions options;
+    options.start_zone = [&](bool has_zone) { zone = has_zone; };
+    (void)read(format, bytes, options);
+    return zone;
+  };
+  const FileTable table = damper(20);
+  EXPECT_EQ(zone_of("CSV", "# start: 2026-11-27T12:00:00Z\n" + csv_of(table)), true);
+  EXPECT_EQ(zone_of("CSV", "# start: 2026-11-27T12:00:00\n" + csv_of(table)), false);
+  EXPECT_EQ(zone_of("CSV", csv_of(table)), std::nullopt);
+  using namespace tdms;
+  const auto channel = [](const std::string& name) {
+    return object("/'G'/'" + name + "'", index(f64, 20),
+                  {property("wf_increment", 0.25), time_property("wf_start_time", 3'800'000'000, 0)});
+  };
+  EXPECT_EQ(zone_of("TDMS", segment(metadata | new_list | tdms::numbers, objects({channel("disp"), channel("Load")}),
+                                    bytes_of(table.channels[0].values) + bytes_of(table.channels[1].values))),
+            true);
+  const auto mdf = [](std::uint8_t flags) {
+    Mdf4Writer w;
+    std::string records;
+    for (int k = 0; k < 20; ++k) records += bytes_of(0.1 * k) + bytes_of(1.0 * k) + bytes_of(2.0 * k);
+    const std::uint64_t channels = w.chain({{.name = "t", .kind = 2, .counts = 1},
+                                            {.name = "disp", .unit = "mm", .byte = 8},
+                                            {.name = "force", .unit = "N", .byte = 16}});
+    w.data_group(w.channel_group("", channels, 20, 24), w.block("DT", {}, records));
+    w.start(1'700'000'000'000'000'000, 60, 0, flags);
+    return w.bytes();
+  };
+  EXPECT_EQ(zone_of("MDF 4", mdf(0)), true);
+  EXPECT_EQ(zone_of("MDF 4", mdf(1)), false);
+  EXPECT_EQ(zone_of("MDF 4", mdf(2)), false);
+  for (const bool zone : {true, false}) {
+    const std::string start =
+        std::string("<row>") + cell("Start") + cell(zone ? "2026-11-27T13:00+01:00" : "2026-11-27 12:00") + "</row>";
+    EXPECT_EQ(zone_of("xlsx", zip_of(workbook_parts({{"A", start + sheet_of(table)}}))), zone);
+  }
+}
+
 TEST(Formats, AFolderHoldsAllOfThemAndWorkbooksOnlyAlone) {
   const TemporaryFolder folder;
   for (const auto& [name, bytes] : files_of(damper())) folder.write("all/" + name, bytes);
@@ -415,6 +457,37 @@ TEST(Tdms, SegmentsThatContradictThoseBeforeAreRefused) {
                    bytes_of(table.channels[2].values));
   EXPECT_EQ(read("TDMS", bytes).size(), 40U);
   EXPECT_TRUE(read("TDMS", bytes).unused.empty());
+}
+
+TEST(Tdms, UnitsThatContradictEachOtherAreRefused) {
+  using namespace tdms;
+  const FileTable table = damper(20);
+  const auto file = [&](const std::string& name, const std::vector<std::string>& about) {
+    std::vector<std::string> properties = {property("wf_increment", 0.25)};
+    properties.insert(properties.end(), about.begin(), about.end());
+    return segment(metadata | new_list | numbers,
+                   objects({object("/'G'/'disp'", index(f64, 20), {property("wf_increment", 0.25)}),
+                            object("/'G'/'" + name + "'", index(f64, 20), properties)}),
+                   bytes_of(table.channels[0].values) + bytes_of(table.channels[1].values));
+  };
+  const std::string newtons = property("unit_string", "N");
+  const std::string kilonewtons = property("NI_UnitDescription", "kN");
+  const auto message = [](const std::string& column, const std::string& name, const std::string& units) {
+    return "r: column '" + column + "' is given in " + units + ", expected one unit, or column force=\"" + name +
+           " [UNIT]\" to choose";
+  };
+  EXPECT_EQ(refusal("TDMS", file("Load", {newtons, kilonewtons})), message("Load [N]", "Load", "'N' and in 'kN'"));
+  EXPECT_EQ(refusal("TDMS", file("Load [kN]", {newtons})), message("Load [kN]", "Load", "'N' and in 'kN'"));
+  EXPECT_EQ(refusal("TDMS", file("Load [N]", {newtons, kilonewtons})), message("Load [N]", "Load", "'N' and in 'kN'"));
+  EXPECT_EQ(refusal("TDMS", file("Load [kN]", {newtons, kilonewtons})),
+            message("Load [kN]", "Load", "'N' and in 'kN'"));
+  ReadOptions chosen;
+  chosen.columns = {{"force", "Load [kN]"}};
+  EXPECT_EQ(read("TDMS", file("Load", {newtons, kilonewtons}), chosen).force[0], 20e3);
+  // One unit, in any spelling; one alone; a note that is none.
+  EXPECT_EQ(read("TDMS", file("Load", {newtons, property("NI_UnitDescription", "newtons")})).force[0], 20.0);
+  EXPECT_EQ(read("TDMS", file("Load", {kilonewtons})).force[0], 20e3);
+  EXPECT_EQ(read("TDMS", file("Load", {newtons, property("NI_UnitDescription", "of rig 3")})).force[0], 20.0);
 }
 
 TEST(Tdms, AStepThatIsNoneIsNotThatOfAnotherChannel) {
@@ -812,6 +885,26 @@ TEST(Mdf4, UnitsMayBeComments) {
   const std::uint64_t time = w.channel({.name = "t", .kind = 2, .counts = 1}, disp);
   w.data_group(w.channel_group("", time, 20, 24), w.block("DT", {}, records));
   EXPECT_EQ(read("MDF 4", w.bytes()).force[1], 2000.0);
+}
+
+// The standard has the unit of a conversion apply where its channel has none.
+TEST(Mdf4, TheUnitOfAChannelGoesBeforeThatOfItsConversion) {
+  const auto file = [](const std::string& name, const std::string& unit, const std::string& of_conversion) {
+    Mdf4Writer w;
+    std::string records;
+    for (int k = 0; k < 20; ++k) records += bytes_of(0.1 * k) + bytes_of(1.0 * k) + bytes_of(2.0 * k);
+    const std::uint64_t text = of_conversion.empty() ? 0 : w.text(of_conversion);
+    const std::uint64_t conversion = w.linear(0.0, 1.0, text);
+    const std::uint64_t channels = w.chain({{.name = "t", .kind = 2, .counts = 1},
+                                            {.name = "disp", .unit = "mm", .byte = 8},
+                                            {.name = name, .unit = unit, .byte = 16, .conversion = conversion}});
+    w.data_group(w.channel_group("", channels, 20, 24), w.block("DT", {}, records));
+    return w.bytes();
+  };
+  EXPECT_EQ(read("MDF 4", file("force", "N", "kN")).force[1], 2.0);
+  EXPECT_NE(refusal("MDF 4", file("force [kN]", "N", "")).find("is given in 'N' and in 'kN'"), std::string::npos);
+  EXPECT_EQ(read("MDF 4", file("force", "kN", "kN")).force[1], 2000.0);
+  EXPECT_EQ(read("MDF 4", file("force", "", "kN")).force[1], 2000.0);
 }
 
 TEST(Mdf4, WhatIsNotReadIsRefused) {
@@ -1218,6 +1311,88 @@ TEST(Xlsx, DatesAreReadInSecondsSinceTheFirst) {
   }
 }
 
+// Style 2 and those behind it are the formats.
+std::string sheet_in_styles(const std::string& head, int displacement_style, int force_style) {
+  const auto styled = [](double value, int style) {
+    return "<c s=\"" + std::to_string(style) + "\"><v>" + digits_of(value) + "</v></c>";
+  };
+  std::string sheet = head;
+  for (int k = 0; k < 20; ++k) {
+    sheet += row({cell(0.1 * k), styled(1.0 * (k % 7), displacement_style), styled(2.0 * (k % 5), force_style)});
+  }
+  return sheet;
+}
+
+TEST(Xlsx, TheFormatOfNumbersTellsTheirUnit) {
+  const std::string head = row({cell("time [s]"), cell("disp"), cell("Force")});
+  for (const std::string code :
+       {"0.0&quot; kN&quot;", "0.00 &quot;kN&quot;", "0\\ \\k\\N", "#,##0.0\\ [$kN]",
+        "[Blue]0.00E+00&quot; [kN]&quot;;[Red]-0.0&quot; N&quot;", "General&quot; kN&quot;", "0.0_) &quot;kN&quot;"}) {
+    Told told;
+    const Recording r =
+        read("xlsx", workbook_with_formats(sheet_in_styles(head, 3, 2), {code, "0.00 &quot;mm&quot;"}), told.options);
+    EXPECT_EQ(r.force[1], 2000.0) << code;
+    EXPECT_EQ(r.displacement[1], 1e-3) << code;
+    ASSERT_GE(told.lines.size(), 2U) << code;
+    EXPECT_EQ(told.lines[0], "the numbers of column 'disp', whose header has no unit, are shown in 'mm': it is taken");
+    EXPECT_EQ(told.lines[1], "the numbers of column 'Force', whose header has no unit, are shown in 'kN': it is taken");
+  }
+  // Where --column gives a unit it is that one, without a word of the format.
+  Told told;
+  told.options.columns = {{"force", "Force [N]"}};
+  const std::string bytes = workbook_with_formats(sheet_in_styles(head, 0, 2), {"0.0&quot; kN&quot;"});
+  EXPECT_EQ(read("xlsx", bytes, told.options).force[1], 2.0);
+  EXPECT_TRUE(std::ranges::none_of(told.lines, [](const std::string& line) { return line.find("'kN'") != line.npos; }));
+}
+
+TEST(Xlsx, AFormatThatContradictsTheHeaderIsRefused) {
+  const auto book = [](const std::string& force, const std::string& code) {
+    return workbook_with_formats(sheet_in_styles(row({cell("time [s]"), cell("disp [mm]"), cell(force)}), 0, 2),
+                                 {code});
+  };
+  const std::string kilonewtons = "0.0&quot; kN&quot;";
+  EXPECT_EQ(refusal("xlsx", book("Force [N]", kilonewtons)),
+            "r:1: column 'Force [N]' is given in 'N' and in 'kN', expected one unit, or column force=\"Force "
+            "[UNIT]\" to choose");
+  ReadOptions chosen;
+  chosen.columns = {{"force", "Force [N]"}};
+  EXPECT_EQ(read("xlsx", book("Force [N]", kilonewtons), chosen).force[1], 2.0);
+  EXPECT_EQ(read("xlsx", book("Force [kN]", kilonewtons)).force[1], 2000.0);
+  // A row of units, too.
+  const std::string rows = row({cell("time"), cell("disp"), cell("Force")}) + row({cell("s"), cell("mm"), cell("N")});
+  EXPECT_NE(
+      refusal("xlsx", workbook_with_formats(sheet_in_styles(rows, 0, 2), {kilonewtons})).find("in 'N' and in 'kN'"),
+      std::string::npos);
+  // Two formats in one column; below the table there may be any.
+  std::string sheet = sheet_in_styles(row({cell("time [s]"), cell("disp [mm]"), cell("Force")}), 0, 2);
+  const std::string newtons = "<c s=\"3\"><v>7</v></c>";
+  const std::vector<std::string> codes = {kilonewtons, "0.0&quot; N&quot;"};
+  EXPECT_EQ(refusal("xlsx", workbook_with_formats(sheet + row({cell(2.0), cell(1.0), newtons}), codes)),
+            "r:22: a number of column 'Force' is shown in 'N', and that of row 2 in 'kN', expected one format");
+  EXPECT_EQ(read("xlsx", workbook_with_formats(sheet + row({cell("largest"), "<c/>", newtons}, "25"), codes)).force[1],
+            2000.0);
+}
+
+TEST(Xlsx, AFormatWithoutAKnownUnitIsTold) {
+  const std::string head = row({cell("time [s]"), cell("disp [mm]"), cell("Force")});
+  const auto told_of = [&](const std::string& code) {
+    Told told;
+    EXPECT_EQ(read("xlsx", workbook_with_formats(sheet_in_styles(head, 0, 2), {code}), told.options).force[1], 2.0);
+    std::string line;
+    for (const std::string& text : told.lines) line += text.find("column 'Force'") != text.npos ? text : "";
+    return line;
+  };
+  EXPECT_EQ(told_of("0.0&quot; kp&quot;"),
+            "the numbers of column 'Force', whose header has no unit, are shown in 'kp', which is no unit that is "
+            "known: SI is taken");
+  EXPECT_EQ(told_of("0.0,&quot; kN&quot;"),
+            "the numbers of column 'Force', whose header has no unit, are shown in parts or multiples of 'kN': SI is "
+            "taken, expected a unit in the header");
+  for (const char* code : {"0.0", "#,##0.00", "0.0_);(0.0)", "# ?/?", "0.00E+00", "@", "[Red]0.0"}) {
+    EXPECT_EQ(told_of(code), "") << code;
+  }
+}
+
 TEST(Xlsx, TheFirstDateIsTheStart) {
   const std::string head = row({cell("Time"), cell("disp [mm]"), cell("force [N]")});
   EXPECT_EQ(read("xlsx", workbook_with_formats(dated_sheet(head, 1), {})).started, 1'795'780'800.0);
@@ -1310,6 +1485,34 @@ TEST(Xlsx, SheetsAreChosenByGroup) {
   options.group = "Notes";
   EXPECT_EQ(refusal("xlsx", bytes, options),
             "r: sheet 'Notes' has no row of names above rows of numbers, expected one");
+}
+
+TEST(Xlsx, WhichOfSeveralSheetsIsReadIsTold) {
+  const std::string table = row({cell("time"), cell("disp"), cell("force")}) + rows_of_numbers(20);
+  const std::string notes = row({cell("what"), cell("who")});
+  // Sheets, and which of them are hidden.
+  const auto told_of = [](const std::vector<std::pair<std::string, std::string>>& sheets,
+                          const std::vector<std::string>& hidden, const std::string& group = "") {
+    auto parts = workbook_parts(sheets);
+    std::string& workbook = parts[parts.size() - 2].second;
+    for (const std::string& name : hidden) {
+      workbook.insert(workbook.find("<sheet name=\"" + name + "\"") + 7, "state=\"hidden\" ");
+    }
+    Told told;
+    told.options.group = group;
+    EXPECT_EQ(read("xlsx", zip_of(parts), told.options).size(), 20U);
+    std::string line;
+    for (const std::string& text : told.lines) line += text.starts_with("sheet ") ? text : "";
+    return line;
+  };
+  EXPECT_EQ(told_of({{"Notes", notes}, {"Data", table}, {"Old", notes}}, {"Data"}),
+            "sheet 'Data', which is hidden, is read, of 3 sheets: the others ('Notes', 'Old') hold no recording");
+  EXPECT_EQ(told_of({{"Notes", notes}, {"Data", table}, {"Old", notes}}, {"Notes"}),
+            "sheet 'Data' is read, of 3 sheets: the others ('Old', hidden: 'Notes') hold no recording");
+  EXPECT_EQ(told_of({{"Data", table}, {"Raw", notes}}, {"Raw"}),
+            "sheet 'Data' is read, of 2 sheets: the others (hidden: 'Raw') hold no recording");
+  EXPECT_EQ(told_of({{"Data", table}, {"Raw", notes}}, {"Data"}, "data"), "") << "it is named";
+  EXPECT_EQ(told_of({{"Data", table}}, {}), "");
 }
 
 TEST(Xlsx, EntitiesAndBombsAreRefused) {

@@ -137,8 +137,8 @@ class Mdf4Writer {
     return at;
   }
   std::uint64_t text(const std::string& value) { return block("TX", {}, value + '\0'); }
-  std::uint64_t linear(double offset, double factor) {
-    return block("CC", {0, 0, 0, 0},
+  std::uint64_t linear(double offset, double factor, std::uint64_t unit = 0) {
+    return block("CC", {0, unit, 0, 0},
                  std::string("\x01\x00", 2) + bytes_of(std::uint16_t{0}) + bytes_of(std::uint16_t{0}) +
                      bytes_of(std::uint16_t{2}) + std::string(16, '\0') + bytes_of(offset) + bytes_of(factor));
   }

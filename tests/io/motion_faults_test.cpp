@@ -86,6 +86,40 @@ TEST(MotionFaults, AVelocityThatIsZero) {
              "the velocity is 0 throughout while the displacement moves: it is taken from the displacement instead");
 }
 
+TEST(MotionFaults, AVelocityThatIsOneNumberWhileTheRodGoesToAndFro) {
+  for (const double set : {0.1, -0.1}) {
+    expect_one(remarks(
+                   true_x, [&](double, int) { return set; }, true_f),
+               set > 0.0 ? "the velocity is 0.1 m/s throughout while the displacement goes to and fro: a speed that "
+                           "was set looks so; it is taken from the displacement instead"
+                         : "the velocity is -0.1 m/s throughout");
+  }
+  // Of a ramp it may be the velocity.
+  const Channel ramp = [](double t, int) { return 0.01 * t; };
+  const Channel steady = [](double, int) { return 0.01; };
+  EXPECT_TRUE(remarks(ramp, steady, true_f).empty());
+}
+
+TEST(MotionFaults, AForceThatIsCutOffIsNoSlowSensor) {
+  const Stream noise(4);
+  for (const double limit : {75.0, 125.0, 175.0}) {
+    for (const double hiss : {0.0, 1.0}) {
+      const auto said = remarks(true_x, true_v, [&](double t, int n) {
+        return std::clamp(force(t) + hiss * noise.normal(static_cast<std::uint64_t>(n)), -limit, limit);
+      });
+      for (const std::string& text : said) EXPECT_EQ(text.find("slower than the log"), std::string::npos) << text;
+      if (hiss > 0.0) {
+        expect_one(said, "the force stays at exactly ");
+      }
+    }
+  }
+  // Nor is one that rests for a while between its strokes.
+  std::vector<double> strokes;
+  for (int n = 0; n < 3000; ++n)
+    strokes.push_back(n % 300 < 200 ? std::sin(0.01 * std::numbers::pi * n) + 1e-6 * n : n / 300);
+  EXPECT_FALSE(held_samples_of(strokes).has_value());
+}
+
 TEST(MotionFaults, AChannelSlowerThanTheLog) {
   expect_one(remarks(true_x, true_v, [](double, int n) { return force(0.002 * (n / 10 * 10)); }),
              "the force holds each value for 10 samples: a sensor slower than the log looks so, and is 9 ms late");
@@ -148,6 +182,75 @@ TEST(MotionFaults, LostSamples) {
   for (const std::string& text : remarks(true_x, true_v, true_f, skip)) {
     EXPECT_FALSE(text.starts_with("the displacement leaps")) << text;
   }
+}
+
+// A position on a counter that begins again at either end of its range.
+double on_counter(double x, double low, double range) { return x - range * std::floor((x - low) / range); }
+
+TEST(MotionFaults, ACounterThatOverflows) {
+  // 11 mm to and fro on a counter of 20 mm.
+  const auto said = remarks([](double t, int) { return on_counter(1.1 * at(t), -0.01, 0.02); },
+                            [](double t, int) { return 1.1 * speed(t); }, true_f);
+  ASSERT_FALSE(said.empty());
+  const auto told = std::ranges::find_if(said, [](const std::string& text) {
+    return text.starts_with("the displacement jumps from 9.953 to -9.932 mm behind sample 46, at 0.09 s, nearly its ");
+  });
+  ASSERT_NE(told, said.end()) << said[0];
+  EXPECT_NE(told->find(": a counter that overflows looks so, 24 times here; add its range, about 20 mm, at each"),
+            std::string::npos)
+      << *told;
+  for (const std::string& text : said) EXPECT_FALSE(text.starts_with("the displacement leaps")) << text;
+}
+
+TEST(MotionFaults, ACounterOverflowsAtAnyRateAndResolution) {
+  for (const int rate : {100, 500, 5000}) {
+    for (const double reach : {0.0105, 0.012, 0.035}) {
+      for (const double count : {1e-9, 2e-5}) {
+        std::vector<double> time;
+        std::vector<double> values;
+        for (int n = 0; n < 4 * rate; ++n) {
+          time.push_back(static_cast<double>(n) / rate);
+          values.push_back(count *
+                           std::round(on_counter(reach * std::sin(0.5 * omega * time.back()), -0.01, 0.02) / count));
+        }
+        const auto wrap = wrap_of(time, values);
+        ASSERT_TRUE(wrap.has_value()) << rate << " " << reach << " " << count;
+        EXPECT_NEAR(wrap->range, 0.02, 5e-4) << rate << " " << reach << " " << count;
+      }
+    }
+  }
+  // Once, slowly, as an encoder counts.
+  std::vector<double> time;
+  std::vector<double> values;
+  for (int n = 0; n < 3000; ++n) {
+    time.push_back(0.001 * n);
+    values.push_back(1e-4 * std::round(on_counter(0.049 + 0.001 * time.back(), -0.05, 0.1) / 1e-4));
+  }
+  const auto wrap = wrap_of(time, values);
+  ASSERT_TRUE(wrap.has_value());
+  EXPECT_EQ(wrap->count, 1U);
+  EXPECT_NEAR(wrap->range, 0.1, 2e-4);
+}
+
+TEST(MotionFaults, JumpsThatAreNoOverflow) {
+  const Stream noise(5);
+  std::vector<double> time, square, ringing, stuck, lost, spikes;
+  for (int n = 0; n < 4000; ++n) {
+    const double t = 0.001 * n;
+    const double hiss = 1e-5 * noise.normal(static_cast<std::uint64_t>(n));
+    time.push_back(t);
+    square.push_back((n / 500 % 2 == 0 ? 0.01 : -0.01) + hiss);
+    // It goes beyond and comes back after each step.
+    ringing.push_back((n / 500 % 2 == 0 ? 1.0 : -1.0) * (0.01 + 0.001 * std::exp(-0.01 * (n % 500))));
+    stuck.push_back(at(n < 900 || n >= 1000 ? t : 0.9));
+    lost.push_back(at(n < 1500 ? t : t + 0.25));
+    spikes.push_back(at(t) + (n % 1000 == 300 ? 0.03 : 0.0));
+  }
+  for (const auto* values : {&square, &ringing, &stuck, &lost, &spikes}) {
+    EXPECT_FALSE(wrap_of(time, *values).has_value());
+  }
+  EXPECT_FALSE(wrap_of({}, {}).has_value());
+  EXPECT_FALSE(wrap_of(time, std::vector<double>(time.size(), 0.0)).has_value());
 }
 
 TEST(MotionFaults, MomentsOfZeros) {

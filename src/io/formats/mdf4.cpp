@@ -101,12 +101,16 @@ class Mdf4Reader {
       check_identification();
       const Block header = block(identification, "HD");
       start_ = start_of(header);
+      if (start_) utc_ = (number_at<std::uint8_t>(header.data, 12) & (is_local | offsets_are_valid)) == 0;
       read_groups(header.link(0));
     } catch (const BeyondTheEnd&) {
       fail("names bytes that are not there, the file is cut off or damaged, expected a complete MDF file");
     }
     return measured();
   }
+
+  // Whether the start is in UTC.
+  [[nodiscard]] bool tells_utc() const { return utc_; }
 
  private:
   [[noreturn]] void fail(const std::string& message) const { throw InputError(file_, 0, message); }
@@ -192,13 +196,14 @@ class Mdf4Reader {
     return std::string(trimmed(result));
   }
 
+  static constexpr unsigned is_local = 1;
+  static constexpr unsigned offsets_are_valid = 2;
+
   // The moment from which the time masters count. It is told in UTC or local time. Local time is taken where it is
   // known, as the clock on the wall that a start in a text names; else UTC.
   [[nodiscard]] static std::optional<double> start_of(const Block& header) {
     constexpr std::size_t size = 13;  // bytes that tell it
     constexpr std::uint64_t nanoseconds = 1'000'000'000;
-    constexpr unsigned is_local = 1;
-    constexpr unsigned offsets_are_valid = 2;
     if (header.data.size() < size) return std::nullopt;
     const auto moment = number_at<std::uint64_t>(header.data, 0);
     if (moment == 0) return std::nullopt;
@@ -426,6 +431,7 @@ class Mdf4Reader {
   }
 
   void read_conversion(const Block& cc, Channel& channel) const {
+    // ASAM MDF: the unit of the conversion is that of channels without one.
     if (channel.unit.empty()) channel.unit = text_at(cc.link(1));
     const auto kind = number_at<std::uint8_t>(cc.data, 0);
     const auto count = number_at<std::uint16_t>(cc.data, 6);
@@ -526,6 +532,7 @@ class Mdf4Reader {
   std::set<std::uint64_t> seen_;  // places of blocks
   std::uint64_t unpacked_ = 0;    // bytes
   std::optional<double> start_;   // of the measurement, s since 1970
+  bool utc_ = false;              // it is in UTC, else in local time
   std::vector<std::unique_ptr<Records>> records_;
   std::vector<Channel> channels_;
 };
@@ -536,7 +543,9 @@ bool begins(std::string_view head) { return head.starts_with("MDF     ") || head
 
 Recording parse(std::string_view bytes, const std::string& file, const ReadOptions& options) {
   Mdf4Reader reader(bytes, file);
-  return recording_of(reader.run(), file, options);
+  Recording recording = recording_of(reader.run(), file, options);
+  if (recording.started && options.start_zone) options.start_zone(reader.tells_utc());
+  return recording;
 }
 
 }  // namespace

@@ -48,7 +48,7 @@ class Rpc3Reader {
     }
     const std::string date = without_quotes(text_or_none("DATE"));
     auto began = clock_time_with_month(date);
-    if (!began) began = clock_time(date);
+    if (!began && (began = clock_time(date)) && options_.start_zone) options_.start_zone(has_zone(date));
     std::vector<MeasuredChannel> channels;
     for (std::uint64_t c = 0; c < channels_; ++c) {
       const std::string number_of_it = std::to_string(c + 1);

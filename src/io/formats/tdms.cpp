@@ -209,9 +209,12 @@ class TdmsReader {
     result.group = names[0];
     result.name = names[1];
     result.unit = text_property(object, "unit_string");
-    if (result.unit.empty()) result.unit = text_property(object, "NI_UnitDescription");
+    (result.unit.empty() ? result.unit : result.other_unit) = text_property(object, "NI_UnitDescription");
     // Times of day are counted from the first.
-    if (object.type == type_time) result.unit = "s";
+    if (object.type == type_time) {
+      result.unit = "s";
+      result.other_unit.clear();
+    }
     if (object.type == type_time && object.first) result.epoch = since_1970(*object.first);
     result.count = static_cast<std::size_t>(object.total);
     const double offset = number_property(object, "wf_start_offset").value_or(0.0);
@@ -548,7 +551,9 @@ Recording parse(std::string_view bytes, const std::string& file, const ReadOptio
     channel->values = [&reader, k] { return reader.numbers_of(k); };
     channels.push_back(std::move(*channel));
   }
-  return recording_of(std::move(channels), file, options);
+  Recording recording = recording_of(std::move(channels), file, options);
+  if (recording.started && options.start_zone) options.start_zone(true);
+  return recording;
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <zip.h>
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <cstring>
@@ -150,7 +151,8 @@ struct Cell {
   enum class Kind : std::uint8_t { number, text, truth, error };
   std::uint32_t column = 0;
   Kind kind = Kind::number;
-  bool date = false;  // a number of days, by its format
+  bool date = false;        // a number of days, by its format
+  std::uint16_t style = 0;  // of the workbook
   std::uint32_t length = 0;
   std::size_t at = 0;  // in Sheet::letters
 };
@@ -271,23 +273,76 @@ bool is_built_in_date(std::uint32_t format) {
          (format >= 50 && format <= 58);
 }
 
-// Of every style of cells, whether it shows a date.
-std::vector<bool> date_styles(Archive& archive, const std::string& path) {
+// What a format shows beside a number: a unit as in 0.0" kN", and whether it shows a part of the number, as a comma
+// behind the digits and a percent sign do.
+struct Shown {
+  bool date = false;
+  std::string unit;
+  bool scaled = false;
+};
+
+// Of a format of positive numbers: what stands behind its digits.
+Shown shown_by(std::string_view code) {
+  Shown shown{shows_a_date(code), {}, false};
+  if (shown.date) return shown;
+  bool behind = false;
+  for (std::size_t k = 0; k < code.size() && code[k] != ';'; ++k) {
+    const char c = code[k];
+    std::string_view text;
+    if (c == '"' || c == '[') {
+      const std::size_t end = std::min(code.find(c == '"' ? '"' : ']', k + 1), code.size());
+      text = code.substr(k + 1, end - k - 1);
+      // [$kN-409] is a text and the number of a language; other brackets are colours and conditions.
+      if (c == '[') text = text.starts_with('$') ? text.substr(1, text.rfind('-') - 1) : std::string_view{};
+      k = end;
+    } else if (c == '\\' && k + 1 < code.size()) {
+      text = code.substr(++k, 1);
+    } else if (c == '_' || c == '*') {
+      ++k;  // a blank as wide as the next character, or that character as often as it fits
+    } else if (c == '0' || c == '#' || c == '?') {
+      behind = true;
+      shown.scaled = false;  // commas so far stand between thousands
+      shown.unit.clear();
+    } else if (lower_case(code.substr(k, 7)) == "general") {
+      behind = true;
+      k += 6;
+    } else if (c == ',' || c == '%') {
+      shown.scaled = behind;
+    } else if ((c == 'E' || c == 'e') && (code.substr(k + 1).starts_with('+') || code.substr(k + 1).starts_with('-'))) {
+      ++k;
+    } else if (c != '.') {
+      text = code.substr(k, 1);
+    }
+    if (behind) shown.unit += text;
+  }
+  shown.unit = without_brackets(without_blanks(shown.unit));
+  // Parentheses, strokes of fractions and the like are none; a degree sign is no ASCII.
+  const auto is_letter = [](char c) {
+    const auto byte = static_cast<unsigned char>(c);
+    return std::isalpha(byte) != 0 || byte >= 0x80;
+  };
+  constexpr std::size_t longest_unit = 32;
+  if (shown.unit.size() > longest_unit || std::ranges::none_of(shown.unit, is_letter)) shown.unit.clear();
+  return shown;
+}
+
+// Of every style of cells, what its format shows.
+std::vector<Shown> styles_of(Archive& archive, const std::string& path) {
   constexpr std::size_t most_styles = 65'536;
-  std::vector<std::pair<std::uint32_t, bool>> formats;  // those with a code
-  std::vector<bool> styles;
+  std::vector<std::pair<std::uint32_t, Shown>> formats;  // those with a code
+  std::vector<Shown> styles;
   bool of_cells = false;
   XmlEvents events;
   events.begin = [&](std::string_view name, const XmlAttributes& attributes) {
     of_cells = of_cells || name == "cellXfs";
     const std::optional<std::uint32_t> format = whole(attribute(attributes, "numFmtId"));
     if (name == "numFmt" && format && formats.size() < most_styles) {
-      formats.emplace_back(*format, shows_a_date(attribute(attributes, "formatCode")));
+      formats.emplace_back(*format, shown_by(attribute(attributes, "formatCode")));
     }
     if (name != "xf" || !of_cells) return;
     if (styles.size() == most_styles) throw Damage("it has more than 65536 styles");
-    const auto coded = std::ranges::find(formats, format.value_or(0), &std::pair<std::uint32_t, bool>::first);
-    styles.push_back(coded != formats.end() ? coded->second : format && is_built_in_date(*format));
+    const auto coded = std::ranges::find(formats, format.value_or(0), &std::pair<std::uint32_t, Shown>::first);
+    styles.push_back(coded != formats.end() ? coded->second : Shown{format && is_built_in_date(*format), {}, false});
   };
   events.end = [&](std::string_view name) { of_cells = of_cells && name != "cellXfs"; };
   archive.read(path, std::move(events));
@@ -296,8 +351,8 @@ std::vector<bool> date_styles(Archive& archive, const std::string& path) {
 
 class SheetParser {
  public:
-  SheetParser(Sheet& sheet, const std::vector<std::string>& texts, const std::vector<bool>& dates)
-      : sheet_(sheet), texts_(texts), dates_(dates) {}
+  SheetParser(Sheet& sheet, const std::vector<std::string>& texts, const std::vector<Shown>& styles)
+      : sheet_(sheet), texts_(texts), styles_(styles) {}
 
   [[nodiscard]] XmlEvents events() {
     XmlEvents events;
@@ -326,7 +381,7 @@ class SheetParser {
       next_column_ = *column + 1;
       type_ = attribute(attributes, "t");
       const std::optional<std::uint32_t> style = whole(attribute(attributes, "s"));
-      date_ = style && *style < dates_.size() && dates_[*style];
+      style_ = style && *style < styles_.size() ? static_cast<std::uint16_t>(*style) : 0;
       value_.clear();
       has_formula_ = false;
       in_cell_ = true;
@@ -368,21 +423,22 @@ class SheetParser {
     if (has_formula_ && value_.empty() && type_ != "str") sheet_.unvalued.push_back(sheet_.rows.back().number);
     if (text.empty()) return;
     if (sheet_.letters.size() + text.size() > largest_part) throw Damage("more text than 2 GiB");
-    sheet_.cells.push_back({column_, kind, date_ && kind == Cell::Kind::number, static_cast<std::uint32_t>(text.size()),
-                            sheet_.letters.size()});
+    const bool date = style_ < styles_.size() && styles_[style_].date && kind == Cell::Kind::number;
+    sheet_.cells.push_back(
+        {column_, kind, date, style_, static_cast<std::uint32_t>(text.size()), sheet_.letters.size()});
     sheet_.letters += text;
     ++sheet_.rows.back().count;
   }
 
   Sheet& sheet_;
   const std::vector<std::string>& texts_;
-  const std::vector<bool>& dates_;
+  const std::vector<Shown>& styles_;
   std::uint32_t next_row_ = 1;
   std::uint32_t next_column_ = 0;
   std::uint32_t column_ = 0;
   std::string type_;
   std::string value_;
-  bool date_ = false;
+  std::uint16_t style_ = 0;
   bool has_formula_ = false;
   bool in_cell_ = false;
   bool in_value_ = false;
@@ -618,11 +674,32 @@ class WorkbookReader {
       fail(std::to_string(with_tables.size()) + " sheets hold recordings (" + list(with_tables) +
            "), expected one, or " + Option::group + " NAME to choose a sheet");
     }
+    if (options_.remark && names_.size() > 1) {
+      options_.remark({file_, Remark::Kind::dialect, "sheet",
+                       "sheet " + with_state(chosen->name) + " is read, of " + std::to_string(names_.size()) +
+                           " sheets: the others (" + others_than(chosen->name) + ") hold no recording"});
+    }
     return read_table(*chosen, *table);
   }
 
  private:
   [[noreturn]] void fail(const Message& message) const { throw OptionError(file_, 0, message); }
+
+  // 'Data (2)', which is hidden
+  [[nodiscard]] std::string with_state(const std::string& name) const {
+    const auto k = static_cast<std::size_t>(std::ranges::find(names_, name) - names_.begin());
+    return in_quotes(name) + (hidden_[k] ? ", which is hidden," : "");
+  }
+
+  [[nodiscard]] std::string others_than(const std::string& name) const {
+    std::vector<std::string> shown;
+    std::vector<std::string> hidden;
+    for (std::size_t k = 0; k < names_.size(); ++k) {
+      if (names_[k] != name) (hidden_[k] ? hidden : shown).push_back(names_[k]);
+    }
+    return list(shown) + (shown.empty() || hidden.empty() ? "" : ", ") +
+           (hidden.empty() ? "" : "hidden: " + list(hidden));
+  }
 
   [[nodiscard]] std::uint32_t skip() const { return static_cast<std::uint32_t>(std::max(options_.skip, 0)); }
 
@@ -642,7 +719,7 @@ class WorkbookReader {
     const std::vector<Relation> relations = relations_of(archive_, workbook);
     for (const Relation& relation : relations) {
       if (relation.type.ends_with("/sharedStrings")) texts_ = shared_texts(archive_, relation.target);
-      if (relation.type.ends_with("/styles")) dates_ = date_styles(archive_, relation.target);
+      if (relation.type.ends_with("/styles")) styles_ = styles_of(archive_, relation.target);
     }
     XmlEvents events;
     events.begin = [&](std::string_view element, const XmlAttributes& attributes) {
@@ -659,6 +736,8 @@ class WorkbookReader {
         if (names_.size() == most_sheets) throw Damage("it has more than 1000 sheets");
         if (std::ranges::find(paths_, relation.target) != paths_.end()) throw Damage("it names a sheet twice");
         names_.emplace_back(attribute(attributes, "name"));
+        const std::string_view state = attribute(attributes, "state");
+        hidden_.push_back(state == "hidden" || state == "veryHidden");
         paths_.push_back(relation.target);
         return;
       }
@@ -670,7 +749,7 @@ class WorkbookReader {
   [[nodiscard]] Sheet read_sheet(std::size_t k) {
     Sheet sheet;
     sheet.name = names_[k];
-    SheetParser parser(sheet, texts_, dates_);
+    SheetParser parser(sheet, texts_, styles_);
     archive_.read(paths_[k], parser.events());
     return sheet;
   }
@@ -692,14 +771,19 @@ class WorkbookReader {
       const std::span<const Cell> cells = sheet.cells_of(sheet.rows[r]);
       for (std::size_t k = 0; k < cells.size(); ++k) {
         std::string_view word = sheet.text(cells[k]);
-        if (const auto start = clock_time_in(word)) return start;
+        if (const auto start = clock_time_in(word)) {
+          if (options_.start_zone) options_.start_zone(has_zone(word));
+          return start;
+        }
         if (k + 1 == cells.size()) break;
         if (word.ends_with(':')) word.remove_suffix(1);
         if (cells[k].kind != Cell::Kind::text || !announces_start(word)) continue;
         const std::string_view text = sheet.text(cells[k + 1]);
         const std::optional<double> days = cells[k + 1].date ? number_of(text) : std::nullopt;
         const bool has_time = days && *days != std::floor(*days);
-        if (const auto start = has_time ? clock_of(*days) : clock_time(text)) return start;
+        const auto start = has_time ? clock_of(*days) : clock_time(text);
+        if (start && !has_time && options_.start_zone) options_.start_zone(has_zone(text));
+        if (start) return start;
       }
     }
     return std::nullopt;
@@ -709,10 +793,7 @@ class WorkbookReader {
   std::optional<double> read_dates(Sheet& sheet, const Table& table) const {
     std::optional<double> start;
     std::vector<Column> columns;
-    for (const std::uint32_t at : table.columns) {
-      const Cell* name = cell_of(sheet, sheet.rows[table.header], at);
-      columns.push_back(split_column(name == nullptr ? std::string_view{} : sheet.text(*name)));
-    }
+    for (const std::uint32_t at : table.columns) columns.push_back(column_at(sheet, table, at));
     const std::map<std::uint32_t, std::uint32_t> dates = first_dates(sheet, table);
     for (std::size_t k = 0; k < columns.size(); ++k) {
       const auto date = dates.find(table.columns[k]);
@@ -799,6 +880,70 @@ class WorkbookReader {
                      ", expected numbers, or dates without a unit");
   }
 
+  // Of the columns of the table, down to its last row, the unit that the format of their numbers shows. It stands for
+  // one in the header, and contradicts another one there. Numbers of a channel in two units are refused.
+  [[nodiscard]] std::vector<std::string> units_of_formats(const Sheet& sheet, const Table& table,
+                                                          std::uint32_t last) const {
+    struct Found {
+      const Shown* shown = nullptr;
+      std::uint32_t row = 0;
+    };
+    std::vector<Found> found(table.columns.size());
+    for (std::size_t r = table.header + 1; r < sheet.rows.size() && sheet.rows[r].number <= last; ++r) {
+      for (const Cell& cell : sheet.cells_of(sheet.rows[r])) {
+        const bool has_unit = cell.style < styles_.size() && !styles_[cell.style].unit.empty();
+        const auto at = std::ranges::lower_bound(table.columns, cell.column);
+        if (cell.kind != Cell::Kind::number || !has_unit || at == table.columns.end() || *at != cell.column) continue;
+        Found& first = found[static_cast<std::size_t>(at - table.columns.begin())];
+        const Shown& shown = styles_[cell.style];
+        if (first.shown == nullptr) first = {&shown, sheet.rows[r].number};
+        const bool same = first.shown == &shown ||
+                          (!contradict(first.shown->unit, shown.unit) && first.shown->scaled == shown.scaled);
+        if (same) continue;
+        const Column column = column_at(sheet, table, cell.column);
+        if (!is_channel(column)) continue;
+        fail_at(sheet.rows[r].number, "a number of column " + in_quotes(column.text) + " is shown in " +
+                                          in_quotes(shown.unit) + ", and that of row " + std::to_string(first.row) +
+                                          " in " + in_quotes(first.shown->unit) + ", expected one format");
+      }
+    }
+    std::vector<std::string> units(found.size());
+    for (std::size_t k = 0; k < found.size(); ++k) {
+      if (found[k].shown == nullptr) continue;
+      const std::string& unit = found[k].shown->unit;
+      const bool known = is_any_unit(unit) || find_pressure(unit).has_value();
+      if (known && !found[k].shown->scaled) units[k] = unit;
+      const Column column = column_at(sheet, table, table.columns[k]);
+      const Cell* below = cell_of(sheet, sheet.rows[table.header + 1], table.columns[k]);
+      const bool has_unit = !column.unit.empty() || (below != nullptr && below->kind == Cell::Kind::text);
+      if (!options_.remark || has_unit || has_mapped_unit(column) || !is_channel(column)) continue;
+      options_.remark(
+          {file_, Remark::Kind::dialect, "format of " + column.text,
+           "the numbers of column " + in_quotes(column.text) + ", whose header has no unit, are shown in " +
+               (!units[k].empty() ? in_quotes(unit) + ": it is taken"
+                : known ? "parts or multiples of " + in_quotes(unit) + ": SI is taken, expected a unit in the header"
+                        : in_quotes(unit) + ", which is no unit that is known: SI is taken")});
+    }
+    return units;
+  }
+
+  [[nodiscard]] bool is_channel(const Column& column) const {
+    return channel_of(column).has_value() || quantity_of_last_word(column.name).has_value();
+  }
+
+  // Whether --column gives it.
+  [[nodiscard]] bool has_mapped_unit(const Column& column) const {
+    return std::ranges::any_of(options_.columns, [&](const auto& entry) {
+      const Column mapped = split_column(entry.second);
+      return !mapped.unit.empty() && lower_case(mapped.name) == lower_case(column.name);
+    });
+  }
+
+  static Column column_at(const Sheet& sheet, const Table& table, std::uint32_t column) {
+    const Cell* name = cell_of(sheet, sheet.rows[table.header], column);
+    return split_column(name == nullptr ? std::string_view{} : sheet.text(*name));
+  }
+
   [[nodiscard]] Recording read_table(Sheet& sheet, const Table& table) const {
     const std::optional<double> first_date = read_dates(sheet, table);
     const std::optional<double> start = first_date ? first_date : start_above(sheet, table);
@@ -821,7 +966,8 @@ class WorkbookReader {
     }
     ReadOptions of_table = options_;
     of_table.skip = 0;  // the text begins with the rows above the header, which are empty
-    Recording recording = parse_csv(table_text.text, file_, of_table);
+    const auto last = static_cast<std::uint32_t>(std::ranges::count(table_text.text, '\n'));
+    Recording recording = parse_csv(table_text.text, file_, of_table, units_of_formats(sheet, table, last));
     if (start) recording.started = start;
     return recording;
   }
@@ -830,8 +976,9 @@ class WorkbookReader {
   const std::string& file_;
   const ReadOptions& options_;
   std::vector<std::string> texts_;
-  std::vector<bool> dates_;         // of the styles of cells, whether they show a date
+  std::vector<Shown> styles_;       // of cells
   std::vector<std::string> names_;  // of the sheets
+  std::vector<bool> hidden_;        // likewise
   std::vector<std::string> paths_;
   double days_at_1970_ = 25'569.0;  // the number that stands for the first of January 1970
 };
