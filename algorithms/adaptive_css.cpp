@@ -32,8 +32,9 @@ namespace {
 using support::Draws;
 using support::Point;
 
+constexpr support::PopulationRule population{.usual = 20};
 constexpr Setting settings[] = {
-    {"population", 20.0, 2.0, 100000.0, "charged particles"},
+    {"population", 0.0, 0.0, 100000.0, "charged particles; 0: 20, at most budget / 10"},
     {"generations", 20.0, 1.0, 1e6, "moves in one stage"},
     {"shrink", 0.7, 0.01, 0.99, "width of the box relative to the one before"},
     {"smallest", 1e-6, 1e-14, 0.5, "width at which the whole box is searched again"},
@@ -46,7 +47,7 @@ class AdaptiveChargedSystem final : public support::SamplingSolver {
  public:
   explicit AdaptiveChargedSystem(const Problem& problem)
       : problem_(problem),
-        count_(support::whole_setting(problem, solver_adaptive_css, "population")),
+        count_(support::population_size(problem, solver_adaptive_css, population)),
         stage_length_(support::whole_setting(problem, solver_adaptive_css, "generations")),
         shrink_(setting(problem, solver_adaptive_css, "shrink")),
         smallest_(setting(problem, solver_adaptive_css, "smallest")),

@@ -28,8 +28,9 @@ namespace {
 using support::Draws;
 using support::Point;
 
+constexpr support::PopulationRule population{.usual = 20};
 constexpr Setting settings[] = {
-    {"population", 20.0, 2.0, 100000.0, "crows"},
+    {"population", 0.0, 0.0, 100000.0, "crows; 0: 20, at most budget / 10"},
     {"awareness", 0.1, 0.0, 1.0, "AP: probability that the followed crow notices and leads to a random place"},
     {"flight", 2.0, 0.01, 10.0, "fl: flight length"},
     {"bounds", 0.0, 0.0, 1.0, "0 a crow that would leave the box stays, 1 its move is cut at the bound"},
@@ -39,7 +40,7 @@ class CrowSearch final : public support::SamplingSolver {
  public:
   explicit CrowSearch(const Problem& problem)
       : problem_(problem),
-        count_(support::whole_setting(problem, solver_crow_search, "population")),
+        count_(support::population_size(problem, solver_crow_search, population)),
         awareness_(setting(problem, solver_crow_search, "awareness")),
         flight_(setting(problem, solver_crow_search, "flight")),
         clip_(support::whole_setting(problem, solver_crow_search, "bounds") == 1),

@@ -44,8 +44,9 @@ namespace {
 
 using support::Point;
 
+constexpr support::PopulationRule population{.usual = 10};
 constexpr Setting settings[] = {
-    {"population", 20.0, 2.0, 100000.0, "charged particles"},
+    {"population", 0.0, 0.0, 100000.0, "charged particles; 0: 10, at most budget / 10"},
     {"radius", 0.1, 1e-9, 1e6, "radius a of the charged sphere, on the dimensionless separation"},
     {"attract", 1.0, 0.0, 1.0, "share of attracting forces, the others repel"},
     {"worse_attract", 1.0, 0.0, 1.0, "1 some of the worse attract the better, 0 none do"},
@@ -58,7 +59,7 @@ class ChargedSystemSearch final : public support::SamplingSolver {
  public:
   explicit ChargedSystemSearch(const Problem& problem)
       : problem_(problem),
-        count_(support::whole_setting(problem, solver_css, "population")),
+        count_(support::population_size(problem, solver_css, population)),
         moves_(problem.stream.child("moves")),
         lower_(problem.dimension, 0.0),
         upper_(problem.dimension, 1.0) {

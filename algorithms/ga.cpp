@@ -44,10 +44,9 @@ class GeneticAlgorithm final : public support::SamplingSolver {
  public:
   explicit GeneticAlgorithm(const Problem& problem)
       : problem_(problem),
-        count_(support::whole_setting(problem, solver_ga, "population")),
+        count_(support::population_size(problem, solver_ga, {.usual = problem.dimension <= 5 ? 50U : 200U})),
         selection_(problem.stream.child("selection")),
         children_(problem.stream.child("children")) {
-    if (count_ == 0) count_ = std::min<std::size_t>(problem.dimension <= 5 ? 50 : 200, problem.budget / 10);
     count_ = std::max<std::size_t>(count_, 4);
     const double n = static_cast<double>(count_);
     elite_ = static_cast<std::size_t>(std::ceil(setting(problem, solver_ga, "elite_share") * n));

@@ -32,8 +32,9 @@ namespace {
 
 using support::Point;
 
+constexpr support::PopulationRule population{.usual = 20};
 constexpr Setting settings[] = {
-    {"population", 30.0, 2.0, 10000.0, "grasshoppers"},
+    {"population", 0.0, 0.0, 10000.0, "grasshoppers; 0: 20, at most budget / 10"},
     {"cmax", 1.0, 1e-6, 10.0, "first value of the contraction c"},
     {"cmin", 4e-5, 1e-12, 1.0, "last value of the contraction c"},
     {"f", 0.5, 0.0, 1.0, "intensity of attraction"},
@@ -44,7 +45,7 @@ class Grasshoppers final : public support::SamplingSolver {
  public:
   explicit Grasshoppers(const Problem& problem)
       : problem_(problem),
-        count_(support::whole_setting(problem, solver_grasshopper, "population")),
+        count_(support::population_size(problem, solver_grasshopper, population)),
         largest_(setting(problem, solver_grasshopper, "cmax")),
         smallest_(setting(problem, solver_grasshopper, "cmin")),
         intensity_(setting(problem, solver_grasshopper, "f")),

@@ -36,6 +36,7 @@ namespace {
 using support::Draws;
 using support::Point;
 
+constexpr support::PopulationRule population{.usual = 40, .generations = 100, .least = 10};
 constexpr Setting settings[] = {
     {"population", 0.0, 0.0, 100000.0, "particles in the swarm; 0: budget / 100, at least 10, at most 40"},
     {"phi", 4.1, 4.0, 100.0, "sum of the two acceleration coefficients"},
@@ -49,7 +50,7 @@ class ParticleSwarm final : public support::SamplingSolver {
  public:
   explicit ParticleSwarm(const Problem& problem)
       : problem_(problem),
-        count_(swarm_size(problem)),
+        count_(support::population_size(problem, solver_pso, population)),
         topology_(support::whole_setting(problem, solver_pso, "topology")),
         reflect_(support::whole_setting(problem, solver_pso, "bounds") == 1),
         phi_(setting(problem, solver_pso, "phi")),
@@ -97,11 +98,6 @@ class ParticleSwarm final : public support::SamplingSolver {
   }
 
  private:
-  static std::size_t swarm_size(const Problem& problem) {
-    const std::size_t count = support::whole_setting(problem, solver_pso, "population");
-    return count > 0 ? count : std::clamp<std::size_t>(problem.budget / 100, 10, 40);
-  }
-
   void move() {
     const std::size_t swarm_best = support::argmin(best_cost_);
     for (std::size_t i = 0; i < count_; ++i) {

@@ -34,8 +34,9 @@ using support::Point;
 
 constexpr double phi = 4.1;
 
+constexpr support::PopulationRule population{.usual = 24};
 constexpr Setting settings[] = {
-    {"population", 24.0, 2.0, 100000.0, "particles in the swarm"},
+    {"population", 0.0, 0.0, 100000.0, "particles in the swarm; 0: 24, at most budget / 10"},
     {"period", 5.0, 1.0, 1e6, "generations between two descents"},
     {"steps", 12.0, 1.0, 1e6, "points of a descent; an unfinished one goes on later if it is still the best"},
 };
@@ -44,7 +45,7 @@ class MemeticSwarm final : public Solver {
  public:
   explicit MemeticSwarm(const Problem& problem)
       : problem_(problem),
-        count_(support::whole_setting(problem, solver_pso_lm, "population")),
+        count_(support::population_size(problem, solver_pso_lm, population)),
         period_(support::whole_setting(problem, solver_pso_lm, "period")),
         steps_(support::whole_setting(problem, solver_pso_lm, "steps")),
         moves_(problem.stream.child("moves")) {

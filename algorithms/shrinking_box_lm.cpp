@@ -29,7 +29,8 @@ namespace {
 using support::Point;
 
 constexpr Setting settings[] = {
-    {"starts", 4.0, 1.0, 1024.0, "descents a stage, the first from the best point"},
+    {"starts", 0.0, 0.0, 1024.0,
+     "descents a stage, the first from the best point; 0: 4, at most what the budget has room for"},
     {"steps", 25.0, 1.0, 1e6, "points of a descent at most"},
     {"shrink", 0.5, 0.01, 0.99, "side of a stage's box over that of the stage before"},
     {"smallest", 0.001, 1e-9, 0.5, "side of the box, as a share of the whole, at which the solver ends"},
@@ -39,8 +40,8 @@ class ShrinkingBox final : public Solver {
  public:
   explicit ShrinkingBox(const Problem& problem)
       : problem_(problem),
-        starts_(support::whole_setting(problem, solver_shrinking_box_lm, "starts")),
         steps_(support::whole_setting(problem, solver_shrinking_box_lm, "steps")),
+        starts_(starts_of(problem, steps_)),
         shrink_(setting(problem, solver_shrinking_box_lm, "shrink")),
         smallest_(setting(problem, solver_shrinking_box_lm, "smallest")),
         lower_(problem.dimension, 0.0),
@@ -94,6 +95,16 @@ class ShrinkingBox final : public Solver {
   [[nodiscard]] std::string stopped_because() const override { return stopped_; }
 
  private:
+  // No more at once than the budget holds to their end; a point with its derivatives counts as 1 + dimension
+  // evaluations.
+  static std::size_t starts_of(const Problem& problem, std::size_t steps) {
+    constexpr std::size_t usual = 4;
+    const std::size_t set = support::whole_setting(problem, solver_shrinking_box_lm, "starts");
+    if (set > 0 || problem.budget == 0) return set > 0 ? set : usual;
+    const std::size_t a_descent = steps * (1 + problem.dimension);
+    return std::clamp<std::size_t>(problem.budget / a_descent, 1, usual);
+  }
+
   void next_stage() {
     ++stage_;
     if (best_cost_ < diverged_cost) {
@@ -144,8 +155,8 @@ class ShrinkingBox final : public Solver {
   }
 
   Problem problem_;
-  std::size_t starts_;
   std::size_t steps_;
+  std::size_t starts_;
   double shrink_;
   double smallest_;
   Point lower_;

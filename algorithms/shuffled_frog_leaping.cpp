@@ -38,7 +38,8 @@ using support::Draws;
 using support::Point;
 
 constexpr Setting settings[] = {
-    {"memeplexes", 5.0, 1.0, 1000.0, "memeplexes (m)"},
+    {"memeplexes", 0.0, 0.0, 1000.0,
+     "memeplexes (m); 0: 5, or as many as a tenth of the budget has frogs for, at least 2"},
     {"frogs", 8.0, 2.0, 1000.0, "frogs in a memeplex (n)"},
     {"subset", 5.0, 2.0, 1000.0, "frogs drawn for one leap (q), at most n"},
     {"steps", 8.0, 1.0, 10000.0, "leaps in a memeplex between two shuffles"},
@@ -62,8 +63,8 @@ class FrogLeaping final : public support::SamplingSolver {
  public:
   explicit FrogLeaping(const Problem& problem)
       : problem_(problem),
-        memeplexes_(support::whole_setting(problem, solver_shuffled_frog_leaping, "memeplexes")),
         frogs_(support::whole_setting(problem, solver_shuffled_frog_leaping, "frogs")),
+        memeplexes_(memeplexes(problem, frogs_)),
         subset_(std::min(frogs_, support::whole_setting(problem, solver_shuffled_frog_leaping, "subset"))),
         steps_(support::whole_setting(problem, solver_shuffled_frog_leaping, "steps")),
         stretch_(setting(problem, solver_shuffled_frog_leaping, "stretch")),
@@ -186,9 +187,14 @@ class FrogLeaping final : public support::SamplingSolver {
     group.cost.insert(place, cost);
   }
 
+  static std::size_t memeplexes(const Problem& problem, std::size_t frogs) {
+    const std::size_t set = support::whole_setting(problem, solver_shuffled_frog_leaping, "memeplexes");
+    return set > 0 ? set : support::population_within(problem.budget, {.usual = 5 * frogs, .least = 2 * frogs}) / frogs;
+  }
+
   Problem problem_;
-  std::size_t memeplexes_;
   std::size_t frogs_;
+  std::size_t memeplexes_;
   std::size_t subset_;
   std::uint64_t steps_;
   double stretch_;

@@ -36,8 +36,9 @@ using support::Point;
 constexpr double inertia = 0.5 / std::numbers::ln2;
 constexpr double acceleration = 0.5 + std::numbers::ln2;
 
+constexpr support::PopulationRule population{.usual = 40, .generations = 100, .least = 10};
 constexpr Setting settings[] = {
-    {"population", 40.0, 2.0, 100000.0, "particles in the swarm"},
+    {"population", 0.0, 0.0, 100000.0, "particles in the swarm; 0: budget / 100, at least 10, at most 40"},
     {"informants", 3.0, 1.0, 1000.0, "particles informed by each particle (K), drawn with replacement"},
     {"ball", 0.0, 0.0, 1.0, "0 radius uniform, 1 uniform in the volume of the ball"},
 };
@@ -46,7 +47,7 @@ class StandardSwarm final : public support::SamplingSolver {
  public:
   explicit StandardSwarm(const Problem& problem)
       : problem_(problem),
-        count_(support::whole_setting(problem, solver_spso_2011, "population")),
+        count_(support::population_size(problem, solver_spso_2011, population)),
         links_per_particle_(support::whole_setting(problem, solver_spso_2011, "informants")),
         volume_(support::whole_setting(problem, solver_spso_2011, "ball") == 1),
         moves_(problem.stream.child("moves")),
@@ -146,7 +147,7 @@ const SolverEntry solver_spso_2011 = {
     "Clerc, Standard particle swarm optimisation, HAL hal-00764996, 2012; Zambrano-Bigiarini, Clerc & Rojas, CEC "
     "2013,\n"
     "doi 10.1109/CEC.2013.6557848",
-    "Rotation-invariant move in a ball, adaptive random informants (K = 3), swarm of 40, v = -v/2 on a bound.\n"
+    "Rotation-invariant move in a ball, adaptive random informants (K = 3), v = -v/2 on a bound.\n"
     "Synchronous update of the bests.",
     false,
     settings,

@@ -58,4 +58,26 @@ inline std::size_t whole_setting(const Problem& problem, const SolverEntry& entr
   return static_cast<std::size_t>(value);
 }
 
+// A size of a population: the usual one, but so many generations at least, and no fewer individuals than `least`.
+struct PopulationRule {
+  std::size_t usual;
+  std::size_t generations = 10;
+  std::size_t least = 4;
+};
+
+// Where the budget is not known (0), the usual size.
+inline std::size_t population_within(std::size_t budget, const PopulationRule& rule) {
+  return budget == 0 ? rule.usual : std::max(rule.least, std::min(rule.usual, budget / rule.generations));
+}
+
+// The setting `population`, where 0 stands for what the rule says. Throws InputError for 1: no method here has one
+// individual.
+inline std::size_t population_size(const Problem& problem, const SolverEntry& entry, const PopulationRule& rule) {
+  const std::size_t set = whole_setting(problem, entry, "population");
+  if (set == 1) {
+    throw InputError("solver " + std::string(entry.id) + ": setting population = 1, expected 0 or at least 2");
+  }
+  return set == 0 ? population_within(problem.budget, rule) : set;
+}
+
 }  // namespace hysteron::support

@@ -1,9 +1,11 @@
-// What multistart-lm makes of a budget that holds few descents.
+// What solvers make of a budget that holds few descents or generations.
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstddef>
+#include <string_view>
 
+#include "core/error.hpp"
 #include "fit/driver.hpp"
 #include "solver_harness.hpp"
 
@@ -47,6 +49,50 @@ TEST(SmallBudget, HasNoMoreDescentsAtOnceThanItHoldsToTheirEnd) {
 TEST(SmallBudget, ScreensWhereItHoldsAllDescents) {
   EXPECT_FALSE(first_of((4 * held - 1) * price).screening);
   EXPECT_TRUE(first_of(4 * held * price).screening);
+}
+
+TEST(SmallBudget, ShrinkingBoxHasNoMoreDescentsAStageThanItHoldsToTheirEnd) {
+  constexpr std::size_t steps = 25;
+  const auto descents = [](std::size_t points) {
+    return find_solver("shrinking-box-lm")->make(problem_of(points * price))->ask().points.size() / dimension;
+  };
+  EXPECT_EQ(descents(5), 1U);
+  EXPECT_EQ(descents(2 * steps), 2U);
+  EXPECT_EQ(descents(400 * steps), 4U);
+}
+
+struct Population {
+  const char* id;
+  std::size_t at_100;
+  std::size_t at_1000;
+  std::size_t at_100000;
+};
+
+TEST(SmallBudget, APopulationHasTenGenerationsOrAsManyAsItsRuleSays) {
+  for (const Population& expected : {Population{"crow-search", 10, 20, 20},
+                                     {"grasshopper", 10, 20, 20},
+                                     {"css", 10, 10, 10},
+                                     {"adaptive-css", 10, 20, 20},
+                                     {"pso-lm", 10, 24, 24},
+                                     {"ga", 10, 50, 50},
+                                     {"pso", 10, 10, 40},
+                                     {"spso-2011", 10, 10, 40},
+                                     {"shuffled-frog-leaping", 16, 40, 40}}) {
+    const auto first = [&](std::size_t budget, double set) {
+      Problem problem = problem_of(budget);
+      const bool frogs = expected.id == std::string_view("shuffled-frog-leaping");
+      problem.settings = {{frogs ? "memeplexes" : "population", set}};
+      return find_solver(expected.id)->make(problem)->ask().points.size() / dimension;
+    };
+    EXPECT_EQ(first(100, 0.0), expected.at_100) << expected.id;
+    EXPECT_EQ(first(1000, 0.0), expected.at_1000) << expected.id;
+    EXPECT_EQ(first(100000, 0.0), expected.at_100000) << expected.id;
+    EXPECT_EQ(first(0, 0.0), expected.at_100000) << expected.id;
+    EXPECT_GT(first(100, 30.0), 20U) << expected.id;  // what is set holds
+  }
+  Problem problem = problem_of(100);
+  problem.settings = {{"population", 1.0}};
+  EXPECT_THROW(static_cast<void>(find_solver("crow-search")->make(problem)), InputError);
 }
 
 // A coordinate that the residual hardly depends on at the start asks for a step across the whole box.
