@@ -61,24 +61,31 @@ std::string truth_of(const json& campaign) {
   return text;
 }
 
-// Rows: what was there (single causes only); columns: what was said, each campaign once.
+// What a campaign was told: every name and every set, "end-stop + (set without it)"; without any the verdict.
+std::string said_of(const json& campaign) {
+  const json& truth = campaign.at("truth");
+  std::string said;
+  for (const json& stated : campaign.at("answer")) {
+    if (stated.at("grade") == "suggested") continue;
+    const json& set = stated.at("set");
+    const bool holds = !truth.empty() && std::ranges::find(set, truth.at(0)) != set.end();
+    const bool alone = set.size() == 1 && stated.at("name").get<bool>();
+    said += (said.empty() ? "" : " + ") + (alone   ? stated.at("id").get<std::string>()
+                                           : holds ? "(set with it)"
+                                                   : "(set without it)");
+  }
+  if (!said.empty()) return said;
+  return campaign.at("verdict").is_string() ? "(" + campaign.at("verdict").get<std::string>() + ")" : "(no diagnosis)";
+}
+
+// Rows: what was there (single causes only); columns: all that was said, each campaign once.
 json confusion(const json& campaigns) {
   std::map<std::string, std::map<std::string, int>> table;
   for (const json& c : campaigns) {
     if (c.at("truth").size() > 1) continue;
-    std::string said;
-    for (const json& named : c.at("named")) {
-      said += (said.empty() ? "" : " + ") + named.at("id").get<std::string>();
-    }
-    if (said.empty() && !c.at("candidates").empty()) {
-      said = c.at("outcome") == name_of(Outcome::in_set) ? "(set with it)" : "(set without it)";
-    }
-    if (said.empty()) {
-      said = c.at("verdict").is_string() ? "(" + c.at("verdict").get<std::string>() + ")" : "(no diagnosis)";
-    }
     std::string truth = truth_of(c);
     if (truth != "nothing" && !c.at("detectable").get<bool>()) truth += " (cannot be seen)";
-    ++table[truth][said];
+    ++table[truth][said_of(c)];
   }
   json result = json::array();
   for (const auto& [truth, row] : table) {

@@ -105,7 +105,12 @@ std::vector<Table> tables_of(const json& result) {
                               "Size: what the law cannot take up (NRMSE) over the noise (share of peak)",
                               "The same campaigns."));
 
-  Table confusion{"Confusion", "Single causes; what was said, most frequent first.", {"truth", "said"}, {}};
+  Table confusion{
+      "Confusion",
+      "Single causes; all that was said of each campaign, most frequent first: names and sets, with + between "
+      "them where there are several, or the verdict without any. Suggestions do not count.",
+      {"truth", "said"},
+      {}};
   for (const json& row : s.at("confusion")) {
     std::string said;
     for (const json& entry : row.at("said")) {

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "report/challenge.hpp"
 
 namespace hysteron::challenge {
@@ -223,6 +225,32 @@ TEST(Summary, CountsWhatWasScored) {
   EXPECT_NE(page.find("default-src 'none'"), std::string::npos);
   EXPECT_EQ(page.find("<script"), std::string::npos);
   EXPECT_EQ(page.find("://"), std::string::npos);
+}
+
+// A name beside a set, two sets: of either neither hides the other. A suggestion is no answer.
+TEST(Summary, TheConfusionTableHoldsAllThatWasSaidOfACampaign) {
+  json campaigns = json::array();
+  const auto add = [&](const json& effects, const json& suggestions = json::array()) {
+    campaigns.push_back(
+        score_campaign(answer("plain", {"inertia"}), diagnosis_2("missing-physics", effects, suggestions)));
+  };
+  const auto set = [](const std::string& id, const std::string& other) {
+    return graded(id, "supported", 0.9, {other});
+  };
+  const json name = graded("end-stop", "supported", 0.9);
+  add(json::array({name, set("inertia", "sensor-delay")}));
+  add(json::array({name, set("asymmetry", "pinching")}));
+  add(json::array({set("sensor-delay", "inertia"), set("asymmetry", "pinching")}));
+  add(json::array({graded("inertia", "supported", 0.9)}), json::array({graded("asymmetry", "suggested", 0.6)}));
+  const json rows = summarise(campaigns).at("confusion");
+  ASSERT_EQ(rows.size(), 1U);
+  std::set<std::string> said;
+  for (const json& entry : rows[0].at("said")) {
+    EXPECT_EQ(entry.at("count"), 1);
+    said.insert(entry.at("said").get<std::string>());
+  }
+  EXPECT_EQ(said, (std::set<std::string>{"end-stop + (set with it)", "end-stop + (set without it)",
+                                         "(set with it) + (set without it)", "inertia"}));
 }
 
 }  // namespace
