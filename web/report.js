@@ -764,9 +764,7 @@ const unitText = (unit) => printedUnit(unit).replace(/\^(-?\d+)/g, (_, power) =>
 const axisUnit = (unit) => (unit === "1" ? "" : unitText(unit));
 const withUnit = (p) => (p.unit === "1" ? p.name : `${p.name} [${unitText(p.unit)}]`);
 const withError = (c) => `${significant(c.value, 3)} ± ${significant(c.std_error, 1)}${c.unit === "1" ? "" : `\u00a0${unitText(c.unit)}`}`;
-// A curvature over levels of the drive is one number of all recordings.
-const ofAllTogether = (c) => c.id === "drive-bend";
-const sameSign = (c) => (ofAllTogether(c) ? `one value of all ${c.recordings}` : `${Math.round(c.consistency * c.recordings)} of ${c.recordings}`);
+const sameSign = (c) => (c.of_all ? `one value of all ${c.recordings}` : `${Math.round(c.consistency * c.recordings)} of ${c.recordings}`);
 const capital = (text) => text.charAt(0).toUpperCase() + text.slice(1);
 const zOf = (score) => (score && score.std_error > 0 ? score.mean / score.std_error : null);
 // The signature contrast shows an effect at two standard errors in its sense, beyond 95 % of the placebos.
@@ -831,7 +829,7 @@ function effectBlock(e, d) {
   if (c === null) {
     add("Signature contrast", "None can be taken from these recordings.");
   } else if (c) {
-    add("Signature contrast", `${capital(c.what)}: ${withError(c)}; z ${fmt(c.z, 2)}, beyond ${percent(c.placebo_quantile)} of the placebos, ${ofAllTogether(c) ? "" : "the same sign in "}${sameSign(c)} recordings`,
+    add("Signature contrast", `${capital(c.what)}: ${withError(c)}; z ${fmt(c.z, 2)}, beyond ${percent(c.placebo_quantile)} of the placebos, ${c.of_all ? "" : "the same sign in "}${sameSign(c)} recordings`,
       shows(c) ? "." : ". Not enough to show this effect by itself.");
   }
   if (!e.in_place_of && candidate) {
@@ -892,7 +890,7 @@ function shapesTable(augmented, named) {
 // The contrast of each recording as a dot, all together as the band of two standard errors.
 function contrastPlot(c) {
   const rows = list(c.of_recordings).filter((r) => isNumber(r.value));
-  if (rows.length < 2 || ofAllTogether(c)) return null;
+  if (rows.length < 2 || c.of_all) return null;
   const [pitch, top, left, right, width] = [17, 6, 112, 12, 360];
   const height = top + pitch * rows.length + 34;
   const low = c.value - 2 * c.std_error;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "core/interval_text.hpp"
 #include "core/probability_text.hpp"
@@ -32,6 +33,21 @@ Separating separating(const std::vector<std::string>& candidates, DriveKind driv
     }
   }
   return {"", worded("the same motion at other frequencies[, amplitudes and currents| and amplitudes]", drive)};
+}
+
+// What does as well in the place of a named effect, in its set or less likely.
+std::vector<std::string> alike_to(const Named& named) {
+  std::vector<std::string> result = named.indistinguishable_from;
+  result.insert(result.end(), named.less_likely.begin(), named.less_likely.end());
+  return result;
+}
+
+std::vector<std::string> titles_of(const std::vector<std::string>& effects) {
+  std::vector<std::string> result;
+  for (const std::string& id : effects) {
+    result.push_back(title_of(id));
+  }
+  return result;
 }
 
 // "0.40 mm (95 %: 0.38 to 0.42 mm)".
@@ -71,12 +87,13 @@ const Contrast* contrast_of(const Diagnosis& diagnosis, const Named& named) {
 }
 
 const Contender* nearest_rival(const Named& named, const Evidence& evidence) {
+  const std::vector<std::string> alike = alike_to(named);
   const Contender* best = nullptr;
   for (const Contender& row : candidate_of(named, evidence).contenders) {
     // What holds the candidate as its limit and is not told from it there is the candidate.
     const bool same = row.law || row.id == named.id || (row.holds_the_candidate && !row.apart);
-    const bool in_set = std::ranges::find(named.indistinguishable_from, row.id) != named.indistinguishable_from.end();
-    if (!same && !in_set && (best == nullptr || row.share > best->share)) {
+    const bool does_as_well = std::ranges::find(alike, row.id) != alike.end();
+    if (!same && !does_as_well && (best == nullptr || row.share > best->share)) {
       best = &row;
     }
   }
@@ -85,7 +102,7 @@ const Contender* nearest_rival(const Named& named, const Evidence& evidence) {
 
 std::string experiment_for(const Diagnosis& diagnosis, const Named& named) {
   std::vector<std::string> candidates = {named.id};
-  candidates.insert(candidates.end(), named.indistinguishable_from.begin(), named.indistinguishable_from.end());
+  std::ranges::copy(alike_to(named), std::back_inserter(candidates));
   if (const Contender* rival = nearest_rival(named, diagnosis.evidence)) {
     candidates.push_back(rival->id);
   }
@@ -151,11 +168,10 @@ std::string sentence_of(const Diagnosis& diagnosis, const Named& named,
         without.cost, with.cost, diagnosis.noise_floor, without.heldout, with.heldout);
   }
   if (!named.indistinguishable_from.empty()) {
-    std::vector<std::string> others;
-    for (const std::string& id : named.indistinguishable_from) {
-      others.push_back(title_of(id));
-    }
-    text += "; these recordings cannot tell it from " + joined(others, " or ");
+    text += "; these recordings cannot tell it from " + joined(titles_of(named.indistinguishable_from), " or ");
+  }
+  if (!named.less_likely.empty()) {
+    text += "; " + joined(titles_of(named.less_likely), " or ") + " would do as well, and is less likely";
   }
   const Contender* rival = named.in_place_of ? nullptr : nearest_rival(named, diagnosis.evidence);
   if (rival != nullptr) {
@@ -227,46 +243,53 @@ std::vector<Rejected> rejected_of(const Diagnosis& diagnosis) {
   return result;
 }
 
+std::string experiment_to_decide(const Verdict& verdict, const Evidence& evidence, DriveKind drive) {
+  const std::vector<Named> stated = listed(verdict);
+  const std::vector<Named>& rows = stated.empty() ? verdict.doubtful : stated;
+  if (rows.empty()) {
+    return separating({}, drive).recording;
+  }
+  const Named& likeliest = *std::ranges::max_element(rows, {}, &Named::confidence);
+  std::vector<std::string> others = alike_to(likeliest);
+  if (others.empty() && !likeliest.in_place_of) {
+    if (const Contender* rival = nearest_rival(likeliest, evidence)) {
+      others.push_back(rival->id);
+    }
+  }
+  std::vector<std::string> candidates = {likeliest.id};
+  candidates.insert(candidates.end(), others.begin(), others.end());
+  const Separating decides = separating(candidates, drive);
+  if (decides.id.empty()) {
+    return decides.recording;
+  }
+  if (!likeliest.indistinguishable_from.empty()) {
+    return fmt::format("{}; it would tell {} apart", decides.recording, joined(titles_of(candidates), " and "));
+  }
+  const bool is_name = std::ranges::find(verdict.effects, likeliest.id, &Named::id) != verdict.effects.end();
+  const std::string rivals = joined(titles_of(others), " or ");
+  return fmt::format("{}; it would {} {}{}", decides.recording, is_name ? "confirm" : "show whether there is",
+                     title_of(likeliest.id), rivals.empty() ? "" : (is_name ? " against " : " and not ") + rivals);
+}
+
 std::string experiment_after(const Diagnosis& diagnosis) {
   const Verdict& verdict = diagnosis.verdict;
   if (mixed(diagnosis.belonging)) {
     return "none yet: diagnose each group by itself, or record what was set between them as the drive";
   }
-  std::vector<std::string> candidates;
-  std::vector<Named> rows = listed(verdict);
-  if (verdict.answer == Answer::unattributed && rows.empty()) {
-    rows = verdict.doubtful;
-  }
-  for (const Named& named : rows) {
-    candidates.push_back(named.id);
-  }
-  if (verdict.answer == Answer::complete && candidates.empty()) {
+  const bool unnamed = listed(verdict).empty();
+  if (verdict.answer == Answer::complete && unnamed) {
     return "none is needed for this model; effects listed as not observable need their own recordings";
   }
   const std::string law = better_law(diagnosis.evidence);
   if (verdict.answer == Answer::unattributed && !law.empty() && law != diagnosis.search.augmented.what.model) {
     return "none yet: diagnose these recordings with the model " + law + " first";
   }
-  if (verdict.answer == Answer::unattributed && candidates.empty() && diagnosis.tone) {
+  if (verdict.answer == Answer::unattributed && unnamed && verdict.doubtful.empty() && diagnosis.tone) {
     return fmt::format(
         "the same rig running with the rod at rest; it would show whether the tone of {:.3g} Hz is the rig's",
         diagnosis.tone->frequency);
   }
-  const Separating decides = separating(candidates, diagnosis.drive);
-  if (decides.id.empty()) {
-    return decides.recording;
-  }
-  if (verdict.answer != Answer::ambiguous) {
-    return fmt::format("{}; it would {} {}", decides.recording,
-                       verdict.answer == Answer::missing_physics ? "confirm" : "show whether there is",
-                       title_of(decides.id));
-  }
-  const Named& named = *std::ranges::find(rows, decides.id, &Named::id);
-  std::vector<std::string> titles = {title_of(named.id)};
-  for (const std::string& other : named.indistinguishable_from) {
-    titles.push_back(title_of(other));
-  }
-  return fmt::format("{}; it would tell {} apart", decides.recording, joined(titles, " and "));
+  return experiment_to_decide(verdict, diagnosis.evidence, diagnosis.drive);
 }
 
 bool above_noise_floor(const Diagnosis& diagnosis) {

@@ -12,8 +12,8 @@ namespace hysteron {
 // The signature contrast that speaks for an effect most, with its values recording by recording; null where none does.
 const Contrast* contrast_of(const Diagnosis& diagnosis, const Named& named);
 
-// What explains most in the place of a named effect of the effects that the recordings tell from it; null where nothing
-// was tried there.
+// What explains most in the place of a named effect of the effects that the recordings tell from it: neither of its set
+// nor one that does as well and is less likely. Null where nothing else was tried there.
 const Contender* nearest_rival(const Named& named, const Evidence& evidence);
 
 // A recording that would tell a named effect from what is mistaken for it.
@@ -36,7 +36,10 @@ std::string sentence_of_robustness(const Named& named, std::string_view it);
 
 // Effects that were tried and not named, with reasons.
 std::vector<Rejected> rejected_of(const Diagnosis& diagnosis);
-// A recording that would decide or confirm.
+// A recording for the likeliest name or suggestion, without any for the likeliest shape: what would tell it from what
+// does as well in its place, else from its nearest rival.
+std::string experiment_to_decide(const Verdict& verdict, const Evidence& evidence, DriveKind drive);
+// The next recording to make.
 std::string experiment_after(const Diagnosis& diagnosis);
 // Whether the augmented model leaves clearly more than the noise floor, fitted or held out.
 bool above_noise_floor(const Diagnosis& diagnosis);

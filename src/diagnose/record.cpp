@@ -73,6 +73,7 @@ json contrast_json(const Diagnosis& diagnosis, const Named& named) {
                  {"shown", shows(*speaking)},
                  {"consistency", row.consistency},
                  {"recordings", row.recordings},
+                 {"of_all", row.of_all},
                  {"of_recordings", json::array()}};
   if (const Contrast* contrast = contrast_of(diagnosis, named)) {
     for (const ContrastOfRecording& one : contrast->of_recordings) {

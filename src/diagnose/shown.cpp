@@ -7,7 +7,6 @@
 #include <cmath>
 #include <functional>
 
-#include "core/contrast_kind.hpp"
 #include "diagnose/judge/speaking.hpp"
 #include "diagnose/search/wording.hpp"
 
@@ -41,33 +40,34 @@ std::string phrase_of(const Signature& row, const std::string& more) {
   return fmt::format("{}, {} ({}{})", row.what, size_text(row.value, row.unit, 2), recordings_text(row), more);
 }
 
-void name_unit(std::vector<Signature>& signatures, std::string_view unit) {
+// Of a contrast over the square of the drive, whatever that is in.
+constexpr std::string_view per_square = " per drive squared";
+
+void name_unit(std::vector<Signature>& signatures, std::string_view square) {
   for (Signature& row : signatures) {
-    if (is_of_all(row)) {
-      row.unit = unit;
+    if (row.unit.ends_with(per_square)) {
+      row.unit.resize(row.unit.size() - per_square.size());
+      row.unit.append("/").append(square);
     }
   }
 }
 
 }  // namespace
 
-bool is_of_all(const Signature& row) { return row.id == card_of(ContrastKind::drive_bend).id; }
-
 std::string recordings_text(const Signature& row) {
-  return is_of_all(row)
-             ? fmt::format("one value of all {} recordings", row.recordings)
-             : fmt::format("{:.0f} of {} recordings", std::round(row.consistency * static_cast<double>(row.recordings)),
-                           row.recordings);
+  return row.of_all ? fmt::format("one value of all {} recordings", row.recordings)
+                    : fmt::format("{:.0f} of {} recordings",
+                                  std::round(row.consistency * static_cast<double>(row.recordings)), row.recordings);
 }
 
 void name_units(Evidence& evidence, DriveKind drive) {
   if (drive == DriveKind::none) {
     return;
   }
-  const std::string_view unit = drive == DriveKind::voltage ? "N/V^2" : "N/A^2";
-  name_unit(evidence.signatures, unit);
+  const std::string_view square = drive == DriveKind::voltage ? "V^2" : "A^2";
+  name_unit(evidence.signatures, square);
   for (Candidate& candidate : evidence.candidates) {
-    name_unit(candidate.signatures, unit);
+    name_unit(candidate.signatures, square);
   }
   for (Evidence& asked : evidence.behind_asked) {
     name_units(asked, drive);

@@ -9,11 +9,7 @@
 
 namespace hysteron {
 
-// Whether a contrast is one number of all recordings together, of which none has a value of its own:
-// a curvature over levels of the drive.
-bool is_of_all(const Signature& row);
-
-// "3 of 4 recordings": those whose own value has the sign of all.
+// "3 of 4 recordings": those whose own value has the sign of all; "one value of all 4 recordings".
 std::string recordings_text(const Signature& row);
 
 // Units that hold the drive's, where it is known: "N/A^2".

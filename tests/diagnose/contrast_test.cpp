@@ -532,6 +532,10 @@ TEST(Contrast, TheForceBendsOverTheDrive) {
   ASSERT_NE(bend, nullptr);
   EXPECT_LT(bend->value, 0.0);
   EXPECT_LT(bend->z, -3.0);
+  // Over the levels of all recordings, of which each has one; of everything else a recording has a value of its own.
+  for (const Contrast& one : found) {
+    EXPECT_EQ(one.of_all, &one == bend) << one.what;
+  }
 }
 
 TEST(Contrast, AVelocityThatComesLateIsSeenWithoutAModel) {

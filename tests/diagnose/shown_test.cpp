@@ -2,11 +2,15 @@
 
 #include <gtest/gtest.h>
 
+#include "diagnose/account.hpp"
+#include "diagnose/search/relatives.hpp"
+#include "diagnose/search/wording.hpp"
+
 namespace hysteron {
 namespace {
 
 Signature signature(const std::string& id, const std::string& effect, double z) {
-  return {id, "what " + id + " is", "N", 20.0, 20.0 / z, z, 0.75, 1.0, 8, {effect}, {1}};
+  return {id, "what " + id + " is", "N", 20.0, 20.0 / z, z, 0.75, 1.0, 8, {effect}, {1}, false};
 }
 
 TEST(Shown, IsWhatSpeaksAndHasNoName) {
@@ -49,18 +53,87 @@ TEST(Shown, SaysWhatIsGoneBehindTheLawThatTakesThePlace) {
 TEST(Shown, ACurvatureOverTheDriveIsOneValueInItsUnit) {
   Evidence evidence;
   evidence.model = "bouc-wen";
-  evidence.signatures = {signature("drive-bend", "magnetic-saturation", 4.0), signature("first", "stiction", 3.5)};
+  evidence.signatures = {signature("bend", "magnetic-saturation", 4.0), signature("first", "stiction", 3.5)};
+  evidence.signatures[0].unit = "N per drive squared";
+  evidence.signatures[0].of_all = true;
   Candidate candidate;
   candidate.signatures = evidence.signatures;
   evidence.candidates = {candidate};
   name_units(evidence, DriveKind::voltage);
   EXPECT_EQ(sentence_of_contrasts(evidence, {}),
-            "Whatever the cause, the residual of bouc-wen shows: what drive-bend is, 20 N/V^2 (one value of all 8 "
+            "Whatever the cause, the residual of bouc-wen shows: what bend is, 20 N/V^2 (one value of all 8 "
             "recordings); what first is, 20 N (6 of 8 recordings).");
   EXPECT_EQ(evidence.candidates[0].signatures[0].unit, "N/V^2");
+  EXPECT_EQ(evidence.signatures[1].unit, "N");
+  evidence.signatures[0].unit = "N per drive squared";
   name_units(evidence, DriveKind::current);
   EXPECT_EQ(evidence.signatures[0].unit, "N/A^2");
-  EXPECT_EQ(evidence.signatures[1].unit, "N");
+}
+
+// A dashpot that friction explains as well, and compliance less; a mass that nothing else explains.
+Evidence of_dashpot_and_mass() {
+  Candidate dashpot;
+  dashpot.id = "series-dashpot";
+  for (const auto& [id, share] : {std::pair{"seal-friction", 0.9}, std::pair{"compliance", 0.6}}) {
+    Contender row;
+    row.id = id;
+    row.share = share;
+    dashpot.contenders.push_back(row);
+  }
+  Candidate mass;
+  mass.id = "inertia";
+  Evidence evidence;
+  evidence.candidates = {mass, dashpot};
+  return evidence;
+}
+
+Named named(const std::string& id, std::size_t candidate, double confidence) {
+  Named result;
+  result.id = id;
+  result.candidate = candidate;
+  result.confidence = confidence;
+  result.grade = grade_of(confidence);
+  return result;
+}
+
+TEST(NearestRival, IsNoneThatDoesAsWellAndIsLessLikely) {
+  const Evidence evidence = of_dashpot_and_mass();
+  Named dashpot = named("series-dashpot", 1, 0.6);
+  EXPECT_EQ(nearest_rival(dashpot, evidence)->id, "seal-friction");
+  dashpot.less_likely = {"seal-friction"};
+  EXPECT_EQ(nearest_rival(dashpot, evidence)->id, "compliance");
+  dashpot.less_likely = {"compliance"};
+  dashpot.indistinguishable_from = {"seal-friction"};
+  EXPECT_EQ(nearest_rival(dashpot, evidence), nullptr);
+}
+
+TEST(NextRecording, DecidesBetweenTheLikeliestAndItsRival) {
+  const Evidence evidence = of_dashpot_and_mass();
+  const auto advice = [&](const Verdict& verdict) {
+    return experiment_to_decide(verdict, evidence, DriveKind::current);
+  };
+  const std::string of_dashpot(knowledge_of("series-dashpot").experiment);
+  const std::string title = title_of("series-dashpot");
+  Verdict verdict;
+  // Strongest first, which need not be the likeliest.
+  verdict.suggestions = {named("inertia", 0, 0.55), named("series-dashpot", 1, 0.6)};
+  EXPECT_EQ(advice(verdict),
+            of_dashpot + "; it would show whether there is " + title + " and not " + title_of("seal-friction"));
+  verdict.suggestions[1].less_likely = {"compliance"};
+  EXPECT_EQ(advice(verdict),
+            of_dashpot + "; it would show whether there is " + title + " and not " + title_of("compliance"));
+  verdict.effects = {named("series-dashpot", 1, 0.9)};
+  verdict.suggestions.pop_back();
+  EXPECT_EQ(advice(verdict), of_dashpot + "; it would confirm " + title + " against " + title_of("seal-friction"));
+  verdict.effects[0].indistinguishable_from = {"seal-friction"};
+  EXPECT_EQ(advice(verdict), of_dashpot + "; it would tell " + title + " and " + title_of("seal-friction") + " apart");
+  verdict.effects = {named("inertia", 0, 0.9)};
+  verdict.suggestions = {named("series-dashpot", 1, 0.6)};
+  EXPECT_TRUE(advice(verdict).ends_with("; it would confirm " + title_of("inertia"))) << advice(verdict);
+  // Nothing stated: the likeliest shape.
+  verdict = {};
+  verdict.doubtful = {named("inertia", 0, 0.2), named("series-dashpot", 1, 0.4)};
+  EXPECT_TRUE(advice(verdict).starts_with(of_dashpot));
 }
 
 }  // namespace

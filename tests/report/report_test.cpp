@@ -113,6 +113,7 @@ TEST(Html, BytesThatAreNotUtf8DoNotFail) {
 TEST(Html, SaysWhatItsNumbersAre) {
   const std::string page = without_data(fit_report_html(small_report()));
   EXPECT_EQ(page.find("z is the value over its standard error;"), std::string::npos);
+  EXPECT_EQ(page.find("drive-bend"), std::string::npos) << "the record says which contrast is of all recordings";
   for (const char* words :
        {"taken as Student's t of so many recordings", "each recording weighs the same in both",
         "the floor is at least this much", "may add to more than 100 %", "Cut off to whole percent, not rounded",

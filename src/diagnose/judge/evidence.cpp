@@ -11,7 +11,7 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Contender, id, law, kin, share, refitted, squ
                                    holds_the_candidate, held_by_the_candidate, apart, ended_as, follows_drive,
                                    as_channels)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Signature, id, what, unit, value, std_error, z, consistency, placebo_quantile,
-                                   recordings, speaks_for, sign)
+                                   recordings, speaks_for, sign, of_all)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(GainBehindLaw, law, share)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Candidate, id, gain, score, sizes, gain_alone, gain_of_relative, contenders,
                                    behind_laws, parameters, on_bound, as_channels, of_law, signatures)
@@ -33,13 +33,21 @@ nlohmann::json evidence_json(const Evidence& evidence) { return evidence; }
 
 namespace {
 
+void complete_signatures(nlohmann::json& signatures) {
+  for (nlohmann::json& row : signatures) {
+    row.emplace("of_all", false);
+  }
+}
+
 // Records of earlier programs hold none of these.
 void complete(nlohmann::json& evidence) {
+  complete_signatures(evidence.at("signatures"));
   evidence.emplace("motions", evidence.at("recordings"));
   evidence.emplace("contrasts_left", nlohmann::json::array());
   evidence.emplace("behind_asked", nlohmann::json::array());
   for (nlohmann::json& candidate : evidence.at("candidates")) {
     candidate.emplace("signatures", evidence.at("signatures"));
+    complete_signatures(candidate.at("signatures"));
     for (nlohmann::json& contender : candidate.at("contenders")) {
       contender.emplace("evenness", 0.0);
     }

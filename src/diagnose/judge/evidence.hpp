@@ -72,6 +72,7 @@ struct Signature {
   std::size_t recordings = 0;
   std::vector<std::string> speaks_for;  // effects, nearest first
   std::vector<int> sign;                // that the value has where each acts; 0: either
+  bool of_all = false;                  // one number of all recordings together
 };
 
 // What an effect is worth behind another damper law that has all effects found.

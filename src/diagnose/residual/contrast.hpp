@@ -35,6 +35,7 @@ struct Contrast {
   double placebo_quantile = 0.0;  // share of the placebos whose size is below that of the value
   std::size_t placebos = 0;       // how many there were
   std::vector<ContrastOfRecording> of_recordings;
+  bool of_all = false;  // one number of all recordings together, of which none has a value of its own
 };
 
 enum class Placebos { none, all };

@@ -127,6 +127,8 @@ void add_drive_contrasts(std::span<const Track> tracks, std::size_t placebos, st
                             std::initializer_list<Panel::Column> also) {
     without.insert(without.end(), also);
     if (std::optional<Contrast> found = panel.partial(kind, std::vector{signature}, without)) {
+      // Most recordings are of one level: the curvature is over the levels of all.
+      found->of_all = kind == ContrastKind::drive_bend;
       result.push_back(std::move(*found));
     }
   };

@@ -162,6 +162,7 @@ std::vector<Signature> signatures_of(const std::vector<Contrast>& contrasts) {
     row.consistency = contrast.consistency;
     row.placebo_quantile = contrast.placebo_quantile;
     row.recordings = contrast.recordings;
+    row.of_all = contrast.of_all;
     for (const Voice& voice : voices_of(contrast.kind)) {
       row.speaks_for.emplace_back(voice.effect);
       row.sign.push_back(sign_of(voice.sense));
