@@ -16,7 +16,7 @@ struct EndStop {
       "d_up = max(x - x_up, 0) (max(x - x_up, 0) / 1 mm)^(p - 1), d_low likewise of -x - x_low"};
   static constexpr int states = 0;
   static constexpr Parameter parameters[] = {
-      {.name = "k_b", .unit = "N/m", .meaning = "secant stiffness of a stop at 1 mm", .box = {0, 3e5}, .initial = 0, .linear = true, .role = PhysicalRole::stiffness},
+      {.name = "k_b", .unit = "N/m", .meaning = "secant stiffness of a stop at 1 mm", .box = {0, 3e5}, .initial = 0, .linear = true, .role = PhysicalRole::stiffness, .limits = {.lower = 0}},
       {.name = "x_up", .unit = "m", .meaning = "displacement at which the upper stop touches", .box = {5e-3, 0.04}, .initial = 0.02, .place = 1},
       {.name = "x_low", .unit = "m", .meaning = "distance from zero at which the lower stop touches", .box = {5e-3, 0.04}, .initial = 0.02, .place = -1},
       {.name = "p", .unit = "1", .meaning = "exponent of the stop", .box = {1, 2.5}, .initial = 1.5},

@@ -411,6 +411,28 @@ TEST(Interval, StaysWhereTheParameterCanBe) {
       << "it holds the whole search range";
 }
 
+// A spring may push the other way, a stop pulls at nothing.
+TEST(Interval, OfAStopEndsWhereItDoesNothing) {
+  IdentifyOptions options;
+  options.budget = 4000;
+  options.effects = {"end-stop"};
+  options.layout.fix = {
+      {"k0", 12e3}, {"f0", 40.0}, {"end-stop.x_up", 6e-3}, {"end-stop.x_low", 6e-3}, {"end-stop.p", 1.0}};
+  Campaign campaign = viscous_campaign(500.0);
+  for (Recording& recording : campaign.recordings) {
+    for (std::size_t n = 0; n < recording.size(); ++n) {
+      const double x = recording.displacement[n];
+      recording.force[n] += 1e4 * (std::max(x - 6e-3, 0.0) - std::max(-x - 6e-3, 0.0));
+    }
+  }
+  const Identification result = identify(campaign, "viscous", options, {});
+  const Estimate& k_b = estimate_of(result, "end-stop.k_b");
+  ASSERT_TRUE(k_b.ci95) << k_b.term.value << " of up to " << k_b.upper;
+  ASSERT_GT(k_b.term.value, 0.0);
+  ASSERT_GT(*k_b.half_width, k_b.term.value) << "the cut matters";
+  EXPECT_EQ(k_b.ci95->lower, 0.0);
+}
+
 TEST(AtBound, IsRaisedWhenTheTruthIsOutsideAndOnlyThen) {
   IdentifyOptions options;
   options.budget = 1000;
