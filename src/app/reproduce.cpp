@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
+#include <utility>
 
 #include "app/command.hpp"
 #include "app/result.hpp"
@@ -105,6 +107,18 @@ std::vector<std::string> set(Study& study, const std::map<std::string, double>& 
   return changed;
 }
 
+// The table from its runs; nothing where it was interrupted.
+std::optional<Reproduction> worked_out(const PublishedTable& entry, const Plan& plan,
+                                       const std::vector<RunRecord>& records, bool quiet) {
+  ProgressLine line(quiet);
+  try {
+    return entry.result(plan, records,
+                        [&](double share) { line.show("working out the table from the runs", share, ""); });
+  } catch (const Stopped&) {
+    return std::nullopt;
+  }
+}
+
 void run(const Options& options) {
   const PublishedTable* entry = find_published_table(options.table);
   if (entry == nullptr) {
@@ -123,6 +137,7 @@ void run(const Options& options) {
                         options.budget > 0 ? options.budget : entry->budget, options.data};
   Study study = entry->study(used);
   const std::vector<std::string> changed = set(study, settings_of(options.settings));
+  study.objective.stopped = interrupted;
   const Plan plan = make_plan(study, HYSTERON_VERSION);
   const std::filesystem::path out(options.out);
   Store store = options.out.empty() ? Store::memory() : Store::open(out, Store::Mode::write);
@@ -135,7 +150,14 @@ void run(const Options& options) {
     return;
   }
   std::vector<RunRecord> records = store.records();
-  Reproduction result = entry->result(plan, records);
+  std::optional<Reproduction> made = worked_out(*entry, plan, records, options.quiet);
+  if (!made) {
+    fmt::print(stderr, "interrupted: all runs are done{}\n",
+               options.out.empty() ? "; with --out DIR they would be kept"
+                                   : " and kept in " + printable(options.out) + ", the table is not made");
+    return;
+  }
+  Reproduction result = std::move(*made);
   for (const std::string& line : changed) {
     result.not_remade.insert(result.not_remade.begin(), "set on the command line, " + line);
   }

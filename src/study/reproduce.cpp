@@ -22,35 +22,43 @@ constexpr std::string_view review_paper = "A review paper on mathematical modeli
 constexpr std::string_view lm_paper =
     "Long and short stroke MR dampers (RD-8040-1, RD-8041-1), Bouc-Wen identified by Levenberg-Marquardt";
 
+// Nothing is worked out behind the runs that takes long.
+template <Reproduction (*result)(const Plan& plan, const std::vector<RunRecord>& records)>
+Reproduction at_once(const Plan& plan, const std::vector<RunRecord>& records, const Done& /*done*/) {
+  return result(plan, records);
+}
+
 constexpr PublishedTable tables[] = {
     {"table-v", "PSO against GA: NRMSE of the modified Bouc-Wen model with offset force", pso_paper, 5, 2000, true,
-     &reproduce::pso_table_v, &reproduce::pso_table_v_result},
+     &reproduce::pso_table_v, &at_once<&reproduce::pso_table_v_result>},
     {"table-vi", "NRMSE of five models identified by PSO", pso_paper, 5, 2000, true, &reproduce::pso_table_vi,
-     &reproduce::pso_table_vi_result},
+     &at_once<&reproduce::pso_table_vi_result>},
     {"table-vii", "Modified Bouc-Wen with and without offset force", pso_paper, 3, 2000, true,
-     &reproduce::pso_table_vii, &reproduce::pso_table_vii_result},
+     &reproduce::pso_table_vii, &at_once<&reproduce::pso_table_vii_result>},
     {"table-viii", "NRMSE over 55 conditions of current and frequency", pso_paper, 1, 1500, false,
-     &reproduce::pso_table_viii, &reproduce::pso_table_viii_result},
+     &reproduce::pso_table_viii, &at_once<&reproduce::pso_table_viii_result>},
     {"figure-6", "Loops at 2 Hz and 1 A: PSO against GA", pso_paper, 5, 10000, false, &reproduce::pso_figure_6,
-     &reproduce::pso_figure_6_result},
+     &at_once<&reproduce::pso_figure_6_result>},
     {"figure-7", "Loops at 2 Hz and 1 A: five models", pso_paper, 5, 10000, false, &reproduce::pso_figure_7,
-     &reproduce::pso_figure_7_result},
+     &at_once<&reproduce::pso_figure_7_result>},
     {"figure-8", "Loops at 2 Hz and 1 A: with and without offset force", pso_paper, 3, 10000, false,
-     &reproduce::pso_figure_8, &reproduce::pso_figure_8_result},
+     &reproduce::pso_figure_8, &at_once<&reproduce::pso_figure_8_result>},
     {"figure-9", "Order of the parameter polynomials against error", pso_paper, 1, 1000, false,
      &reproduce::pso_figure_9, &reproduce::pso_figure_9_result},
     {"figure-10", "Loops at 0.4 and 2 Hz with varied current", pso_paper, 3, 10000, false, &reproduce::pso_figure_10,
-     &reproduce::pso_figure_10_result},
+     &at_once<&reproduce::pso_figure_10_result>},
     {"figure-11", "Parameters over current and frequency, beside the published polynomials", pso_paper, 1, 1500, false,
-     &reproduce::pso_figure_11, &reproduce::pso_figure_11_result},
+     &reproduce::pso_figure_11, &at_once<&reproduce::pso_figure_11_result>},
     {"least-squares-table-2", "Bouc-Wen at five currents in a shrinking box, and its laws in the current",
-     least_squares_paper, 1, 2500, false, &reproduce::least_squares_table_2, &reproduce::least_squares_table_2_result},
+     least_squares_paper, 1, 2500, false, &reproduce::least_squares_table_2,
+     &at_once<&reproduce::least_squares_table_2_result>},
     {"lm-table-1", "Bouc-Wen of two dampers with a lagged voltage, round trip", lm_paper, 1, 2000, false,
-     &reproduce::lm_table_1, &reproduce::lm_table_1_result},
+     &reproduce::lm_table_1, &at_once<&reproduce::lm_table_1_result>},
     {"nelder-mead-tables", "Sixteen parameters of the asymmetric sigmoid by Nelder-Mead, with its sine",
-     nelder_mead_paper, 3, 10000, false, &reproduce::nelder_mead_tables, &reproduce::nelder_mead_tables_result},
+     nelder_mead_paper, 3, 10000, false, &reproduce::nelder_mead_tables,
+     &at_once<&reproduce::nelder_mead_tables_result>},
     {"review-polynomials", "Polynomials 13 to 28 of the review in two steps, odd and even n", review_paper, 1, 2000,
-     false, &reproduce::review_polynomials, &reproduce::review_polynomials_result},
+     false, &reproduce::review_polynomials, &at_once<&reproduce::review_polynomials_result>},
 };
 
 // Runs of a (problem, solver) that there are records of.

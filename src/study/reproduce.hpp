@@ -1,6 +1,7 @@
 // Published tables, made again: the study that does it, and published beside obtained numbers.
 #pragma once
 
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -33,6 +34,9 @@ struct Reproduction {
   std::vector<ReproducedPicture> pictures = {};
 };
 
+// Told the share of the work behind the runs that is done.
+using Done = std::function<void(double share)>;
+
 struct PublishedTable {
   std::string_view id;
   std::string_view title;
@@ -41,7 +45,8 @@ struct PublishedTable {
   std::size_t budget;
   bool takes_data;
   Study (*study)(const ReproduceOptions& options);  // with seeds and budget filled in
-  Reproduction (*result)(const Plan& plan, const std::vector<RunRecord>& records);
+  // Throws Stopped once the plan's objective is.
+  Reproduction (*result)(const Plan& plan, const std::vector<RunRecord>& records, const Done& done);
 };
 
 std::span<const PublishedTable> published_tables();
@@ -81,7 +86,7 @@ Reproduction pso_table_viii_result(const Plan& plan, const std::vector<RunRecord
 Reproduction pso_figure_6_result(const Plan& plan, const std::vector<RunRecord>& records);
 Reproduction pso_figure_7_result(const Plan& plan, const std::vector<RunRecord>& records);
 Reproduction pso_figure_8_result(const Plan& plan, const std::vector<RunRecord>& records);
-Reproduction pso_figure_9_result(const Plan& plan, const std::vector<RunRecord>& records);
+Reproduction pso_figure_9_result(const Plan& plan, const std::vector<RunRecord>& records, const Done& done);
 Reproduction pso_figure_10_result(const Plan& plan, const std::vector<RunRecord>& records);
 Reproduction pso_figure_11_result(const Plan& plan, const std::vector<RunRecord>& records);
 

@@ -22,6 +22,8 @@ inline constexpr const char* full_model = "modified-bouc-wen+offset-force";
 [[nodiscard]] bool on_twin(const Plan& plan);
 // beta, gamma, A, k1, k0, c0, c1, f0 of a run of the full model with n = 1, at the paper's alpha of 80.
 [[nodiscard]] std::array<double, 8> paper_parameters(const RunRecord& run);
+// What the median force errors of third order say, through the conditions and fitted to all at once (figure 9).
+[[nodiscard]] std::string sentence_of_third_order(double through, double jointly);
 // What is and is not as published in everything that is made on the twin or on recordings given, whatever the solver.
 void say_of_data(const Plan& plan, Reproduction& result);
 // That a figure whose subject (`about`) is no solver is not made by the paper's.

@@ -45,8 +45,9 @@ double thread_seconds() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-ObjectiveOptions options_of(const Plan& plan, double tolerance_share) {
+ObjectiveOptions options_of(const Plan& plan, double tolerance_share, const std::function<bool()>& stop = {}) {
   ObjectiveOptions options = plan.study.objective;
+  if (stop) options.stopped = stop;
   options.threads = 1;
   options.tolerance *= tolerance_share;
   return options;
@@ -56,7 +57,8 @@ ObjectiveOptions options_of(const Plan& plan, double tolerance_share) {
 // takes too much memory.
 class LastObjectives {
  public:
-  LastObjectives(const Plan& plan, std::size_t kept) : plan_(plan), kept_(kept) {}
+  LastObjectives(const Plan& plan, std::size_t kept, std::function<bool()> stop)
+      : plan_(plan), kept_(kept), stop_(std::move(stop)) {}
 
   std::shared_ptr<const Objectives> take(std::size_t problem) {
     const std::lock_guard guard(mutex_);
@@ -65,7 +67,7 @@ class LastObjectives {
       std::rotate(made_.begin(), found, found + 1);
       return made_.front().objectives;
     }
-    auto objectives = std::make_shared<const Objectives>(plan_, problem);
+    auto objectives = std::make_shared<const Objectives>(plan_, problem, stop_);
     made_.insert(made_.begin(), Made{problem, objectives});
     if (made_.size() > kept_) made_.pop_back();
     return objectives;
@@ -78,18 +80,22 @@ class LastObjectives {
   };
   const Plan& plan_;
   std::size_t kept_;
+  std::function<bool()> stop_;
   std::vector<Made> made_;  // last used first
   std::mutex mutex_;
 };
 
 }  // namespace
 
-Objectives::Objectives(const Plan& plan, std::size_t problem)
-    : search(plan.problems[problem].layout, plan.problems[problem].recordings, options_of(plan, 1.0)),
-      tight(plan.problems[problem].layout, plan.problems[problem].recordings, options_of(plan, tight_share)) {}
+Objectives::Objectives(const Plan& plan, std::size_t problem, const std::function<bool()>& stop)
+    : search(plan.problems[problem].layout, plan.problems[problem].recordings, options_of(plan, 1.0, stop)),
+      tight(plan.problems[problem].layout, plan.problems[problem].recordings, options_of(plan, tight_share, stop)) {}
 
-std::optional<RunRecord> do_run(const Plan& plan, const PlannedRun& run, const Objectives& objectives,
-                                const std::function<bool()>& stop) {
+namespace {
+
+// Throws Stopped where it is stopped outside the search.
+std::optional<RunRecord> finished_run(const Plan& plan, const PlannedRun& run, const Objectives& objectives,
+                                      const std::function<bool()>& stop) {
   const StudyProblem& problem = plan.problems[run.problem];
   const SolverEntry* entry = find_solver(plan.study.solvers[run.solver].id);
   if (entry == nullptr) throw InputError("unknown solver '" + plan.study.solvers[run.solver].id + "'");
@@ -128,6 +134,17 @@ std::optional<RunRecord> do_run(const Plan& plan, const PlannedRun& run, const O
   return record;
 }
 
+}  // namespace
+
+std::optional<RunRecord> do_run(const Plan& plan, const PlannedRun& run, const Objectives& objectives,
+                                const std::function<bool()>& stop) {
+  try {
+    return finished_run(plan, run, objectives, stop);
+  } catch (const Stopped&) {
+    return {};
+  }
+}
+
 std::vector<std::size_t> missing_runs(const Plan& plan, const std::set<std::string>& have, const RunOptions& options,
                                       RunProgress& progress) {
   std::vector<std::size_t> todo;
@@ -147,12 +164,12 @@ RunProgress run_from(const Plan& plan, Store& store, int threads, RunProgress pr
                      const std::function<bool()>& stop, const RunObserver& observer) {
   const int wanted = team_size(threads);
   const std::string host = host_name();
-  LastObjectives last(plan, static_cast<std::size_t>(wanted) + 1);
   std::mutex source;
   std::mutex writer;
   // What fails in one run ends the others at their next evaluation.
   std::atomic<bool> halted{false};
   const auto stopped = [&] { return halted.load(std::memory_order_relaxed) || (stop && stop()); };
+  LastObjectives last(plan, static_cast<std::size_t>(wanted) + 1, stopped);
   const auto work = [&] {
     while (!stopped()) {
       std::optional<std::size_t> index;

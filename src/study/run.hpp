@@ -32,9 +32,9 @@ struct RunProgress {
 using RunObserver = std::function<void(const RunProgress&)>;
 
 // What runs of one problem share: the objective of the search, and the one with a finer integration that scores the
-// result again.
+// result again. Evaluations throw Stopped once `stop` is true.
 struct Objectives {
-  Objectives(const Plan& plan, std::size_t problem);
+  Objectives(const Plan& plan, std::size_t problem, const std::function<bool()>& stop = {});
   Objective search;
   Objective tight;
 };

@@ -5,12 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <tuple>
 
 #include "datasets/support/stepped_voltage.hpp"
 #include "presets/support/rd8040_polynomials.hpp"
+#include "study/reproduce_pso.hpp"
 #include "study/run.hpp"
 
 namespace hysteron {
@@ -26,7 +28,7 @@ TEST_P(Table, CanBeMade) {
   Store store = Store::memory();
   const RunProgress progress = run_plan(plan, store, {}, {}, {});
   ASSERT_EQ(progress.done, plan.runs.size());
-  const Reproduction result = entry->result(plan, store.records());
+  const Reproduction result = entry->result(plan, store.records(), {});
   ASSERT_FALSE(result.tables.empty());
   EXPECT_FALSE(result.findings.empty());
   EXPECT_FALSE(result.remade.empty());
@@ -66,7 +68,7 @@ Reproduction table_v_of(std::size_t conditions, std::size_t seeds) {
   const Plan plan = make_plan(study, "test");
   Store store = Store::memory();
   EXPECT_EQ(run_plan(plan, store, {}, {}, {}).done, plan.runs.size());
-  return entry->result(plan, store.records());
+  return entry->result(plan, store.records(), {});
 }
 
 // Two seeds of a case give a p of 0.5 at best: that nothing is shown says nothing.
@@ -92,6 +94,48 @@ TEST(TableV, TestsWhatCanBeTold) {
   const Reproduction result = table_v_of(1, 7);
   EXPECT_NE(result.findings[0].find("after Holm's correction"), std::string::npos) << result.findings[0];
   EXPECT_NE(result.findings[1].find("(Wilcoxon p = "), std::string::npos) << result.findings[1];
+}
+
+// The sentence follows from the numbers: those of results/reproduce, a surface that reaches the noise too, and budgets
+// that are too small.
+TEST(Figure9, SaysOfTheThirdOrderWhatTheNumbersSay) {
+  using reproduce::pso::sentence_of_third_order;
+  const auto says = [](double through, double jointly, const char* words) {
+    return sentence_of_third_order(through, jointly).find(words) != std::string::npos;
+  };
+  EXPECT_TRUE(says(0.032, 0.0098, "is not the order"));
+  EXPECT_TRUE(says(0.012, 0.0098, "comes near it"));
+  const double none = std::numeric_limits<double>::infinity();
+  for (const auto& [through, jointly] : {std::pair{0.032, 0.03}, std::pair{0.3, none}, std::pair{none, 0.2}}) {
+    EXPECT_TRUE(says(through, jointly, "nothing follows")) << through << " " << jointly;
+    EXPECT_FALSE(says(through, jointly, "is not the order"));
+  }
+}
+
+// What is worked out behind its runs takes as long as they do.
+TEST(Figure9, TellsHowFarItIsAndEndsWhereItIsStopped) {
+  const PublishedTable* entry = find_published_table("figure-9");
+  Plan plan = make_plan(entry->study({1, 12, {}}), "test");
+  Store store = Store::memory();
+  ASSERT_EQ(run_plan(plan, store, {}, {}, {}).done, plan.runs.size());
+  std::vector<double> shares;
+  static_cast<void>(entry->result(plan, store.records(), [&](double share) { shares.push_back(share); }));
+  EXPECT_GE(shares.size(), 9U);
+  EXPECT_TRUE(std::ranges::is_sorted(shares));
+  ASSERT_FALSE(shares.empty());
+  EXPECT_LE(shares.back(), 1.0);
+  EXPECT_GT(shares.back(), 0.8);
+  plan.study.objective.stopped = [] { return true; };
+  EXPECT_THROW(static_cast<void>(entry->result(plan, store.records(), {})), Stopped);
+}
+
+// Within an evaluation too, which may take long; what was stopped has no record.
+TEST(Runs, EndWithinAnEvaluation) {
+  const Plan plan = make_plan(find_published_table("table-viii")->study({1, 12, {}}), "test");
+  const Objectives stopped(plan, plan.runs.front().problem, [] { return true; });
+  const Objectives free(plan, plan.runs.front().problem);
+  EXPECT_FALSE(do_run(plan, plan.runs.front(), stopped, {}).has_value());
+  EXPECT_TRUE(do_run(plan, plan.runs.front(), free, {}).has_value());
 }
 
 // One current of the round trip without noise: the published parameters must come back.
