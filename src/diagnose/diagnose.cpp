@@ -207,7 +207,7 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const Split& split
   searching.laws = options.laws;
   searching.stands = options.stands;
   Judgement judgement = behind_asked_or_better({diagnosis.bench, quick, fine, benches.every, searching, doubt},
-                                               options.model, within(progress, 0.0, 0.91), diagnosis.notes);
+                                               options.model, within(progress, 0.0, 0.9), diagnosis.notes);
   diagnosis.search = std::move(judgement.search);
   diagnosis.asked = std::move(judgement.asked);
   diagnosis.surprises = std::move(judgement.surprising);
@@ -222,13 +222,14 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const Split& split
   diagnosis.drive = drive_kind_of(campaign.recordings);
   name_units(diagnosis.evidence, diagnosis.drive);
   const std::vector<Named> names = listed(diagnosis.verdict);
+  progress(0.9, "scoring on every sample");
   score_on_all(diagnosis.search, named_of(names, false), diagnosis.bench);
   if (diagnosis.asked) {
     score_on_all(*diagnosis.asked, named_of(names, true), diagnosis.bench);
   }
   estimate_noise_floor(diagnosis, options.objective.normalisation);
 
-  progress(0.91, "locating the misfit");
+  progress(0.92, "locating the misfit");
   // Where nothing but noise is left, places of it would be those of chance.
   if (diagnosis.verdict.answer != Answer::complete &&
       (structured(diagnosis.search.base_misfit) || !diagnosis.search.found.empty())) {
@@ -260,6 +261,7 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const Split& split
       absent.push_back(id);
     }
   }
+  progress(0.95, "looking for what could not be seen");
   // What the effects of the augmented model imitate of others is little beside what the law does, and behind a series
   // element every simulation takes several times as long.
   for (Unobservable& row : detection_limits(quick, diagnosis.search.base, diagnosis.search.misfit, absent)) {

@@ -23,16 +23,22 @@ Judgement judge_search(Search found, const Searching& searching, const SearchPro
   Judgement result;
   result.estimates.emplace(fine);
   result.search = std::move(found);
-  progress(0.0, "trying the effects behind other damper laws");
-  try_behind_other_laws(result.search, searching.quick);
-  const auto weighing = [&](double share) { progress(share, "weighing the evidence"); };
-  weighing(0.1);
+  constexpr double of_other_laws = 0.35;  // share of the time
+  const auto trying = [&](double share) {
+    progress(of_other_laws * share, "trying the effects behind other damper laws");
+  };
+  trying(0.0);
+  try_behind_other_laws(result.search, searching.quick, trying);
+  const auto weighing = [&](double share) {
+    progress(of_other_laws + (1.0 - of_other_laws) * share, "weighing the evidence");
+  };
+  weighing(0.0);
   // Of every sample: what relaxes after a stop, or lags, is over within what a thinned recording leaves out.
   result.contrasts = contrasts(bench.split().fit, bench.plain_residuals(result.search.base), bench.motions());
   const auto pieces = static_cast<double>(result.search.found.size() + 1);
   double done = 0.0;
   for (Found& one : result.search.found) {
-    weighing(0.1 + 0.4 * ++done / pieces);
+    weighing(0.4 * ++done / pieces);
     one.contrasts = one.without.what == result.search.base.what
                         ? result.contrasts
                         : contrasts(bench.split().fit, bench.plain_residuals(one.without), bench.motions());
@@ -42,14 +48,15 @@ Judgement judge_search(Search found, const Searching& searching, const SearchPro
       [&](const Fit& fit, const std::string& effect) { return result.estimates->intervals(fit, effect); },
       velocity_channel_lag(bench.split().fit), result.contrasts,
       [&](const Fit& fit) {
-        weighing(0.7 + 0.3 * compared / (compared + pieces));
+        weighing(0.8 + 0.2 * compared / (compared + pieces));
         compared += 1.0;
         return contrasts(bench.split().fit, bench.plain_residuals(fit), bench.motions(), Placebos::none);
-      }};
-  weighing(0.5);
+      },
+      [&](double share) { weighing(0.5 + 0.3 * share); }};
+  weighing(0.4);
   result.surprising = surprises(bench, result.search.augmented);
   result.tone = tone_left(result.search, bench);
-  weighing(0.6);
+  weighing(0.5);
   result.evidence = evidence_of(result.search, fine, known);
   const Doubt doubt = doubt_of_completeness(result.search, fine, result.surprising, result.tone);
   result.evidence.doubt_of_completeness = doubt.why;
@@ -65,9 +72,11 @@ Search search_behind(const std::string& law, const Searching& searching, const S
 
 // Adds whether the recordings are of one device state and whether parameters follow an unused column; both use the
 // held-out recordings too, because neither measures prediction.
-Judgement with_recording_checks(Judgement judgement, const Searching& searching) {
+Judgement with_recording_checks(Judgement judgement, const Searching& searching, const SearchProgress& progress) {
+  progress(0.0, "holding the recordings against each other");
   const ByRecording base = by_recording(searching.every, judgement.search.base);
   judgement.column = unused_column(searching.every, base);
+  progress(0.5, "holding the recordings against each other");
   if (judgement.evidence.doubt_of_data.empty()) {
     judgement.belonging = belonging_of(searching.every, base, judgement.search.augmented);
     judgement.evidence.doubt_of_data = mixed(judgement.belonging) ? sentence_of(*judgement.belonging) : std::string{};
@@ -104,18 +113,18 @@ Judgement behind_asked_or_better(Searching searching, const std::string& asked, 
     first = judge_search(std::move(in_full), searching, next(0.5));
   }
   if (!other) {
-    return with_recording_checks(std::move(first), searching);
+    return with_recording_checks(std::move(first), searching, next(1.0));
   }
   const std::vector<LeftOut> both = left_out(searching.fine, {&first.search.augmented, &other->augmented});
   if (block_score(both[0].predicted, both[1].predicted, noise_of(searching.fine), searching.fine.motions()).z() <
       replacement_errors) {
-    return with_recording_checks(std::move(first), searching);
+    return with_recording_checks(std::move(first), searching, next(1.0));
   }
   take_parts_of_law(*other, first.search, searching.quick, searching.options, next(0.1, "behind " + law + ": "));
-  Judgement second = judge_search(std::move(*other), searching, next(1.0, "behind " + law + ": "));
+  Judgement second = judge_search(std::move(*other), searching, next(0.9, "behind " + law + ": "));
   second.evidence.asked_for = asked;
   second.evidence.behind_asked = {first.evidence};
-  second = with_recording_checks(std::move(second), searching);
+  second = with_recording_checks(std::move(second), searching, next(1.0));
   // Of the misfit of the law asked for, part of which the other law takes.
   const Left before = first.evidence.base;
   const double left = std::clamp(second.evidence.base.excess() / std::max(before.excess(), 1e-300), 0.0, 1.0);

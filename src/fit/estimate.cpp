@@ -6,9 +6,11 @@
 #include "core/unit_text.hpp"
 #include "fit/bounds_met.hpp"
 #include "fit/curvature_directions.hpp"
+#include "fit/estimate_blocks.hpp"
 #include "fit/free_coordinates.hpp"
 #include "fit/identify.hpp"
 #include "fit/jackknife.hpp"
+#include "fit/march_target.hpp"
 #include "fit/neighbours.hpp"
 
 namespace hysteron {
@@ -204,6 +206,19 @@ void add_estimates(Identification& result, const Uncertainty& uncertainty, const
 }
 
 }  // namespace
+
+// Its derivatives, and once more for the jackknife.
+std::size_t blocks_of_estimate(const Objective& objective) {
+  constexpr auto directions = static_cast<std::size_t>(sweep_directions);
+  constexpr auto lanes = static_cast<std::size_t>(lane_count);
+  const std::size_t sweeps = (objective.layout().dimension() + directions - 1) / directions;
+  const std::size_t groups = (sweeps + lanes - 1) / lanes;
+  std::size_t blocks = 0;
+  for (const Target& target : objective.targets()) {
+    blocks += (target.force.size() + block_samples - 1) / block_samples;
+  }
+  return 2 * groups * blocks;
+}
 
 void estimate(Identification& result, const Objective& objective, const std::vector<double>& u, DriveKind drive_kind) {
   Uncertainty uncertainty = unknown(result.layout.dimension());

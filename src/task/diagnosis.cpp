@@ -3,9 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
+#include <functional>
+#include <thread>
 #include <vector>
 
 #include "diagnose/record.hpp"
+#include "fit/estimate_blocks.hpp"
 #include "fit/usable.hpp"
 #include "fit/weighting.hpp"
 #include "report/terminal.hpp"
@@ -20,8 +24,34 @@ namespace {
 
 using nlohmann::json;
 
+// Counts the blocks of samples that an objective passes, on whatever threads, and tells how many of a hundred parts are
+// done from the thread that it belongs to.
+class Blocks {
+ public:
+  explicit Blocks(const std::function<void(double share)>& done) : done_(done) {}
+  void expect(std::size_t whole) { whole_ = std::max<std::size_t>(whole, 1); }
+  void add() {
+    const std::size_t count = ++count_;
+    if (std::this_thread::get_id() != own_) return;
+    const std::size_t parts = std::min<std::size_t>(100 * count / whole_, 100);
+    if (parts > told_) {
+      told_ = parts;
+      done_(static_cast<double>(parts) / 100.0);
+    }
+  }
+
+ private:
+  const std::function<void(double share)>& done_;
+  std::size_t whole_ = 1;
+  std::atomic<std::size_t> count_{0};
+  std::thread::id own_ = std::this_thread::get_id();
+  std::size_t told_ = 0;  // to `own_`
+};
+
+// `done` is told the share of it that is done.
 Identification identification_of(const Diagnosis& diagnosis, const Campaign& campaign,
-                                 const ObjectiveOptions& objective, bool roles) {
+                                 const ObjectiveOptions& objective, bool roles,
+                                 const std::function<void(double share)>& done) {
   const Fit& fit = diagnosis.final;
   Identification result{*fit.layout, fit.terms, {}, {}, 0, fit.cost, fit.heldout, {}, {}, roles, {}};
   std::vector<Recording> fitted;
@@ -38,7 +68,17 @@ Identification identification_of(const Diagnosis& diagnosis, const Campaign& cam
   outcome.run.solver = "multistart-lm";
   outcome.run.cost = fit.cost;
   result.solvers.push_back(outcome);
-  estimate(result, Objective(*fit.layout, fitted, objective), fit.point, campaign.recordings.front().drive_kind);
+  Blocks blocks(done);
+  ObjectiveOptions told = objective;
+  if (done) {
+    told.stopped = [&] {
+      blocks.add();
+      return objective.stopped && objective.stopped();
+    };
+  }
+  const Objective on_all(*fit.layout, fitted, told);
+  blocks.expect(blocks_of_estimate(on_all));
+  estimate(result, on_all, fit.point, campaign.recordings.front().drive_kind);
   return result;
 }
 
@@ -118,7 +158,9 @@ DiagnosisRecords records_of(const Diagnosis& diagnosis, const Campaign& recorded
   if (done) done(0.0);
   const Campaign campaign = without_apart(recorded);
   const bool roles = std::ranges::any_of(campaign.roles, [](Role role) { return role == Role::validate; });
-  const Identification result = identification_of(diagnosis, campaign, options.objective, roles);
+  std::function<void(double share)> of_estimates;
+  if (done) of_estimates = [&](double share) { done(of_errors * share); };
+  const Identification result = identification_of(diagnosis, campaign, options.objective, roles, of_estimates);
   IdentifyOptions stored;
   stored.seed = options.seed;
   stored.objective = options.objective;

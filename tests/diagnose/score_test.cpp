@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/squared.hpp"
@@ -128,6 +129,26 @@ TEST(Score, OfAnEffectThatIsLinearIsWhatARefitGains) {
   const Fit start = bench.from_starts({"viscous", {"inertia"}, {}},
                                       {scores[0].starts.layout, {scores[0].starts.points[0]}, {}, {}}, 2, 1);
   EXPECT_LT(squared(start.cost) - squared(refitted.cost), 0.02 * gained);
+}
+
+// A stage tells how far it is at every first look and every refit; it stood still for as long as the looks take.
+TEST(Stage, TellsHowFarItIs) {
+  const std::vector<Recording> all = recordings_with({"inertia"}, {{"inertia.m", 6.0}}, 0.01);
+  const Workbench bench = bench_of(all, all);
+  const Fit base = bench.from_anywhere({"viscous", {}, {}}, 2000);
+  const std::vector<Extension> extensions = {effect_extension("quadratic-damping"), effect_extension("inertia"),
+                                             effect_extension("offset-force"), effect_extension("cubic-stiffness")};
+  std::vector<double> shares;
+  const auto told = [&](double share) { shares.push_back(share); };
+  const std::vector<Tried> tried = stage(bench, base, extensions, 100.0, nullptr, {}, told);
+  const auto refitted =
+      static_cast<std::size_t>(std::ranges::count_if(tried, [](const Tried& one) { return one.fit.has_value(); }));
+  EXPECT_EQ(shares.size(), extensions.size() + refitted);
+  EXPECT_TRUE(std::ranges::is_sorted(shares));
+  EXPECT_LE(shares.back(), 1.0);
+  shares.clear();
+  static_cast<void>(left_out(bench, {&base, &*tried[0].fit}, told));
+  EXPECT_EQ(shares, (std::vector<double>{0.5, 1.0}));
 }
 
 TEST(Score, NoExtensionTakesMoreOffThanThereIs) {

@@ -6,10 +6,12 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 #include "core/error.hpp"
 #include "fit/bounds_met.hpp"
+#include "fit/estimate_blocks.hpp"
 #include "synthetic.hpp"
 
 namespace hysteron {
@@ -409,6 +411,28 @@ TEST(Interval, StaysWhereTheParameterCanBe) {
   options.layout.bounds["c0"] = {c0.term.value * 0.99, c0.term.value * 1.01};
   EXPECT_FALSE(estimate_of(identify(viscous_campaign(2000.0, 30.0), "viscous", options, {}), "c0").ci95)
       << "it holds the whole search range";
+}
+
+// What is told of progress is counted at the blocks that standard errors pass.
+TEST(Estimates, PassAsManyBlocksAsAreCountedOn) {
+  auto recordings = motions();
+  for (const char* model : {"viscous", "modified-bouc-wen"}) {
+    const Layout layout(make_model(model, {}), DataScale{}, {});
+    const std::vector<double> point = random_points(Stream(seed).child("blocks"), 1, layout.dimension(), 0.4);
+    ObjectiveOptions options;
+    for (std::size_t r = 0; r < recordings.size(); ++r) {
+      set_force(recordings[r], layout, layout.terms(point), options, 0.05, Stream(seed).child(r));
+    }
+    std::atomic<std::size_t> blocks{0};
+    options.stopped = [&] {
+      ++blocks;
+      return false;
+    };
+    const Objective objective(layout, recordings, options);
+    Identification result{layout, layout.terms(point), {}, {}, 0, 0.0, {}, {}, {}, false, {}};
+    estimate(result, objective, point, DriveKind::none);
+    EXPECT_EQ(blocks, blocks_of_estimate(objective)) << model;
+  }
 }
 
 // A spring may push the other way, a stop pulls at nothing.

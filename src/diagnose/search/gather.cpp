@@ -97,8 +97,8 @@ Left left_of(const Misfit& misfit, const Workbench& bench, const Fit& fit) {
 class Looked {
  public:
   void want(const Fit& fit) { fits_.push_back(&fit); }
-  void look(const Workbench& bench) {
-    const std::vector<LeftOut> all = left_out(bench, fits_);
+  void look(const Workbench& bench, const std::function<void(double share)>& done) {
+    const std::vector<LeftOut> all = left_out(bench, fits_, done);
     for (std::size_t k = 0; k < fits_.size(); ++k) {
       of_[fits_[k]] = all[k];
     }
@@ -223,7 +223,7 @@ std::vector<std::string> told_by_channels(const std::vector<Recording>& recordin
 namespace {
 
 // The fits of a search that are compared closely, by what they would predict of recordings left out.
-Looked looked_at(const Search& search, const Workbench& fine) {
+Looked looked_at(const Search& search, const Workbench& fine, const Circumstances& known) {
   Looked looked;
   looked.want(search.base);
   looked.want(search.augmented);
@@ -233,7 +233,7 @@ Looked looked_at(const Search& search, const Workbench& fine) {
       looked.want(*rival->fit);
     }
   }
-  looked.look(fine);
+  looked.look(fine, known.looked);
   return looked;
 }
 
@@ -375,7 +375,7 @@ std::vector<OtherLaw> other_laws_of(const Search& search, const Evidence& eviden
 }  // namespace
 
 Evidence evidence_of(const Search& search, const Workbench& fine, const Circumstances& known) {
-  const Looked looked = looked_at(search, fine);
+  const Looked looked = looked_at(search, fine, known);
   const Fitted fitted{&fine.split().fit, &fine.motions(), noise_of(fine)};
   Evidence result = evidence_of_models(search, fine, known, looked, fitted);
   for (std::size_t k = 0; k < search.found.size(); ++k) {

@@ -37,6 +37,8 @@ struct Circumstances {
   std::vector<Contrast> contrasts;
   // Those of what any fit leaves of them, without placebos.
   std::function<std::vector<Contrast>(const Fit& fit)> contrasts_of;
+  // Told the share of the fits that was looked at, from one thread at a time; may be empty.
+  std::function<void(double share)> looked = {};
 };
 
 // Of the candidates, those that the channels of the recordings show by themselves: a contrast that needs no model

@@ -64,7 +64,7 @@ void grow(Course& course, const std::vector<Extension>& effects, int most_effect
     const auto count = static_cast<double>(candidates.size());
     const std::string what = added == 0 ? "looking at " + std::to_string(candidates.size()) + " hypotheses"
                                         : "looking for more behind " + joined_names(course.current.what);
-    const auto done = [&](double share) { progress(0.1 + 0.5 * (added + share) / most_effects, what); };
+    const auto done = [&](double share) { progress(0.1 + 0.35 * (added + share) / most_effects, what); };
     // Half of it looks and refits, the other compares on recordings left out.
     done(0.0);
     std::vector<Tried> tried = stage(course.bench, course.current, candidates, course.independent, nullptr, course.told,

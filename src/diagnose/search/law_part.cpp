@@ -71,9 +71,12 @@ void take_parts_of_law(Search& behind_law, const Search& asked, const Workbench&
                               static_cast<double>(full.dimension()) - static_cast<double>(found.without.dimension()),
                               behind_law.independent);
     found.alone = squared(rest_alone->cost) - squared(behind_law.quick_base.cost);
-    progress(0.5, "setting " + name_of(part) + " against its rivals");
+    const auto setting = [&](double share) {
+      progress(0.5 + 0.5 * share, "setting " + name_of(part) + " against its rivals");
+    };
+    setting(0.0);
     for (const Tried& tried : stage(quick, found.without, effects_but(part, options.candidates), behind_law.independent,
-                                    nullptr, effects_but(part, relatives(id)))) {
+                                    nullptr, effects_but(part, relatives(id)), setting)) {
       Rival rival{tried.part, tried.gain / found.gain, 0.0, tried.fit};
       if (tried.fit) {
         rival.evidence = evidence(squared(tried.fit->cost), squared(full.cost),

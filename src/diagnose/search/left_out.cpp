@@ -7,6 +7,7 @@
 #include <map>
 
 #include "diagnose/residual/misfit.hpp"
+#include "diagnose/search/counting.hpp"
 #include "diagnose/signal/noise.hpp"
 #include "fit/free_coordinates.hpp"
 #include "fit/parallel.hpp"
@@ -194,10 +195,15 @@ LeftOut left_out(const Workbench& bench, const Fit& fit) {
   return left_out_of(bench.piece(key, [&] { return bytes_of(worked_out(bench, fit)); }));
 }
 
-std::vector<LeftOut> left_out(const Workbench& bench, const std::vector<const Fit*>& fits) {
+std::vector<LeftOut> left_out(const Workbench& bench, const std::vector<const Fit*>& fits,
+                              const std::function<void(double share)>& done) {
   std::vector<LeftOut> result(fits.size());
   const Workbench each = bench.shared_by(fits.size());
-  parallel_for(fits.size(), bench.options().threads, [&](std::size_t k) { result[k] = left_out(each, *fits[k]); });
+  Counting counting(fits.size(), done);
+  parallel_for(fits.size(), bench.options().threads, [&](std::size_t k) {
+    result[k] = left_out(each, *fits[k]);
+    counting.add();
+  });
   return result;
 }
 

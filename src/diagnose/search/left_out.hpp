@@ -17,7 +17,9 @@ struct LeftOut {
   double squares = 0.0;  // of NRMSE over all of them, by the parameters fitted to all, refined by one step
 };
 LeftOut left_out(const Workbench& bench, const Fit& fit);
-std::vector<LeftOut> left_out(const Workbench& bench, const std::vector<const Fit*>& fits);
+// `done` is told the share of them that is done, from one thread at a time.
+std::vector<LeftOut> left_out(const Workbench& bench, const std::vector<const Fit*>& fits,
+                              const std::function<void(double share)>& done = {});
 
 // For a fit to which `part` is to be added, or from which it was taken: `plain` (left_out of the fit) or left_out of
 // Workbench::beside, whichever has the smaller squares.

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <optional>
 
+#include "diagnose/search/counting.hpp"
 #include "diagnose/search/tangent.hpp"
 #include "fit/parallel.hpp"
 
@@ -150,7 +151,7 @@ Scored look(const Workbench& bench, Scored result, const Tangent& tangent) {
 }  // namespace
 
 std::vector<Scored> scored(const Workbench& bench, const Fit& before, const std::vector<Extension>& extensions,
-                           const Fit* also, std::size_t most_starts) {
+                           const Fit* also, std::size_t most_starts, const std::function<void(double share)>& done) {
   std::vector<Scored> result;
   std::vector<ByteWriter> keys;
   for (const Extension& extension : extensions) {
@@ -162,8 +163,10 @@ std::vector<Scored> scored(const Workbench& bench, const Fit& before, const std:
     tangent = tangent_of(bench, before);
   }
   const Workbench each = bench.shared_by(extensions.size());
+  Counting counting(extensions.size(), done);
   parallel_for(extensions.size(), bench.options().threads, [&](std::size_t k) {
     take(result[k], bench.piece(keys[k], [&] { return bytes_of(look(each, result[k], *tangent)); }));
+    counting.add();
   });
   std::ranges::stable_sort(result, [](const Scored& a, const Scored& b) { return a.gain > b.gain; });
   return result;

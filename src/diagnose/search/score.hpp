@@ -17,7 +17,9 @@ struct Scored {
 };
 
 // Of every extension, best first. `also` as in Workbench::from_fit; `most_starts` of each are simulated, all where 0.
+// `done` is told the share of it that is done, from one thread at a time.
 std::vector<Scored> scored(const Workbench& bench, const Fit& before, const std::vector<Extension>& extensions,
-                           const Fit* also = nullptr, std::size_t most_starts = 0);
+                           const Fit* also = nullptr, std::size_t most_starts = 0,
+                           const std::function<void(double share)>& done = {});
 
 }  // namespace hysteron

@@ -104,7 +104,7 @@ Search search(const Workbench& bench, const Workbench& fine, const Hypothesis& b
   return result;
 }
 
-void try_behind_other_laws(Search& search, const Workbench& quick) {
+void try_behind_other_laws(Search& search, const Workbench& quick, const std::function<void(double share)>& done) {
   double best_law = squared(search.quick_base.cost);
   for (const Fit& law : search.other_laws) {
     best_law = std::min(best_law, squared(law.cost));
@@ -114,7 +114,7 @@ void try_behind_other_laws(Search& search, const Workbench& quick) {
   // A law that does as well without them is tried with a search of its own.
   if (search.found.size() == 1 || parts_of_law ||
       (!search.found.empty() && best_law > squared(search.quick_augmented.cost))) {
-    search.swaps = swaps(quick, search.quick_base, search.other_laws, effects_of(search.found));
+    search.swaps = swaps(quick, search.quick_base, search.other_laws, effects_of(search.found), done);
   }
 }
 

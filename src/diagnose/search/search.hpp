@@ -56,6 +56,6 @@ Search search(const Workbench& quick, const Workbench& fine, const Hypothesis& b
 
 // What the effects found are worth behind other laws: Search::swaps. For a search that is judged, when all it has is
 // found.
-void try_behind_other_laws(Search& search, const Workbench& quick);
+void try_behind_other_laws(Search& search, const Workbench& quick, const std::function<void(double share)>& done = {});
 
 }  // namespace hysteron

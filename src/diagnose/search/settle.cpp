@@ -146,14 +146,16 @@ Found taken_out_wholly(const Course& course, const Extension& part, Found found)
 }
 
 // Every part of the current model taken out in turn, until none is found that stopped helping; such a one is dropped.
-std::vector<Found> worth_their_place(Course& course) {
+std::vector<Found> worth_their_place(Course& course, const std::function<void(double share)>& done) {
   std::vector<Found> result;
   for (bool dropped = true; dropped;) {
     dropped = false;
     result.clear();
     const LeftOut with = left_out(course.bench, course.current);
     const bool far = is_far(misfit_of(course.bench, course.current));
-    for (const Extension& part : extensions_of(course.current.what)) {
+    const std::vector<Extension> parts = extensions_of(course.current.what);
+    for (const Extension& part : parts) {
+      done(static_cast<double>(result.size()) / static_cast<double>(parts.size()));
       Found found = taken_out(course, part.is_law() ? law_extension({part.parameters.front()}) : part);
       const BlockScore score = block_score(
           left_out_beside(course.bench, found.without, part, left_out(course.bench, found.without)).predicted,
@@ -185,12 +187,13 @@ std::vector<Found> settled(Course& course, const std::vector<Extension>& candida
       course.current = std::move(*possible);
       course.stands(course.current);
     }
-    std::vector<Found> result = worth_their_place(course);
+    std::vector<Found> result = worth_their_place(
+        course, [&](double share) { progress(0.45 + 0.2 * share, "taking out each part of the augmented model"); });
     bool swapped = false;
     double before = 0.0;
     for (Found& found : result) {
       const auto done = [&](double share) {
-        progress(0.6 + 0.25 * (before + share) / static_cast<double>(result.size()),
+        progress(0.65 + 0.2 * (before + share) / static_cast<double>(result.size()),
                  "setting " + name_of(found.part) + " against its rivals");
       };
       done(0.0);
@@ -254,11 +257,17 @@ Fit confirmed(Course& course, const Workbench& fine, const Fit& fine_base, const
               const SearchProgress& progress, std::vector<Found>& found) {
   while (true) {
     found = settled(course, candidates, progress);
-    progress(0.85, "fitting the augmented model to more samples");
+    const auto fitting = [&](double share) {
+      progress(0.85 + 0.15 * share, "fitting the augmented model to more samples");
+    };
+    fitting(0.0);
     Fit augmented = course.current.what == course.base ? fine_base : fine.polished(course.current, screening_rounds);
+    fitting(0.3);
     const auto idle = unconfirmed(fine, augmented, found);
     if (idle == found.end()) {
+      double looked_at = 0.0;
       for (Found& one : found) {
+        fitting(0.6 + 0.4 * looked_at++ / static_cast<double>(found.size()));
         // A richer law is no name, and one of another effect's parameter is nothing without that effect.
         one.alone = one.part.is_law() ? 0.0 : gain_alone(course, one.part);
       }

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <mutex>
 
 #include "diagnose/residual/misfit.hpp"
+#include "diagnose/search/counting.hpp"
 #include "diagnose/search/relatives.hpp"
 #include "fit/parallel.hpp"
 
@@ -32,6 +32,12 @@ constexpr double refuted = 2.0;
 constexpr std::ptrdiff_t most_in_series = 2;
 // The highest order of a law in the drive where it varies within recordings.
 constexpr int most_order = 3;
+
+// Tells `done` of a part of its work; empty where it is.
+std::function<void(double share)> part_of(const std::function<void(double share)>& done, double from, double to) {
+  if (!done) return {};
+  return [&done, from, to](double share) { done(from + (to - from) * share); };
+}
 
 // The highest order of a law in the drive that the recordings can tell.
 int highest_order(const std::vector<Recording>& recordings) {
@@ -125,8 +131,11 @@ std::vector<Tried> stage(const Workbench& bench, const Fit& before, const std::v
       open.push_back(candidate);
     }
   }
-  const std::vector<Scored> scores =
-      scored(bench, before, open, also, elements > 0 ? starts_behind_series : std::size_t{0});
+  // Shares of the time that the first look takes, and that with the refits.
+  constexpr double of_looks = 0.4;
+  constexpr double of_refits = 0.85;
+  const std::vector<Scored> scores = scored(
+      bench, before, open, also, elements > 0 ? starts_behind_series : std::size_t{0}, part_of(done, 0.0, of_looks));
   const std::vector<bool> refit = chosen(scores, always, elements > 0 ? refitted_behind_series : refitted_at_most);
   std::vector<Tried> result(scores.size());
   std::vector<std::size_t> refitted;
@@ -142,8 +151,8 @@ std::vector<Tried> stage(const Workbench& bench, const Fit& before, const std::v
                  std::nullopt};
   }
   const Workbench each = bench.shared_by(refitted.size());
-  std::mutex counting;
-  std::size_t count = 0;
+  const std::function<void(double)> done_with_refits = part_of(done, of_looks, of_refits);
+  Counting counting(refitted.size(), done_with_refits);
   parallel_for(refitted.size(), bench.options().threads, [&](std::size_t task) {
     const std::size_t k = refitted[task];
     const Starts& starts = scores[k].starts;
@@ -152,9 +161,7 @@ std::vector<Tried> stage(const Workbench& bench, const Fit& before, const std::v
     const std::optional<Fit> neutral = each.beside(before, scores[k].part);
     const double squares = squared(std::min(before.cost, neutral ? neutral->cost : before.cost));
     result[k] = weighed(scores[k].part, fit, squares, before.dimension(), independent);
-    if (!done) return;
-    const std::scoped_lock lock(counting);
-    done(static_cast<double>(++count) / static_cast<double>(refitted.size()));
+    counting.add();
   });
   std::ranges::stable_sort(result, better);
   std::vector<Fit> best;

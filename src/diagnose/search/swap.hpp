@@ -2,6 +2,7 @@
 // behind another.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -21,8 +22,9 @@ struct Swap {
 };
 
 // Behind the best of `laws`, fits of other laws without effects, of those that leave at most twice the squares of
-// `base`. `effects`, strongest first, are added in this order.
+// `base`. `effects`, strongest first, are added in this order. `done` is told the share of it that is done, from one
+// thread at a time.
 std::vector<Swap> swaps(const Workbench& bench, const Fit& base, const std::vector<Fit>& laws,
-                        const std::vector<std::string>& effects);
+                        const std::vector<std::string>& effects, const std::function<void(double share)>& done = {});
 
 }  // namespace hysteron
