@@ -276,6 +276,9 @@ std::string experiment_after(const Diagnosis& diagnosis) {
   if (mixed(diagnosis.belonging)) {
     return "none yet: diagnose each group by itself, or record what was set between them as the drive";
   }
+  if (!diagnosis.evidence.doubt_of_data.empty()) {
+    return "none yet: mend these recordings first";
+  }
   const bool unnamed = listed(verdict).empty();
   if (verdict.answer == Answer::complete && unnamed) {
     return "none is needed for this model; effects listed as not observable need their own recordings";

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "diagnose/doubts.hpp"
+#include "diagnose/residual/zero_step.hpp"
 #include "diagnose/search/law_part.hpp"
 #include "diagnose/search/left_out.hpp"
 #include "diagnose/search/of_fit.hpp"
@@ -72,7 +73,8 @@ Search search_behind(const std::string& law, const Searching& searching, const S
 
 // Adds whether the recordings are of one device state and whether parameters follow an unused column; both use the
 // held-out recordings too, because neither measures prediction.
-Judgement with_recording_checks(Judgement judgement, const Searching& searching, const SearchProgress& progress) {
+Judgement with_recording_checks(Judgement judgement, const Searching& searching, const SearchProgress& progress,
+                                std::vector<std::string>& notes) {
   progress(0.0, "holding the recordings against each other");
   const ByRecording base = by_recording(searching.every, judgement.search.base);
   judgement.column = unused_column(searching.every, base);
@@ -80,6 +82,14 @@ Judgement with_recording_checks(Judgement judgement, const Searching& searching,
   if (judgement.evidence.doubt_of_data.empty()) {
     judgement.belonging = belonging_of(searching.every, base, judgement.search.augmented);
     judgement.evidence.doubt_of_data = mixed(judgement.belonging) ? sentence_of(*judgement.belonging) : std::string{};
+  }
+  if (const auto steps =
+          zero_steps_of(searching.every.split().fit, searching.every.plain_residuals(judgement.search.base))) {
+    if (judgement.evidence.doubt_of_data.empty() && shape_the_search(*steps)) {
+      judgement.evidence.doubt_of_data = sentence_of(*steps);
+    } else {
+      notes.push_back(sentence_of(*steps));
+    }
   }
   judgement.verdict = verdict_of(judgement.evidence);
   return judgement;
@@ -113,18 +123,18 @@ Judgement behind_asked_or_better(Searching searching, const std::string& asked, 
     first = judge_search(std::move(in_full), searching, next(0.5));
   }
   if (!other) {
-    return with_recording_checks(std::move(first), searching, next(1.0));
+    return with_recording_checks(std::move(first), searching, next(1.0), notes);
   }
   const std::vector<LeftOut> both = left_out(searching.fine, {&first.search.augmented, &other->augmented});
   if (block_score(both[0].predicted, both[1].predicted, noise_of(searching.fine), searching.fine.motions()).z() <
       replacement_errors) {
-    return with_recording_checks(std::move(first), searching, next(1.0));
+    return with_recording_checks(std::move(first), searching, next(1.0), notes);
   }
   take_parts_of_law(*other, first.search, searching.quick, searching.options, next(0.1, "behind " + law + ": "));
   Judgement second = judge_search(std::move(*other), searching, next(0.9, "behind " + law + ": "));
   second.evidence.asked_for = asked;
   second.evidence.behind_asked = {first.evidence};
-  second = with_recording_checks(std::move(second), searching, next(1.0));
+  second = with_recording_checks(std::move(second), searching, next(1.0), notes);
   // Of the misfit of the law asked for, part of which the other law takes.
   const Left before = first.evidence.base;
   const double left = std::clamp(second.evidence.base.excess() / std::max(before.excess(), 1e-300), 0.0, 1.0);

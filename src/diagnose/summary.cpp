@@ -80,14 +80,17 @@ std::string sentence_of_grade(const Diagnosis& diagnosis, Grade grade) {
 std::string sentence_of_shapes(const Diagnosis& diagnosis) {
   const std::vector<Named>& doubtful = diagnosis.verdict.doubtful;
   std::vector<std::string> shapes;
+  // A probability is that of recordings without a fault.
+  const bool faulty = !diagnosis.evidence.doubt_of_data.empty();
   for (std::size_t k = 0; k < doubtful.size(); ++k) {
-    shapes.push_back(fmt::format("{} ({})", with_sizes(doubtful[k].id, diagnosis.shapes[k]),
-                                 probability_text(doubtful[k].confidence)));
+    const std::string shape = with_sizes(doubtful[k].id, diagnosis.shapes[k]);
+    shapes.push_back(faulty ? shape : fmt::format("{} ({})", shape, probability_text(doubtful[k].confidence)));
   }
   if (shapes.empty()) {
     return {};
   }
-  return fmt::format("Too uncertain to name: {}; {} {} better.", fmt::format("{}", fmt::join(shapes, "; ")),
+  return fmt::format("{}: {}; {} {} better.", faulty ? "Not named for that" : "Too uncertain to name",
+                     fmt::format("{}", fmt::join(shapes, "; ")),
                      shapes.size() == 1 ? "it is a shape that" : "they are shapes that",
                      std::string(what_shapes_do(diagnosis)) + (shapes.size() == 1 ? "s" : ""));
 }
@@ -224,7 +227,9 @@ std::vector<std::string> summary_of(const Diagnosis& diagnosis) {
     add(summary, capital(sentence_of(*diagnosis.belonging)) + ".");
   } else if (verdict.effects.empty()) {
     const bool may_be_noise = diagnosis.too_few_values && diagnosis.evidence.doubt_of_data.empty();
+    const bool faulty = !diagnosis.evidence.doubt_of_data.empty();
     add(summary, (may_be_noise ? "Whether physics is missing cannot be told: "
+                  : faulty     ? "The recordings have a fault, and no effect can be named: "
                                : "Physics is missing, but no effect is certain enough to name: ") +
                      verdict.reason + ".");
   }
