@@ -16,6 +16,7 @@
 #include "io/plausible.hpp"
 #include "io/sha256.hpp"
 #include "io/text.hpp"
+#include "io/time_packets.hpp"
 
 namespace hysteron {
 namespace {
@@ -63,6 +64,7 @@ class MatReader {
     variables_ = {};  // as large as the channels
     Sources present = sources;
     if (made_time) present[0].column = 0;
+    even_out_packets(channels, options_, file_);
     thin(channels, present, options_, file_);
     thin_conditions(values, samples, options_);
     remark_on_settings(sources, channels, followed, values, columns_, options_, file_);

@@ -17,6 +17,7 @@
 #include "io/plausible.hpp"
 #include "io/resample.hpp"
 #include "io/text.hpp"
+#include "io/time_packets.hpp"
 
 namespace hysteron {
 namespace {
@@ -64,6 +65,7 @@ class RecordingMaker {
     std::optional<double> started;
     if (epoch_) started = clock_time(*epoch_ + values_[time_at].front());
     const std::size_t samples = values_[time_at].size();
+    even_out_packets(values_, options_, file_);
     thin(values_, sources_, options_, file_);
     thin_conditions(condition_values_, samples, options_);
     remark_on_settings(sources_, values_, conditions_, condition_values_, columns_, options_, file_);
