@@ -270,6 +270,63 @@ void tell_of_drives(const std::vector<Recording>& recordings, std::vector<Remark
   }
 }
 
+// The sign of a drive that is never of the other; 0 of one that is off or has both. Up to this part of the largest
+// drive of the campaign it is the noise of a sensor.
+constexpr double nearly_off = 0.02;
+int sign_of(const std::vector<double>& drive, double largest) {
+  if (drive.empty()) return 0;
+  const auto [low, high] = std::ranges::minmax(drive);
+  if (high > nearly_off * largest && low >= -nearly_off * largest) return 1;
+  return low < -nearly_off * largest && high <= nearly_off * largest ? -1 : 0;
+}
+
+// A drive below zero in few recordings where most are driven above it, as far: leads that were exchanged. A damper that
+// is driven both ways is so within a recording, or in about as many.
+void tell_of_signs(const std::vector<Recording>& recordings, std::vector<Remark>& remarks) {
+  constexpr std::size_t fewest_of_most = 3;
+  constexpr std::size_t most_to_each = 3;
+  for (const DriveKind kind : {DriveKind::current, DriveKind::voltage}) {
+    const std::vector<double> drives = drives_of(recordings, kind);
+    const double largest = peak_of(drives);
+    std::array<std::vector<std::size_t>, 2> with;  // below zero, above
+    bool both = false;
+    for (std::size_t k = 0; k < recordings.size(); ++k) {
+      if (!(drives[k] > 0.0)) continue;
+      const int sign = sign_of(recordings[k].drive, largest);
+      if (sign != 0) with[sign > 0 ? 1 : 0].push_back(k);
+      both = both || (sign == 0 && !(drives[k] <= nearly_off * largest));
+    }
+    const std::size_t few = with[0].size() < with[1].size() ? 0 : 1;
+    const std::vector<std::size_t>& most = with[1 - few];
+    if (both || with[few].empty() || most.size() < fewest_of_most || with[few].size() * most_to_each > most.size()) {
+      continue;
+    }
+    const auto is_alike = [&](std::size_t k) {
+      return std::ranges::any_of(most, [&](std::size_t other) {
+        return std::max(drives[k], drives[other]) <= same_drive * std::min(drives[k], drives[other]);
+      });
+    };
+    if (!std::ranges::all_of(with[few], is_alike)) continue;
+    const std::string channel = kind == DriveKind::current ? "current" : "voltage";
+    const std::string_view unit = kind == DriveKind::current ? "A" : "V";
+    double low = drives[most.front()];
+    double high = low;
+    for (const std::size_t k : most) {
+      low = std::min(low, drives[k]);
+      high = std::max(high, drives[k]);
+    }
+    const double sign = few == 0 ? 1.0 : -1.0;  // of most
+    for (const std::size_t k : with[few]) {
+      remarks.push_back(
+          {recordings[k].file, Remark::Kind::implausible, "sign of " + channel,
+           fmt::format("a {} of {:.3g} {}, and of {:.3g} to {:.3g} {} in the others: a law in the {} takes both signs "
+                       "for opposite settings; if the leads were exchanged, correct the sign",
+                       channel, -sign * drives[k], unit, sign * (sign > 0.0 ? low : high),
+                       sign * (sign > 0.0 ? high : low), unit, channel)});
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<Remark> remarks_beside_others(const std::vector<Recording>& recordings) {
@@ -277,6 +334,7 @@ std::vector<Remark> remarks_beside_others(const std::vector<Recording>& recordin
   for (const Recording& recording : recordings) all.push_back(figures_of(recording));
   std::vector<Remark> remarks;
   tell_of_drives(recordings, remarks);
+  tell_of_signs(recordings, remarks);
   tell_of_zeros(recordings, remarks);
   tell_of_customary_units(recordings, all, remarks);
   const auto ranges = ranges_of_most(all);

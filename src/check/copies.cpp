@@ -3,10 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <map>
 #include <optional>
+#include <set>
 #include <span>
+#include <unordered_map>
 
 #include "io/velocity.hpp"
 
@@ -61,11 +65,100 @@ std::optional<double> difference_of_copy(const Recording& one, const Recording& 
   return std::max(*force, *displacement);
 }
 
+// Samples of a recording that are those of an earlier one.
+struct Shared {
+  std::size_t recording = 0;  // the earlier one
+  std::size_t first = 0;
+  std::size_t first_there = 0;
+  std::size_t count = 0;
+};
+
+// Finds stretches of samples that two recordings share. The force of every block of an earlier recording is known by
+// its hash, and looked for at every sample of a later one.
+class SharedSamples {
+ public:
+  explicit SharedSamples(const std::vector<Recording>& recordings) : recordings_(recordings) {
+    for (std::size_t k = 0; k < block; ++k) highest_ *= factor;
+  }
+
+  // The longest one with an earlier recording, a quarter of the shorter of both at least: a common rest at the start of
+  // simulated recordings is none.
+  [[nodiscard]] std::optional<Shared> longest(std::size_t k) const {
+    constexpr std::size_t part = 4;
+    const std::vector<double>& force = recordings_[k].force;
+    Shared best;
+    std::size_t end = 0;  // of the stretch found last
+    std::uint64_t hash = 0;
+    for (std::size_t n = 0; n < force.size(); ++n) {
+      hash = hash * factor + bits(force[n]);
+      if (n >= block) hash -= highest_ * bits(force[n - block]);
+      if (n + 1 < block || n < end) continue;
+      const auto known = blocks_.find(hash);
+      if (known == blocks_.end()) continue;
+      const Shared found = extended(k, n + 1 - block, known->second);
+      if (found.count < block) continue;
+      end = found.first + found.count;
+      const std::size_t shorter = std::min(force.size(), recordings_[found.recording].force.size());
+      if (found.count > best.count && part * found.count >= shorter) best = found;
+    }
+    return best.count > 0 ? std::optional(best) : std::nullopt;
+  }
+
+  // From now on recording k is an earlier one.
+  void add(std::size_t k) {
+    const std::vector<double>& force = recordings_[k].force;
+    if (recordings_[k].displacement.size() != force.size()) return;
+    for (std::size_t first = 0; first + block <= force.size(); first += block) {
+      if (!is_told_by(std::span(force).subspan(first, block))) continue;
+      std::uint64_t hash = 0;
+      for (std::size_t n = 0; n < block; ++n) hash = hash * factor + bits(force[first + n]);
+      blocks_.emplace(hash, Place{k, first});
+    }
+  }
+
+ private:
+  static constexpr std::size_t block = 32;
+  static constexpr std::uint64_t factor = 0x9E3779B97F4A7C15U;
+  struct Place {
+    std::size_t recording;
+    std::size_t first;
+  };
+
+  static std::uint64_t bits(double value) { return std::bit_cast<std::uint64_t>(value); }
+
+  // A force at rest, or in few steps of a converter, may be that of any recording.
+  static bool is_told_by(std::span<const double> values) {
+    std::set<double> different(values.begin(), values.end());
+    return 2 * different.size() > values.size();
+  }
+
+  [[nodiscard]] Shared extended(std::size_t k, std::size_t first, const Place& there) const {
+    const Recording& one = recordings_[k];
+    const Recording& other = recordings_[there.recording];
+    const auto same = [&](std::size_t n, std::size_t m) {
+      return one.force[n] == other.force[m] && one.displacement[n] == other.displacement[m];
+    };
+    std::size_t before = 0;
+    while (before < first && before < there.first && same(first - before - 1, there.first - before - 1)) ++before;
+    std::size_t behind = 0;
+    while (first + behind < one.force.size() && there.first + behind < other.force.size() &&
+           same(first + behind, there.first + behind)) {
+      ++behind;
+    }
+    return {there.recording, first - before, there.first - before, before + behind};
+  }
+
+  const std::vector<Recording>& recordings_;
+  std::uint64_t highest_ = 1;
+  std::unordered_map<std::uint64_t, Place> blocks_;
+};
+
 }  // namespace
 
 std::vector<Remark> remarks_on_copies(const std::vector<Recording>& recordings) {
   std::vector<Remark> remarks;
   std::map<std::string, std::string> first;  // of the same bytes
+  SharedSamples samples(recordings);
   for (std::size_t k = 0; k < recordings.size(); ++k) {
     const Recording& recording = recordings[k];
     const auto [known, fresh] = first.emplace(recording.sha256, recording.file);
@@ -74,6 +167,7 @@ std::vector<Remark> remarks_on_copies(const std::vector<Recording>& recordings) 
                          "holds the same bytes as " + known->second + ", so that neither is held out from the other"});
       continue;
     }
+    bool told = false;
     for (std::size_t before = 0; before < k; ++before) {
       const auto part = difference_of_copy(recording, recordings[before]);
       if (!part) continue;
@@ -81,8 +175,23 @@ std::vector<Remark> remarks_on_copies(const std::vector<Recording>& recordings) 
                          fmt::format("differs from {} by {:.2g} % of the standard deviation of displacement and force, "
                                      "sample by sample, as a copy does: neither is held out from the other",
                                      recordings[before].file, 100.0 * *part)});
+      told = true;
       break;
     }
+    // A copy of it would share the same samples.
+    if (told) continue;
+    if (const auto shared =
+            recording.displacement.size() == recording.force.size() ? samples.longest(k) : std::nullopt) {
+      const auto last = [&](std::size_t from) { return from + shared->count; };
+      remarks.push_back(
+          {recording.file, Remark::Kind::implausible, "shared samples",
+           fmt::format(
+               "samples {} to {} have the displacement and force of samples {} to {} of {}, digit for digit, as "
+               "a part cut out of one recording has: neither is held out from the other",
+               shared->first + 1, last(shared->first), shared->first_there + 1, last(shared->first_there),
+               recordings[shared->recording].file)});
+    }
+    samples.add(k);
   }
   return remarks;
 }

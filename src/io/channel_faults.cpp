@@ -42,6 +42,15 @@ constexpr double denser = 3.0;
 constexpr double least_silent = 0.1;
 constexpr std::size_t fewest_silent = 100;
 
+// At an end, so many do while the rod goes by this part of its span, where no other is longer than this part of them.
+// The jump there is so many times longer than each of this many steps beside it, and this part of the force's span.
+constexpr std::size_t fewest_at_an_end = 10;
+constexpr double goes_at_an_end = 0.05;
+constexpr double held_elsewhere = 0.25;
+constexpr double jump = 3.0;
+constexpr std::size_t steps_beside_jump = 8;
+constexpr double least_jump = 0.1;
+
 // A channel is frozen while the other one rises and falls by this part of its span ...
 constexpr double goes_on = 0.25;
 // ... and holds any other value for this part of the time at most: one of few values holds many of them so.
@@ -260,6 +269,35 @@ std::optional<Silence> silence_of(const std::vector<double>& values) {
   const bool long_enough = longest.count >= fewest_silent &&
                            static_cast<double>(longest.count) >= least_silent * static_cast<double>(values.size());
   return long_enough && longest.count < values.size() ? std::optional(longest) : std::nullopt;
+}
+
+std::optional<Silence> silence_at_an_end_of(const std::vector<double>& force, const std::vector<double>& displacement) {
+  if (force.size() != displacement.size() || silence_of(force)) return std::nullopt;
+  std::vector<Silence> silent;
+  for_each_run(force, [&](std::size_t first, std::size_t count) {
+    if (force[first] == 0.0) silent.push_back({first, count});
+  });
+  for (const Silence& one : silent) {
+    const std::size_t end = one.first + one.count;
+    const bool at_start = one.first == 0;
+    if (one.count < fewest_at_an_end || at_start == (end == force.size())) continue;
+    if (std::ranges::any_of(silent, [&](const Silence& other) {
+          return other.first != one.first &&
+                 static_cast<double>(other.count) > held_elsewhere * static_cast<double>(one.count);
+        })) {
+      continue;
+    }
+    const double way = span_of(std::span(displacement).subspan(one.first, one.count));
+    if (way < goes_at_an_end * span_of(displacement)) continue;
+    const std::size_t left = at_start ? force.size() - end : one.first;
+    const auto beside = [&](std::size_t k) { return force[at_start ? end + k : one.first - 1 - k]; };
+    double widest = 0.0;
+    for (std::size_t k = 0; k + 1 < left && k < steps_beside_jump; ++k) {
+      widest = std::max(widest, std::fabs(beside(k + 1) - beside(k)));
+    }
+    if (std::fabs(beside(0)) > std::max(jump * widest, least_jump * span_of(force))) return one;
+  }
+  return std::nullopt;
 }
 
 }  // namespace hysteron

@@ -35,6 +35,10 @@ struct Silence {
 };
 std::optional<Silence> silence_of(const std::vector<double>& values);
 
+// A shorter one at the start or the end while the rod moves, which the force enters or leaves by a jump and which has
+// no like elsewhere: a channel that was switched on late, or off early. A play is entered and left without a jump.
+std::optional<Silence> silence_at_an_end_of(const std::vector<double>& force, const std::vector<double>& displacement);
+
 // The largest or smallest value of the channel where samples running hold exactly that one, and it lies as far beyond
 // all others as they span, and many times further than any of their steps: -9999 for a sample that is missing.
 struct Placeholder {

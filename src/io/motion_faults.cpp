@@ -1,6 +1,7 @@
 #include "io/motion_faults.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <set>
@@ -38,6 +39,14 @@ constexpr std::size_t fewest_at_reversals = 4;
 // A channel that leaves its path stays away for so many samples at most; one of so many does.
 constexpr std::size_t longest_excursion = 2;
 constexpr std::size_t fewest_samples_each = 50;
+
+// At an end the path is that of a polynomial through the next samples, of one of these degrees: a high one follows the
+// motion, a low one has less noise. What it misses of so many samples is how well it tells. A corner between straight
+// lines is missed by two steps.
+constexpr std::array<std::size_t, 3> degrees = {1, 2, 3};
+constexpr std::size_t samples_that_tell = 16;
+constexpr std::size_t longest_end = 5;
+constexpr double more_than_a_corner = 3.0;
 
 // A dropout has so many samples at most, and there are so many.
 constexpr std::size_t longest_dropout = 10;
@@ -210,6 +219,57 @@ std::optional<Excursion> excursion_of(const std::vector<double>& time, const std
   const bool few = result.count * fewest_samples_each <= values.size();
   return result.count > 0 && few && furthest > longer * channel_noise(time, values) ? std::optional(result)
                                                                                     : std::nullopt;
+}
+
+std::optional<StrayEnd> stray_end_of(const std::vector<double>& time, const std::vector<double>& values) {
+  const std::size_t size = values.size();
+  if (size < 2 * (longest_end + samples_that_tell)) return std::nullopt;
+  const double usual = (time.back() - time.front()) / static_cast<double>(size - 1);
+  const double span = span_of(values);
+  std::optional<double> noise;  // when it is asked for
+  const auto reach = [&] {
+    return std::max(steps_beside, static_cast<std::size_t>(near * static_cast<double>(samples_a_stroke(values))));
+  };
+  for (const bool first : {true, false}) {
+    const auto index = [&](std::size_t k) { return first ? k : size - 1 - k; };  // counted from the end looked at
+    const auto value = [&](std::size_t k) { return values[index(k)]; };
+    const auto step = [&](std::size_t k) { return std::fabs(value(k + 1) - value(k)); };
+    // Of a sample, by those further in.
+    const auto path = [&](std::size_t k, std::size_t degree) {
+      double told = 0.0;
+      double binomial = 1.0;
+      for (std::size_t j = 1; j <= degree + 1; ++j) {
+        binomial *= static_cast<double>(degree + 2 - j) / static_cast<double>(j);
+        told += (j % 2 == 1 ? 1.0 : -1.0) * binomial * value(k + j);
+      }
+      return told;
+    };
+    for (std::size_t k = 0; k < longest_end; ++k) {
+      double widest = 0.0;
+      double longest = 0.0;  // s
+      for (std::size_t j = k + 1; j <= k + samples_that_tell; ++j) widest = std::max(widest, step(j));
+      for (std::size_t j = 0; j <= k + samples_that_tell; ++j) {
+        longest = std::max(longest, std::fabs(time[index(j + 1)] - time[index(j)]));
+      }
+      if (longest > 2.0 * usual) continue;
+      for (const std::size_t degree : degrees) {
+        double missed = 0.0;
+        for (std::size_t j = k + 1; j + degree + 1 <= k + 1 + samples_that_tell; ++j) {
+          missed = std::max(missed, std::fabs(value(j) - path(j, degree)));
+        }
+        const double size_of_it = std::fabs(value(k) - path(k, degree));
+        if (size_of_it <= std::max({longer * missed, more_than_a_corner * widest, least_leap * span})) continue;
+        if (!noise) noise = channel_noise(time, values);
+        const double enough = std::max(moving * size_of_it, longer * *noise);
+        if (size_of_it <= longer * *noise ||
+            !beside(values, index(k + 1), first, reach(), enough, size_of_it / more_than_a_corner).moves) {
+          continue;
+        }
+        return StrayEnd{index(k), path(k, degree), k + 1, first};
+      }
+    }
+  }
+  return std::nullopt;
 }
 
 std::optional<Dropouts> dropouts_of(const std::vector<double>& values) {

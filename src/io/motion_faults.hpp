@@ -1,6 +1,6 @@
-// What displacement and velocity show of faults of the motion's channels: samples that are lost, glitches, moments of
-// zeros, a channel that is slower than the log, and a recorded velocity that lags the slope of the displacement or is
-// off by a constant.
+// What displacement and velocity show of faults of the motion's channels: samples that are lost, glitches, also at the
+// ends, moments of zeros, a channel that is slower than the log, and a recorded velocity that lags the slope of the
+// displacement or is off by a constant.
 #pragma once
 
 #include <cstddef>
@@ -41,6 +41,17 @@ struct Excursion {
   std::size_t count = 0;
 };
 std::optional<Excursion> excursion_of(const std::vector<double>& time, const std::vector<double>& values);
+
+// A sample among the first or last five that is off the path which the samples behind it (before it, at the end) tell,
+// by many times what that misses any of these and more than their steps, while the channel moves: no sample tells of it
+// from the other side. Nothing beside a gap of the times.
+struct StrayEnd {
+  std::size_t at = 0;     // index of the sample next to the path
+  double told = 0.0;      // there, by the path
+  std::size_t count = 0;  // of samples from that end to it
+  bool first = false;     // at the start
+};
+std::optional<StrayEnd> stray_end_of(const std::vector<double>& time, const std::vector<double>& values);
 
 // Stretches of few samples that are exactly zero, two or more of them, entered and left by jumps many times longer than
 // any step of the channel elsewhere, and back to where it may have gone meanwhile: a sensor or a transmission that

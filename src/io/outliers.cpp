@@ -124,9 +124,14 @@ std::vector<Outlier> outliers_of_setting(const std::vector<double>& values) {
   const double level = peak_of(medians);
   if (!(level > 0.0)) return found;
   const double limit = std::max({span_of(medians), far_from_level * level, deviations * drive_noise(values)});
-  // A channel that begins or ends a sample late is none that strays.
-  for (std::size_t n = 2; n + 2 < values.size(); ++n) {
-    if (std::fabs(values[n] - medians[n]) > limit) found.push_back({n, medians[n], true});
+  // A channel that begins or ends a sample late is none that strays, unless it goes beyond what lies between off and
+  // its levels.
+  const auto [low, high] = std::ranges::minmax(medians);
+  for (std::size_t n = 0; n < values.size(); ++n) {
+    const bool at_an_end = n < 2 || n + 2 >= values.size();
+    const double off = at_an_end ? std::max(std::min(low, 0.0) - values[n], values[n] - std::max(high, 0.0))
+                                 : std::fabs(values[n] - medians[n]);
+    if (off > limit) found.push_back({n, medians[n], true});
   }
   if (found.size() * fewest_samples_each > values.size()) found.clear();
   return found;

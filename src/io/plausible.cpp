@@ -195,6 +195,48 @@ void tell_of_setting(const std::string& column, const UnitConversion& unit, cons
                            out.size() == 1 ? "" : "s"));
 }
 
+// A first or last sample that is off the path of the others.
+void tell_of_ends(const Recording& recording, Remarks& remarks) {
+  const auto tell = [&](const std::string& name, const StrayEnd& end, double value, double told,
+                        const std::string& unit) {
+    const std::string_view which = end.first ? "first" : "last";
+    const std::string number = std::to_string(end.count);
+    remarks.tell("stray end of " + name,
+                 fmt::format("the {} is {:.4g} {} in {}, at {:.4g} s, and the samples {} it tell {:.4g} {}, far beyond "
+                             "their steps: a sensor that was not ready, or a row that is no sample, looks so; cut {}",
+                             name, value, unit,
+                             end.count == 1 ? fmt::format("the {} sample", which)
+                                            : fmt::format("sample {}{}", number, end.first ? "" : " from the end"),
+                             recording.time[end.at], end.first ? "behind" : "before", told, unit,
+                             end.count == 1 ? "it" : fmt::format("the {} {} samples", which, number)));
+  };
+  // What the path tells has no more digits than a thousandth of what is off it.
+  const auto rounded = [](double told, double value) {
+    const double digit = std::pow(10.0, std::floor(std::log10(std::fabs(value - told))) - 3.0);
+    return digit * std::round(told / digit);
+  };
+  if (const auto end = stray_end_of(recording.time, recording.displacement)) {
+    const double value = recording.displacement[end->at];
+    tell("displacement", *end, 1e3 * value, 1e3 * rounded(end->told, value), "mm");
+    return;
+  }
+  // A force begins with a jump where the rod does: to a friction, from the neutral state. Beyond all others is another
+  // thing.
+  constexpr double beyond = 0.1;
+  const auto end = stray_end_of(recording.time, recording.force);
+  if (!end) return;
+  double low = end->told;
+  double high = end->told;
+  for (std::size_t n = 0; n < recording.size(); ++n) {
+    if (end->first ? n <= end->at : n >= end->at) continue;
+    low = std::min(low, recording.force[n]);
+    high = std::max(high, recording.force[n]);
+  }
+  const double value = recording.force[end->at];
+  if (std::max(low - value, value - high) > beyond * (high - low))
+    tell("force", *end, value, rounded(end->told, value), "N");
+}
+
 // Samples that are lost, a counter that overflowed, glitches unless those beyond the range are told, channels slower
 // than the log, and a velocity that is none.
 void tell_of_motion(const Recording& recording, const Sources& sources, const std::optional<Wrap>& wrap,
@@ -234,6 +276,7 @@ void tell_of_motion(const Recording& recording, const Sources& sources, const st
                              1e3 * glitch->from, 1e3 * recording.displacement[glitch->at], time[glitch->at],
                              glitch->count, glitch->count == 1 ? "" : "s"));
   }
+  if (!glitches_told && !glitch) tell_of_ends(recording, remarks);
   const double step = (time.back() - time.front()) / static_cast<double>(time.size() - 1);
   for (const auto& [name, values] :
        {std::pair("displacement", &recording.displacement), std::pair("force", &recording.force),
@@ -436,6 +479,16 @@ void remark_on_sizes(const Recording& recording, const Sources& sources, const s
                  fmt::format("the force is exactly 0 from {:.4g} to {:.4g} s, {} samples: a channel that was off "
                              "or a file that was padded looks so; cut them",
                              recording.time[silence->first], recording.time[last], silence->count));
+  }
+  if (const auto silence = silence_at_an_end_of(recording.force, recording.displacement)) {
+    const bool first = silence->first == 0;
+    remarks.tell(
+        "silence",
+        fmt::format("the force is exactly 0 in the {} {} samples, {} {:.4g} s, while the rod moves, and {} {:.4g} N at "
+                    "once: a channel that was switched {} looks so; cut them",
+                    first ? "first" : "last", silence->count, first ? "until" : "from",
+                    recording.time[first ? silence->count - 1 : silence->first], first ? "then" : "before that",
+                    recording.force[first ? silence->count : silence->first - 1], first ? "on late" : "off early"));
   }
   // A mass may rest while the force on it changes, and swing under one that does not.
   if (options.force_required && !recording.force.empty()) tell_of_motion_and_force(recording, remarks);

@@ -128,5 +128,28 @@ TEST(BesideOthers, InchesAndPoundsForceThatAreTakenForSi) {
   EXPECT_EQ(said_of({in_units("a", 1.0, 1.0), in_units("d", inch, lbf)}), Lines{}) << "of two either may be right";
 }
 
+TEST(BesideOthers, ADriveOfTheOtherSign) {
+  const auto of = [](const std::vector<double>& drives) {
+    std::vector<Recording> all;
+    for (const double drive : drives)
+      all.push_back(recording(std::string(1, static_cast<char>('a' + all.size())), {drive}));
+    return said_of(all);
+  };
+  EXPECT_EQ(of({0.0, -1.0, 0.5, 1.0, 0.2}),
+            Lines{"b: a current of -1 A, and of 0.2 to 1 A in the others: a law in the current takes both signs for "
+                  "opposite settings; if the leads were exchanged, correct the sign"});
+  EXPECT_EQ(of({0.0, -1.0, -0.5, 1.0, -0.2}),
+            Lines{"d: a current of 1 A, and of -1 to -0.2 A in the others: a law in the current takes both signs for "
+                  "opposite settings; if the leads were exchanged, correct the sign"});
+  // Driven both ways, in several recordings or in one; a level of its own; off.
+  EXPECT_EQ(of({-1.0, -0.5, 0.5, 1.0, 1.5}), Lines{});
+  EXPECT_EQ(of({-1.0, 0.0, 1.0}), Lines{});
+  EXPECT_EQ(of({-0.3, 0.5, 1.0, 2.0}), Lines{});
+  EXPECT_EQ(of({-0.01, 0.5, 0.01, 1.0, 1.0}), Lines{});
+  EXPECT_EQ(said_of({recording("a", {-1.0}), recording("b", {1.0}), recording("c", {0.5}), recording("d", {1.0}),
+                     recording("e", {1.0, -1.0})}),
+            Lines{});
+}
+
 }  // namespace
 }  // namespace hysteron

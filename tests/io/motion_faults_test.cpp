@@ -1,5 +1,6 @@
 #include "io/motion_faults.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -367,6 +368,45 @@ TEST(MotionFaults, ASampleOrTwoThatLeaveThePathWithinItsRange) {
   EXPECT_TRUE(std::ranges::none_of(
       remarks([](double t, int n) { return at(t) + (n >= 700 && n < 703 ? 0.005 : 0.0); }, true_v, true_f),
       [](const std::string& text) { return text.find("and back at once") != std::string::npos; }));
+}
+
+TEST(MotionFaults, AFirstOrLastSampleOffThePath) {
+  const auto off = [](int from, int to) {
+    return remarks([=](double t, int n) { return at(t) + (n >= from && n < to ? 0.004 : 0.0); }, true_v, true_f);
+  };
+  expect_one(off(0, 1),
+             "the displacement is 4 mm in the first sample, at 0 s, and the samples behind it tell 0 mm, far "
+             "beyond their steps: a sensor that was not ready, or a row that is no sample, looks so; cut it");
+  expect_one(off(1500, 1501), "the displacement is 4 mm in the last sample, at 3 s, and the samples before it tell ");
+  expect_one(off(0, 3),
+             "the displacement is 4.502 mm in sample 3, at 0.004 s, and the samples behind it tell 0.503 mm, far "
+             "beyond their steps: a sensor that was not ready, or a row that is no sample, looks so; cut the first 3 "
+             "samples");
+  expect_one(off(1497, 1498), "the displacement is 3.247 mm in sample 4 from the end, at 2.994 s");
+}
+
+// A rod that sets out, turns, or rests and goes on in steps is where it was told to be.
+TEST(MotionFaults, NothingIsSaidOfHowAMotionBegins) {
+  const auto of = [](const std::function<double(double)>& x) {
+    std::string text = "time [s],displacement [mm],force [N]\n";
+    for (int n = 0; n < 1000; ++n) {
+      const double t = 0.002 * n;
+      text += fmt::format("{:.4f},{:.4f},{:.3f}\n", t, x(t), 800.0 * std::cos(omega * t));
+    }
+    std::string said;
+    ReadOptions options;
+    options.force_required = false;
+    options.remark = [&](const Remark& remark) { said += remark.text.plain() + "\n"; };
+    (void)parse_csv(text, "a.csv", options);
+    return said.find("first sample") != std::string::npos || said.find("in sample") != std::string::npos;
+  };
+  const auto triangle = [](double t, double begin) { return 20.0 * std::fabs(std::remainder(t + begin, 1.0)); };
+  EXPECT_FALSE(of([&](double t) { return triangle(t, 0.498); }));
+  EXPECT_FALSE(of([&](double t) { return triangle(t, 0.497); }));
+  EXPECT_FALSE(of([](double t) { return t < 0.001 ? 0.0 : 10.0 * std::sin(omega * (t - 0.001)); }));
+  EXPECT_FALSE(of([](double t) { return 10.0 * std::cos(omega * t); }));
+  EXPECT_FALSE(of([](double t) { return 4.0 * std::ceil(t / 0.5); })) << "stairs";
+  EXPECT_TRUE(of([](double t) { return t == 0.0 ? 0.0 : 10.0 * std::cos(omega * t); }));
 }
 
 }  // namespace

@@ -234,7 +234,7 @@ TEST(Plausible, AFewStepsOfAConverterAreNoSaturation) {
 TEST(Plausible, AForceThatWasOff) {
   expect_one(remarks_on([](int n, double force) { return n < 300 ? force : 0.0; }),
              "the force is exactly 0 from 1.5 to 1.995 s, 100 samples");
-  EXPECT_TRUE(remarks_on([](int n, double force) { return n < 370 ? force : 0.0; }).empty());
+  EXPECT_TRUE(remarks_on([](int n, double force) { return n < 395 ? force : 0.0; }).empty());
 }
 
 // What is remarked of a displacement and a force made of the phase, 400 samples over 24 rad.
@@ -260,6 +260,26 @@ std::vector<std::string> remarks_on_both(const std::function<double(int sample, 
 double sine(int /*sample*/, double phase) { return 10.0 * std::sin(phase); }
 double viscous(int /*sample*/, double phase) { return 800.0 * std::cos(phase); }
 double friction(int /*sample*/, double phase) { return std::cos(phase) > 0.0 ? 500.0 : -500.0; }
+
+// Where a file begins and ends no sample tells from the other side.
+TEST(Plausible, AForceThatBeginsLate) {
+  expect_one(remarks_on([](int n, double force) { return n < 20 ? 0.0 : force; }),
+             "the force is exactly 0 in the first 20 samples, until 0.095 s, while the rod moves, and then 289.9 N at "
+             "once: a channel that was switched on late looks so; cut them");
+  expect_one(remarks_on([](int n, double force) { return n >= 370 ? 0.0 : force; }),
+             "the force is exactly 0 in the last 30 samples, from 1.85 s, while the rod moves, and before that ");
+  // A play, which is crossed again and again, and one from which the force rises without a jump.
+  EXPECT_TRUE(remarks_on([](int, double force) { return std::fabs(force) < 400.0 ? 0.0 : force; }).empty());
+  EXPECT_TRUE(
+      remarks_on([](int n, double force) { return n < 20 ? 0.0 : force * std::min(1.0, 0.02 * (n - 19)); }).empty());
+}
+
+// Dampers have their largest force anywhere, and a friction begins with a jump; beyond all others is another thing.
+TEST(Plausible, AForceThatBeginsBeyondAllOthers) {
+  expect_one(remarks_on([](int n, double force) { return n == 0 ? 1300.0 : force; }),
+             "the force is 1300 N in the first sample, at 0 s, and the samples behind it tell 802.9 N");
+  EXPECT_TRUE(remarks_on([](int n, double force) { return n == 0 ? 0.0 : force; }).empty());
+}
 
 TEST(Plausible, AForceThatFroze) {
   const auto frozen = [](int n, double phase) { return viscous(n, n < 250 ? phase : 15.0); };
@@ -376,6 +396,12 @@ TEST(Plausible, ANumberThatStandsForMissingSamplesOfASetting) {
 TEST(Plausible, ADriveThatStrays) {
   expect_one(remarks_on_setting("current [A]", {}, [](int n) { return n == 140 ? 30.0 : 2.0; }),
              "column 'current [A]' is 30 at 0.7 s where its neighbours tell 2, 1 sample like that");
+  // The first sample and the last.
+  for (const int end : {0, 399}) {
+    expect_one(remarks_on_setting("current [A]", {}, [&](int n) { return n == end ? 30.0 : 2.0; }),
+               end == 0 ? "column 'current [A]' is 30 at 0 s where its neighbours tell 2, 1 sample like that"
+                        : "column 'current [A]' is 30 at 1.995 s where its neighbours tell 2, 1 sample like that");
+  }
   // Switched, late by a sample, in steps of a converter, off.
   EXPECT_TRUE(
       remarks_on_setting("current [A]", {}, [](int n) { return n / 20 % 2 == 0 || n == 70 ? 2.0 : 0.0; }).empty());
