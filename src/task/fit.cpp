@@ -13,6 +13,7 @@
 #include "fit/usable.hpp"
 #include "fit/weighting.hpp"
 #include "report/terminal.hpp"
+#include "task/excitation_faults.hpp"
 #include "task/finite.hpp"
 #include "task/fit_quality.hpp"
 #include "task/laws.hpp"
@@ -316,15 +317,21 @@ void check_before(const Layout& layout, const FitData& data, const FitRequest& r
                   Option::fix + " PARAMETER=0, a law without it, or recordings with time");
 }
 
-// Whether the force is another without the drive: laws follow it, or equations take it themselves.
-bool follows_drive(const Identification& result, const Recording& recording, const ObjectiveOptions& objective) {
+// Whether laws were asked to follow the drive, or equations take it themselves. What was found does not count: where
+// all values of a law lie on one end of their box it was asked for all the same.
+bool follows_drive(const Layout& layout, const Recording& recording, const ObjectiveOptions& objective) {
+  const auto in_drive = [](const ParameterLaw& law) { return law.drive_nodes.size() > 1; };
+  if (std::ranges::any_of(layout.laws(), in_drive)) return true;
+  const std::vector<Term> middle = layout.terms(std::vector<double>(layout.dimension(), 0.5));
   const auto force = [&](const Recording& on) {
-    return predict(result.layout.model(), result.layout.held(), result.terms, make_target(on, objective));
+    return predict(layout.model(), layout.held(), middle, make_target(on, objective));
   };
   Recording without = recording;
   without.drive.clear();
   without.drive_kind = DriveKind::none;
-  return force(recording) != force(without);
+  // Numbers that are none, of a model that runs away in the middle of its box, are no difference.
+  return !std::ranges::equal(force(recording), force(without),
+                             [](double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); });
 }
 
 // "alpha:1,c0:1": the laws that `diagnose` assumes.
@@ -344,7 +351,7 @@ Message drive_hint(const Identification& result, const std::vector<Recording>& r
   const auto largest = [](const Recording& recording) { return peak_of(recording.drive); };
   const std::size_t levels = drive_levels(recordings);
   if (kind == DriveKind::none || !of_one_kind || levels < 2 ||
-      follows_drive(result, *std::ranges::max_element(recordings, {}, largest), objective)) {
+      follows_drive(result.layout, *std::ranges::max_element(recordings, {}, largest), objective)) {
     return "";
   }
   const std::string drive = kind == DriveKind::voltage ? "voltage" : "current";
@@ -364,6 +371,11 @@ FitData fit_data(Campaign campaign, FitRequest& request) {
     data.responses = std::move(data.campaign.recordings);
     request.rig->base = on_base(request.excitation, data.responses);
     data.remarks = free_decays(data.responses);
+    std::vector<Remark> faults;
+    for (const Recording& recording : data.responses) {
+      for (Remark& remark : faults_of_excitation(recording, request.rig->base)) faults.push_back(std::move(remark));
+    }
+    append(data.remarks, told_once(faults));
     data.campaign.recordings = damper_recordings(data.responses, *request.rig);
   }
   data.model = request.model.empty() ? data.campaign.model : request.model;

@@ -11,6 +11,7 @@
 #include "core/frequency.hpp"
 #include "core/message.hpp"
 #include "respond/one_period.hpp"
+#include "task/excitation_faults.hpp"
 #include "task/guesses.hpp"
 #include "task/remarks.hpp"
 
@@ -136,6 +137,7 @@ MassResponse response_to(StoredModel stored, const std::string& path, Recording 
     throw OptionError(Option::interpolation +
                       " linear: straight lines of a base have no acceleration, expected cubic or band-limited");
   }
+  append(remarks, told_once(faults_of_excitation(recording, base)));
   if (request.periods > 0) close_period(recording, base, remarks);
   Recording as_motion = recording;
   as_motion.displacement = base ? ground_of(recording) : recording.force;
@@ -169,6 +171,7 @@ MassResponse response_to(StoredModel stored, const std::string& path, Recording 
   as_motion.displacement = motion.displacement;
   as_motion.velocity = motion.velocity;
   append(remarks, beyond_fitted(stored, path, {as_motion}));
+  if (recording.displacement.empty()) append(remarks, told_once(slowness_of(recording, as_motion, base)));
   return table_of(recording, excitation, motion);
 }
 

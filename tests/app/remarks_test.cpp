@@ -118,8 +118,9 @@ TEST_F(Remarks, EveryCommandSaysWhatUnitAModelIsTakenIn) {
 // Whoever has no time, or mistypes what a law follows, reads what helps.
 TEST_F(Remarks, RefusalsOfColumnsSayWhatHelps) {
   write(folder_ / "untimed.csv", "displacement [mm],force [N]\n0,1\n1,2\n2,3\n");
-  EXPECT_NE(run({"fit", "untimed.csv", "--model", "bouc-wen", "--out", "o"}).err.find("needs none, with --without-time"),
-            std::string::npos);
+  EXPECT_NE(
+      run({"fit", "untimed.csv", "--model", "bouc-wen", "--out", "o"}).err.find("needs none, with --without-time"),
+      std::string::npos);
   const Outcome mistyped = run({"fit", "data", "--model", "viscous", "--by", "curent=c0:1", "--out", "o"});
   EXPECT_NE(mistyped.err.find("(did you mean 'current'?)"), std::string::npos) << mistyped.err;
 }
@@ -195,8 +196,9 @@ TEST_F(Remarks, NumbersThatAreNoneAreRefused) {
 // Two currents, and a model that knows of none.
 TEST_F(Remarks, ADriveThatNoParameterFollowsIsSaidWithWhatWould) {
   const auto fitted = [&](const std::vector<std::string>& more) {
-    Words words{"fit", "data", "--model", "bouc-wen", "--budget", "400", "--quiet", "--out", "f"};
+    Words words{"fit", "data", "--budget", "400", "--quiet", "--out", "f"};
     words.insert(words.end(), more.begin(), more.end());
+    if (std::ranges::find(more, "--model") == more.end()) words.insert(words.end(), {"--model", "bouc-wen"});
     const Outcome outcome = run(words);
     EXPECT_EQ(outcome.status, 0) << outcome.err;
     return outcome.err;
@@ -207,7 +209,17 @@ TEST_F(Remarks, ADriveThatNoParameterFollowsIsSaidWithWhatWould) {
   EXPECT_EQ(std::ranges::count(warnings, json(hint + "by current alpha:1,c0:1")), 1) << warnings;
   EXPECT_NE(read(folder_ / "f/report.html").find(hint), std::string::npos);
   EXPECT_EQ(fitted({"--by-current", "c0:1"}).find("levels of the current"), std::string::npos);
+  // Asked for is asked for, also where every value of the law lies on one end of its box.
+  write(folder_ / "data/r1.csv", csv(1.0, 0.2, 80, -1.0));
+  write(folder_ / "data/r2.csv", csv(2.0, 0.8, 80, -1.0));
+  EXPECT_EQ(fitted({"--model", "viscous", "--by-current", "c0:1", "--fix", "k0=0", "--fix", "f0=0"})
+                .find("no parameter follows it"),
+            std::string::npos);
+  for (const json& one : json::parse(read(folder_ / "f/model.json")).at("parameters")) {
+    EXPECT_EQ(one.at("value"), 0.0) << one;
+  }
   // One current is nothing to follow.
+  write(folder_ / "data/r1.csv", csv(1.0, 0.2));
   write(folder_ / "data/r2.csv", csv(2.0, 0.2));
   EXPECT_EQ(fitted({}).find("levels of the current"), std::string::npos);
 }

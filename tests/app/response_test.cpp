@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -174,6 +175,135 @@ TEST_F(ResponseOfAMass, TheHystereticOscillatorIsIdentified) {
     square += std::pow(simulated[n] - measured[n], 2.0) / static_cast<double>(period);
   }
   EXPECT_LT(std::sqrt(square), 1e-6);
+}
+
+// What is told of the recordings of a damper is told of what excites a mass.
+class Excitation : public ResponseOfAMass {
+ protected:
+  // A sine of two seconds at 500 Hz under this header, with what `change` makes of time (s) and value of a sample.
+  void excite(const std::string& head, double size, const std::function<bool(int, double&, double&)>& change) const {
+    std::string text = head + "\n";
+    for (int n = 0; n < 1000; ++n) {
+      double t = n / 500.0;
+      double value = size * std::sin(9.0 * t) * std::min(1.0, 4.0 * t);
+      if (change(n, t, value)) text += fmt::format("{},{}\n", t, value);
+    }
+    write(folder_ / "excitation.csv", text);
+  }
+  // What is said when it moves a mass.
+  [[nodiscard]] std::string told() const {
+    const Outcome outcome = run({"respond", "damper.json", "excitation.csv", "--mass", "2", "--out", "motion.csv"});
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    return outcome.err;
+  }
+
+  static bool plain(int /*n*/, double& /*t*/, double& /*value*/) { return true; }
+  static bool with_gap(int n, double& /*t*/, double& /*value*/) { return n < 400 || n > 600; }
+  static bool in_ms(int /*n*/, double& t, double& /*value*/) {
+    t *= 1000.0;
+    return true;
+  }
+};
+
+TEST_F(Excitation, AsItShouldBeIsNotRemarkedOn) {
+  excite("time [s],force [N]", 20.0, plain);
+  EXPECT_EQ(told(), "");
+  excite("time [s],base [mm]", 5.0, plain);
+  EXPECT_EQ(told(), "");
+  // A blow from rest, and a load that is put on at once.
+  excite("time [s],force [N]", 20.0, [](int n, double& /*t*/, double& value) {
+    value = n == 300 ? 500.0 : 0.0;
+    return true;
+  });
+  EXPECT_EQ(told(), "");
+  excite("time [s],force [N]", 20.0, [](int n, double& /*t*/, double& value) {
+    value = n < 300 ? 0.0 : 50.0;
+    return true;
+  });
+  EXPECT_EQ(told(), "");
+}
+
+TEST_F(Excitation, AGapInItsTimesIsTold) {
+  for (const auto& [head, size] : {std::pair{"time [s],force [N]", 20.0}, {"time [s],base [mm]", 5.0}}) {
+    excite(head, size, with_gap);
+    EXPECT_EQ(
+        told(),
+        "warning: excitation.csv: no samples for 0.404 s from 0.798 s on, 202 times the usual spacing: the motion "
+        "in between is taken to be smooth\n");
+  }
+}
+
+TEST_F(Excitation, TimesInMillisecondsAreTold) {
+  excite("time,force [N]", 20.0, in_ms);
+  EXPECT_NE(told().find("warning: excitation.csv: the mass moves by "), std::string::npos);
+  excite("time,base [mm]", 5.0, in_ms);
+  EXPECT_NE(told().find("excitation.csv: the base moves by 10 mm at "), std::string::npos);
+  EXPECT_NE(told().find(" mm/s at most: check the unit of the time, as in time [ms]\n"), std::string::npos);
+}
+
+TEST_F(Excitation, ABaseInMillimetresWithoutTheirUnitIsTold) {
+  excite("time [s],base", 5.0, plain);
+  EXPECT_NE(told().find("warning: excitation.csv: base: a stroke of 10 m is not of a damper's size: check the unit of "
+                        "column 'base'\n"),
+            std::string::npos);
+}
+
+TEST_F(Excitation, ASampleThatStandsOutIsTold) {
+  const auto spike = [](int n, double& /*t*/, double& value) {
+    if (n == 700) value *= -100.0;
+    return true;
+  };
+  excite("time [s],force [N]", 20.0, spike);
+  EXPECT_NE(told().find("warning: excitation.csv: a force of -67.2 N at 1.4 s where its neighbours tell 0.672 N"),
+            std::string::npos)
+      << told();
+  excite("time [s],base [mm]", 5.0, spike);
+  EXPECT_NE(told().find("warning: excitation.csv: a displacement of the base of -0.0"), std::string::npos) << told();
+  // Within its range.
+  excite("time [s],force [N]", 20.0, [](int n, double& /*t*/, double& value) {
+    if (n == 700) value = -15.0;
+    return true;
+  });
+  EXPECT_NE(told().find("warning: excitation.csv: a force of -15 N at 1.4 s where its neighbours tell "),
+            std::string::npos)
+      << told();
+}
+
+// By `fit --response` too, and in its results.
+TEST_F(Excitation, ABaseThatAModelIsIdentifiedFromIsChecked) {
+  excite("time [s],base [mm]", 5.0, plain);
+  ASSERT_EQ(run({"respond", "damper.json", "excitation.csv", "--mass", "2", "--out", "moved.csv"}).status, 0);
+  // The columns that a rig records.
+  const auto recorded = [&](const std::string& head, const std::function<double(int, double)>& change) {
+    std::stringstream moved(read(folder_ / "moved.csv"));
+    std::string line;
+    std::getline(moved, line);
+    std::string text = head + "\n";
+    for (int n = 0; std::getline(moved, line); ++n) {
+      std::vector<double> cells;
+      std::stringstream row(line);
+      for (std::string cell; std::getline(row, cell, ',');) cells.push_back(std::stod(cell));
+      text += fmt::format("{},{},{}\n", cells[0], change(n, 1e3 * cells[5]), 1e3 * cells[1]);
+    }
+    write(folder_ / "shaker/motion.csv", text);
+    const Outcome outcome = fit_response();
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    const std::string told = json::parse(read(folder_ / "out/fit.json")).at("warnings").dump();
+    return std::pair(outcome.err, told);
+  };
+  const std::string head = "time [s],base [mm],displacement [mm]";
+  const auto same = [](int /*n*/, double b) { return b; };
+  EXPECT_EQ(recorded(head, same).first.find("base"), std::string::npos);
+  const std::string no_unit = "base: a stroke of 10 m is not of a damper's size: check the unit of column 'base'";
+  const auto [err, warnings] = recorded("time [s],base,displacement [mm]", same);
+  EXPECT_NE(err.find(no_unit), std::string::npos) << err;
+  EXPECT_NE(warnings.find(no_unit), std::string::npos) << warnings;
+  EXPECT_NE(recorded(head, [](int n, double b) { return n == 700 ? b + 50.0 : b; })
+                .first.find("a displacement of the base of 0.05"),
+            std::string::npos);
+  EXPECT_NE(recorded(head, [](int n, double b) { return n > 500 ? b + 3.0 : b; })
+                .first.find("base: the displacement leaps by "),
+            std::string::npos);
 }
 
 }  // namespace
