@@ -144,7 +144,9 @@ class Model:
         if motion is not None:
             motion = as_recording(motion, "motion", motion_only=True)[0]._core
         at = {str(key): str(value) for key, value in (at or {}).items()}
-        return Export(*_hysteron.export_to(self._stored, at, motion, options))
+        *result, remarks = _hysteron.export_to(self._stored, self._called, at, motion, options)
+        _words.warn(remarks)
+        return Export(*result)
 
     def _one(self, recording, what, **read):
         recording, at = as_recording(recording, what, conditions=self.json.get("by", ()), **read)

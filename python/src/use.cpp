@@ -129,8 +129,8 @@ py::tuple respond(const StoredModel& stored, const std::string& path, const Reco
   return py::make_tuple(response.names, columns, py::bytes(response.csv()), remarks);
 }
 
-// Files by name, the paths they were written to where `out` says, and the note.
-py::tuple export_to(const StoredModel& stored, const std::map<std::string, std::string>& at,
+// Files by name, the paths they were written to where `out` says, the note, and remarks.
+py::tuple export_to(const StoredModel& stored, const std::string& path, const std::map<std::string, std::string>& at,
                     const std::optional<RecordingPointer>& motion, const py::dict& values) {
   const Options options(values);
   ExportRequest request;
@@ -141,13 +141,15 @@ py::tuple export_to(const StoredModel& stored, const std::map<std::string, std::
   request.most_substeps = options.get<int>("most_substeps");
   request.substeps = options.get<int>("substeps");
   ModelExport result;
+  Remarks remarks;
   std::vector<std::string> paths;
   {
     const py::gil_scoped_release released;
-    result = export_model(stored, numbers_of(at), motion ? std::optional(**motion) : std::nullopt, request);
+    result =
+        export_model(stored, path, numbers_of(at), motion ? std::optional(**motion) : std::nullopt, request, remarks);
     if (!request.out.empty()) paths = write_export(result);
   }
-  return py::make_tuple(bytes_of(result.files), paths, result.note);
+  return py::make_tuple(bytes_of(result.files), paths, result.note, remarks);
 }
 
 }  // namespace

@@ -11,7 +11,6 @@
 #include "app/values.hpp"
 #include "core/error.hpp"
 #include "core/printable.hpp"
-#include "task/guesses.hpp"
 
 namespace hysteron::app {
 namespace {
@@ -42,10 +41,16 @@ void run(const Options& options) {
   const std::string& out = options.request.out;
   refuse_inputs(out, {options.model, options.motion});
   StoredModel stored = read_model(options.model);
-  warn_of(units_assumed(stored, options.model));
   const std::optional<Recording> motion = motion_of(options);
-  if (motion) warn_of(drive_assumed(stored, options.model, {*motion}));
-  const ModelExport result = export_model(std::move(stored), numbers_at(options.data), motion, options.request);
+  std::vector<std::string> remarks;
+  ModelExport result;
+  try {
+    result = export_model(std::move(stored), options.model, numbers_at(options.data), motion, options.request, remarks);
+  } catch (...) {
+    warn_of(remarks);  // a force that runs away may do so for what they say
+    throw;
+  }
+  warn_of(remarks);
   if (!is_standard_output(out)) {
     for (const std::string& path : write_export(result)) {
       fmt::print("{}\n", printable(path));

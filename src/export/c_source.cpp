@@ -280,6 +280,7 @@ CSource c_source(const ExportedModel& exported, const TestVector& vector) {
   const std::pair<const char*, std::string> numbers[] = {
       {"@title@", quoted(exported.title())},
       {"@drive@", exported.about_drive()},
+      {"@set_drive@", takes_drive(exported, links) ? "\n *     now.drive = ...;    in " + exported.about_drive() : ""},
       {"@room@", std::to_string(std::max(states, 1))},
       {"@parameters@", std::to_string(exported.model.parameter_count())},
       {"@memories@", std::to_string(std::max(memories, 1))},

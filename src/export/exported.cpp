@@ -57,9 +57,8 @@ std::string ExportedModel::about_drive() const {
 
 namespace {
 
-// Where the drive is given ahead: whether equations take that of the sample, or operations on the drive parameters
-// at it.
-bool needs_drive_of_sample(const ExportedModel& exported, const ExportedLink& link) {
+// Whether the equations of a part take the drive itself.
+bool in_equations(const ExportedLink& link) {
   const PartEquations& e = link.equations;
   for (const std::optional<Function>* function : {&e.drive, &e.rate, &e.force, &e.towards}) {
     if (!*function) continue;
@@ -68,6 +67,14 @@ bool needs_drive_of_sample(const ExportedModel& exported, const ExportedLink& li
       return true;
     }
   }
+  return false;
+}
+
+// Where the drive is given ahead: whether equations take that of the sample, or operations on the drive parameters
+// at it.
+bool needs_drive_of_sample(const ExportedModel& exported, const ExportedLink& link) {
+  if (in_equations(link)) return true;
+  const PartEquations& e = link.equations;
   const std::size_t end = link.parameter + link.part->parameters.size();
   return (e.excite || e.recall) && std::ranges::any_of(exported.terms, [&](const Term& term) {
            const bool varies = term.drive_power > 0 || (e.recall && term.frequency_power > 0);
@@ -118,6 +125,10 @@ std::vector<ExportedLink> links_of(const ExportedModel& exported) {
     }
   }
   return result;
+}
+
+bool takes_drive(const ExportedModel& exported, const std::vector<ExportedLink>& links) {
+  return exported.follows_drive() || std::ranges::any_of(links, in_equations);
 }
 
 Recording motion_for_testing() {

@@ -45,6 +45,8 @@ struct ExportedLink {
 };
 // Throws InputError where the model needs the drive of a sample and the drive ahead of it.
 std::vector<ExportedLink> links_of(const ExportedModel& exported);
+// Whether the force is another under another drive: parameters follow it, or equations take it.
+bool takes_drive(const ExportedModel& exported, const std::vector<ExportedLink>& links);
 
 // Samples as simulate sees them.
 struct TestSample {

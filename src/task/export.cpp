@@ -12,6 +12,8 @@
 #include "export/targets.hpp"
 #include "io/output.hpp"
 #include "report/terminal.hpp"
+#include "task/guesses.hpp"
+#include "task/remarks.hpp"
 #include "task/result_file.hpp"
 
 namespace hysteron {
@@ -89,11 +91,21 @@ std::string held_at(const StoredModel& stored, const std::map<std::string, Condi
 
 }  // namespace
 
-ModelExport export_model(StoredModel stored, const std::map<std::string, ConditionNumber>& at,
-                         const std::optional<Recording>& motion, const ExportRequest& request) {
+ModelExport export_model(StoredModel stored, const std::string& path, const std::map<std::string, ConditionNumber>& at,
+                         const std::optional<Recording>& motion, const ExportRequest& request,
+                         std::vector<std::string>& remarks) {
   const ExportTarget& target = export_target(request.to);
   const std::string conditions = held_at(stored, at);
+  const std::vector<std::string> guessed = held_beyond_fitted(stored, path, at);
   hold_conditions(stored, at, "export");
+  if (motion) {
+    check_drive(stored, path, *motion);
+    append(remarks, guesses_of(stored, path, {*motion}));
+    append(remarks, beyond_fitted(stored, path, {*motion}));
+  } else {
+    append(remarks, units_assumed(stored, path));
+  }
+  append(remarks, guessed);
   ExportedModel exported{stored.model, stored.held, stored.terms, request.name};
   exported.tolerance = request.tolerance;
   exported.most_substeps = request.most_substeps;

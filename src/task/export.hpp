@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/recording.hpp"
 #include "export/exported.hpp"
@@ -28,11 +29,13 @@ struct ModelExport {
 };
 
 // `motion` is what the test vector replays, of a recording; none: a motion of 10 mm and a drive about 0.5. `at` gives
-// values of the conditions that laws follow. Throws InputError for a wrong word or name, for what cannot be exported,
-// and where a file that hysteron did not write would be replaced, WorkError where there is no force to check a copy
-// with.
-ModelExport export_model(StoredModel stored, const std::map<std::string, ConditionNumber>& at,
-                         const std::optional<Recording>& motion, const ExportRequest& request);
+// values of the conditions that laws follow, `path` is the model's in messages; `remarks` are of what the model is
+// asked beyond what it was fitted on. Throws InputError for a wrong word or name, for what cannot be exported, for a
+// motion with another drive than the model's, and where a file that hysteron did not write would be replaced, WorkError
+// where there is no force to check a copy with.
+ModelExport export_model(StoredModel stored, const std::string& path, const std::map<std::string, ConditionNumber>& at,
+                         const std::optional<Recording>& motion, const ExportRequest& request,
+                         std::vector<std::string>& remarks);
 
 // Writes the files, making folders, and returns their paths in order.
 std::vector<std::string> write_export(const ModelExport& model);

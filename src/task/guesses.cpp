@@ -155,6 +155,26 @@ std::vector<std::string> beyond_fitted(const StoredModel& stored, const std::str
   return remarks;
 }
 
+std::vector<std::string> held_beyond_fitted(const StoredModel& stored, const std::string& path,
+                                            const std::map<std::string, ConditionNumber>& at) {
+  std::vector<std::string> remarks;
+  for (const ConditionRange& condition : stored.conditions) {
+    const auto held = at.find(condition.name);
+    if (held == at.end() || !(condition.high > condition.low)) continue;
+    const double value = held->second.value;
+    const std::pair range(condition.low, condition.high);
+    Farthest farthest;
+    farthest.look(range, path, value, value);
+    if (farthest.count == 0) continue;
+    const std::string unit = condition.unit.empty() ? "" : " " + condition.unit;
+    remarks.push_back(
+        fmt::format("{}: held at a {} of {:.3g}{}, and its laws were fitted from {:.3g} to {:.3g}{}: what they say "
+                    "beyond is a guess",
+                    path, condition.name, value, unit, condition.low, condition.high, unit));
+  }
+  return remarks;
+}
+
 void refuse_excitation(const StoredModel& stored, const std::string& path, const std::vector<Recording>& recordings,
                        std::vector<std::string>& remarks) {
   if (!stored.from_response || recordings.empty()) return;

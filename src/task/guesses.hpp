@@ -1,6 +1,7 @@
 // What a model is asked that it was not fitted to tell.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,10 @@ std::vector<std::string> guesses_of(const StoredModel& stored, const std::string
 // on. The displacement is the damper's own: of a response, what was worked out.
 std::vector<std::string> beyond_fitted(const StoredModel& stored, const std::string& path,
                                        const std::vector<Recording>& recordings);
+
+// Remarks where conditions are held (hold_conditions) at values as far beyond those that the laws were fitted over.
+std::vector<std::string> held_beyond_fitted(const StoredModel& stored, const std::string& path,
+                                            const std::map<std::string, ConditionNumber>& at);
 
 // Of a model identified from the motion of a mass: InputError for a recording that it was identified from, whose force
 // excites the mass; a remark for any other, whose force has to be the damper's own.

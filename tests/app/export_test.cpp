@@ -144,5 +144,66 @@ TEST_F(Exported, WhatIsWrittenSaysAtWhichConditionsItHolds) {
   }
 }
 
+// As simulate, score and respond refuse it.
+TEST_F(Exported, AVoltageIsNoCurrent) {
+  std::string volts = testing::csv(1.0, 12.0);
+  volts.replace(volts.find("current [A]"), 11, "voltage [V]");
+  testing::write(folder_ / "volts.csv", volts);
+  refused(
+      {"export", "fitted/model.json", "--to", "c", "--motion", "volts.csv", "--out", "out"},
+      "error: volts.csv: records a voltage, expected a current: parameters of fitted/model.json follow the current");
+}
+
+TEST_F(Exported, AMotionBeyondWhatWasFittedIsTold) {
+  testing::write(folder_ / "far.csv", testing::csv(1.0, 9.0));
+  const auto told = [&](const std::string& motion) {
+    const Outcome outcome = run({"export", "fitted/model.json", "--to", "c", "--motion", motion, "--out", "moved"});
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    return outcome.err;
+  };
+  EXPECT_EQ(told("far.csv"),
+            "warning: far.csv: a current of 9 A, and the laws of fitted/model.json were fitted from 0.2 to 0.8 A: what "
+            "they say beyond is a guess\n");
+  EXPECT_EQ(told("data/r1.csv"), "");
+  std::string wide = testing::csv(1.0, 0.5);
+  for (const auto& [from, to] : {std::pair{"[m]", "[dam]"}, {"[m/s]", "[dam/s]"}}) {
+    wide.replace(wide.find(from), std::string(from).size(), to);
+  }
+  testing::write(folder_ / "wide.csv", wide);
+  EXPECT_NE(told("wide.csv").find("wide.csv: a displacement of "), std::string::npos);
+}
+
+TEST_F(Exported, AConditionHeldBeyondWhatWasFittedIsTold) {
+  const fs::path path = folder_ / "fitted/model.json";
+  nlohmann::json model = nlohmann::json::parse(testing::read(path));
+  model["by"]["pressure"] = {{"unit", "Pa"}, {"from", 1e5}, {"to", 3e5}, {"parameters", {{"f0", 1}}}};
+  model["parameters"].push_back({{"name", "f0*pressure"},
+                                 {"parameter", "f0"},
+                                 {"condition_powers", {{"pressure", 1}}},
+                                 {"value", 1e-5},
+                                 {"unit", "N/Pa"}});
+  testing::write(folder_ / "pressed.json", model.dump());
+  const auto told = [&](const std::string& at) {
+    const Outcome outcome = run({"export", "pressed.json", "--to", "c", "--at", at, "--out", "pressed"});
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    return outcome.err;
+  };
+  EXPECT_EQ(told("pressure=2.1 bar"), "");
+  const std::string fitted = ", and its laws were fitted from 1e+05 to 3e+05 Pa: what they say beyond is a guess\n";
+  EXPECT_EQ(told("pressure=-3 bar"), "warning: pressed.json: held at a pressure of -3e+05 Pa" + fitted);
+  EXPECT_EQ(told("pressure=2"), "warning: pressed.json: held at a pressure of 2 Pa" + fitted);
+}
+
+// Copied without it a model that follows the current runs at 0 A.
+TEST_F(Exported, TheExampleInTheHeaderSetsTheDriveWhereThereIsOne) {
+  ASSERT_EQ(run({"export", "fitted/model.json", "--to", "c", "--out", "c"}).status, 0);
+  EXPECT_NE(testing::read(folder_ / "c/bouc_wen.h").find(" *     now.drive = ...;    in A\n"), std::string::npos);
+  ASSERT_EQ(run({"fit", "data", "--model", "viscous", "--quiet", "--out", "plain"}).status, 0);
+  ASSERT_EQ(run({"export", "plain/model.json", "--to", "c", "--out", "without"}).status, 0);
+  const std::string header = testing::read(folder_ / "without/viscous.h");
+  EXPECT_NE(header.find("now.velocity = ...;\n"), std::string::npos);
+  EXPECT_EQ(header.find("now.drive"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace hysteron

@@ -7,7 +7,7 @@
  *   @name@_start(&damper, @frequency@);
  *   for (;;) {
  *     @name@_input now = {0};
- *     now.time = ...; now.displacement = ...; now.velocity = ...;
+ *     now.time = ...; now.displacement = ...; now.velocity = ...;@set_drive@
  *     @name@_derive(&damper, &now);    where slope, acceleration and jerk are not known
  *     force = @name@_step(&damper, &now);
  *   }
