@@ -136,6 +136,7 @@ void run(const Options& options) {
   std::optional<Checkpoint> checkpoint;
   if (to_files) {
     check_output_folder(out);
+    warn_or_refuse_other_results(out, "diagnosis.json", "fit.json");
     checkpoint.emplace(out / "diagnosis.partial", identity_of(campaign, diagnose_with));
     tell_found(*checkpoint, options.common.quiet);
   }

@@ -167,6 +167,7 @@ void run(const FitOptions& options) {
   const bool to_files = !is_standard_output(options.out);
   if (to_files) {
     check_output_folder(options.out);
+    warn_or_refuse_other_results(options.out, "fit.json", "diagnosis.json");
   }
 
   ProgressLine progress(options.common.quiet);

@@ -41,6 +41,16 @@ void refuse_other_results(const std::filesystem::path& folder, std::string_view 
   }
 }
 
+void warn_or_refuse_other_results(const std::filesystem::path& folder, std::string_view own, std::string_view other) {
+  std::error_code ignored;
+  if (std::filesystem::exists(folder / own, ignored) || !std::filesystem::exists(folder / other, ignored)) {
+    refuse_other_results(folder, own);
+    return;
+  }
+  warn_of({"--out " + folder.string() + ": " + std::string(other) +
+           " there is of an earlier command, whose model.json and report.html are replaced"});
+}
+
 void refuse_data_folder(const std::filesystem::path& folder, const std::vector<std::string>& data) {
   for (const std::string& word : data) {
     const std::filesystem::path path(word);

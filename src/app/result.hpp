@@ -20,6 +20,9 @@ void say_beside(const std::string& out, std::string_view text);
 // Throws InputError where the folder holds results of another command, whose report.html would be replaced: `own` is
 // the file that tells this command's, as "compare.json". Where that is there already nothing is refused.
 void refuse_other_results(const std::filesystem::path& folder, std::string_view own);
+// The same, but where the folder holds `other`, which has a model.json too, that is told: a fit and a diagnosis of the
+// same recordings may go to one folder, and the last model stays.
+void warn_or_refuse_other_results(const std::filesystem::path& folder, std::string_view own, std::string_view other);
 // Throws InputError where a recording, or a folder of them, that is read lies in the folder: tables written there would
 // be read as recordings.
 void refuse_data_folder(const std::filesystem::path& folder, const std::vector<std::string>& data);

@@ -200,6 +200,7 @@ TEST_F(OutsideNames, OfFoldersWithOtherResultsAreRefused) {
     EXPECT_EQ(read(folder_ / "fitted/report.html"), page);
     EXPECT_FALSE(fs::exists(folder_ / "fitted/store.sqlite"));
   }
+  fit();  // its own is replaced
   EXPECT_EQ(run({"bench", "study.toml", "--out", "study"}).status, 0) << "its own is continued";
   EXPECT_EQ(run({"report", "study"}).status, 0);
   for (const std::string out : {"data", "data/../data/"}) {
@@ -211,6 +212,20 @@ TEST_F(OutsideNames, OfFoldersWithOtherResultsAreRefused) {
   for (int k = 0; k < 2; ++k) {
     EXPECT_EQ(run({"compare", "fitted/model.json", "data", "--out", "compared"}).status, 0);
   }
+  const std::string compared = read(folder_ / "compared/report.html");
+  const Outcome outcome = run({"fit", "data", "--model", "viscous", "--quiet", "--out", "compared"});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_EQ(outcome.err,
+            "error: --out compared: holds a comparison (compare.json), whose report.html would be replaced, expected "
+            "another folder\n");
+  EXPECT_FALSE(fs::exists(folder_ / "compared/fit.json"));
+  fs::create_directories(folder_ / "diagnosed");
+  write(folder_ / "diagnosed/diagnosis.json", "{}");
+  EXPECT_NE(run({"fit", "data", "--model", "viscous", "--out", "diagnosed"})
+                .err.find("--out diagnosed: diagnosis.json there is of an earlier command, whose model.json and "
+                          "report.html are replaced"),
+            std::string::npos);
+  EXPECT_EQ(read(folder_ / "compared/report.html"), compared);
 }
 
 }  // namespace
