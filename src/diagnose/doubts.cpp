@@ -72,11 +72,12 @@ Doubt doubt_of_completeness(const Search& search, const Workbench& fine, const s
   const Misfit& left = search.misfit;
   const auto parameters = static_cast<double>(search.augmented.dimension());
   if (left.independent < values_per_parameter * parameters) {
-    return {fmt::format(
-        "what is left holds {:.0f} independent values for {:.0f} parameters: too few to tell noise from what is "
-        "missing",
-        left.independent, parameters),
-            false, true};
+    return {
+        fmt::format(
+            "what is left holds {:.0f} independent values for {:.0f} parameters: too few to tell noise from what is "
+            "missing",
+            left.independent, parameters),
+        false, true};
   }
   if (left.squares <= above_white * left.white) {
     return {};
@@ -92,12 +93,13 @@ Doubt doubt_of_completeness(const Search& search, const Workbench& fine, const s
   if (!wanders(wander)) {
     return {};
   }
-  return {
-      fmt::format("{:.0f} % of what is left is a factor of the force that {}", 100.0 * wander.share,
-                  wander.period > 0.0
-                      ? fmt::format("swings with a period of {:.2g} s whatever the motion, as of a supply that cycles",
-                                    wander.period)
-                      : std::string("changes from moment to moment, as of a supply or a grip that changes"))};
+  return {fmt::format(
+      "{:.0f} % of what is left is a factor of the force that {}", 100.0 * wander.share,
+      wander.period > 0.0
+          ? fmt::format("swings with a period of {:.2g} s whatever the motion, as of a supply that cycles",
+                        wander.period)
+          : std::string("changes between stretches of the recordings or from one to another, as of a supply, a "
+                        "grip or an amplifier that changes"))};
 }
 
 std::string doubt_of_velocity(const std::vector<Recording>& recordings) {

@@ -278,8 +278,9 @@ Layout::Layout(CompositeModel model, const DataScale& scale, const LayoutOptions
     const int drive_order = drive_law == options.by_current.end() ? 0 : drive_law->second;
     const int frequency_order = frequency_law == options.by_frequency.end() ? 0 : frequency_law->second;
     if (drive_order > 0 && !(scale.drive_high > scale.drive_low)) {
-      throw OptionError(Option::by_current + " " + names_[j] + ":" + std::to_string(drive_order) +
-                        ": the recordings hold only one current or voltage level, expected at least two");
+      throw OptionError(
+          Option::by_current + " " + names_[j] + ":" + std::to_string(drive_order) +
+          ": the recordings hold no current or voltage, or only one level of it, expected at least two levels");
     }
     if (frequency_order > 0 && !(scale.frequency_high > scale.frequency_low)) {
       throw OptionError(Option::by_frequency + " " + names_[j] + ":" + std::to_string(frequency_order) +
