@@ -32,9 +32,9 @@ namespace {
 
 using support::Point;
 
-constexpr support::PopulationRule population{.usual = 20};
+constexpr support::PopulationRule population{.usual = 30};
 constexpr Setting settings[] = {
-    {"population", 0.0, 0.0, 10000.0, "grasshoppers; 0: 20, at most budget / 10"},
+    {"population", 0.0, 0.0, 10000.0, "grasshoppers; 0: 30, at most budget / 10"},
     {"cmax", 1.0, 1e-6, 10.0, "first value of the contraction c"},
     {"cmin", 4e-5, 1e-12, 1.0, "last value of the contraction c"},
     {"f", 0.5, 0.0, 1.0, "intensity of attraction"},
