@@ -794,7 +794,7 @@ function diagnosisSection() {
     const rows = named.filter((e) => (e.grade || "named") === grade);
     if (rows.length) parts.push(el("h3", {}, heading, el("span", { class: "muted" }, from ? ` (${from})` : "")), rows.map((e) => effectBlock(e, d)));
   }
-  parts.push(shapesTable(augmented, named));
+  parts.push(shapesTable(augmented, named, Boolean(d.evidence && d.evidence.doubt_of_data)));
   const nrmse = [[`Base model, ${base.model || ""}`, base.nrmse_fit, base.nrmse_heldout]];
   if (d.augmented) nrmse.push([augmented.model && augmented.model !== base.model ? `Augmented model, ${augmented.model}` : "Augmented model", augmented.nrmse_fit, augmented.nrmse_heldout]);
   if (isNumber(base.noise_floor_nrmse)) nrmse.push(["Noise floor of the recordings", base.noise_floor_nrmse, base.noise_floor_heldout_nrmse ?? null]);
@@ -874,17 +874,18 @@ function lookPlot(e, c) {
     el("ul", { class: "legend" }, lines.map(([, cls, text]) => el("li", {}, el("i", { style: `border-color:var(--${cls});border-top-style:${{ baseline: "dashed", without: "dotted" }[cls] || "solid"}` }), text))));
 }
 
-// What the augmented model holds without a name.
-function shapesTable(augmented, named) {
+// What the augmented model holds without a name. A probability is that of recordings without a fault.
+function shapesTable(augmented, named, faulty) {
   const shapes = list(augmented.shapes);
   const others = list(augmented.effects).filter((id) => !named.some((e) => e.id === id));
   if (!shapes.length) {
     return others.length ? el("p", {}, "The augmented model also holds ", others.map((id, i) => [i ? ", " : "", el("code", {}, id)]), ": a shape that predicts better, not offered as a cause.") : null;
   }
   const sizes = (rows) => list(rows).map((p) => `${p.name} = ${significant(p.value, 2)}${p.unit === "1" ? "" : `\u00a0${unitText(p.unit)}`}`).join(", ");
-  return [el("h3", {}, "Not sure enough to name"), plainTable("Shapes with which the augmented model predicts better; none is offered as a cause",
-    [{ title: "Shape", head: true }, { title: "Probability that it is the cause", num: true }, { title: "Sizes", text: true, wide: true }],
-    shapes.map((s) => [s.title ? `${capital(s.title)} (${s.id})` : s.id, probability(s.confidence), sizes(s.parameters) || "–"]))];
+  const told = faulty ? [] : [{ title: "Probability that it is the cause", num: true }];
+  return [el("h3", {}, faulty ? "Not named" : "Not sure enough to name"), plainTable("Shapes with which the augmented model predicts better; none is offered as a cause",
+    [{ title: "Shape", head: true }, ...told, { title: "Sizes", text: true, wide: true }],
+    shapes.map((s) => [s.title ? `${capital(s.title)} (${s.id})` : s.id, ...(faulty ? [] : [probability(s.confidence)]), sizes(s.parameters) || "–"]))];
 }
 
 // The contrast of each recording as a dot, all together as the band of two standard errors.
