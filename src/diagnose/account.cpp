@@ -43,10 +43,8 @@ std::vector<std::string> alike_to(const Named& named) {
 }
 
 std::vector<std::string> titles_of(const std::vector<std::string>& effects) {
-  std::vector<std::string> result;
-  for (const std::string& id : effects) {
-    result.push_back(title_of(id));
-  }
+  std::vector<std::string> result(effects.size());
+  std::ranges::transform(effects, result.begin(), [](const std::string& id) { return title_of(id); });
   return result;
 }
 
