@@ -203,6 +203,7 @@ void tell_of_customary_units(const std::vector<Recording>& recordings, std::vect
 // one that is switched off has any small value.
 std::vector<double> drives_of(const std::vector<Recording>& recordings, DriveKind kind) {
   std::vector<double> drives;
+  drives.reserve(recordings.size());
   for (const Recording& recording : recordings) {
     drives.push_back(recording.drive_kind == kind ? peak_of(recording.drive) : 0.0);
   }
@@ -330,8 +331,8 @@ void tell_of_signs(const std::vector<Recording>& recordings, std::vector<Remark>
 }  // namespace
 
 std::vector<Remark> remarks_beside_others(const std::vector<Recording>& recordings) {
-  std::vector<Figures> all;
-  for (const Recording& recording : recordings) all.push_back(figures_of(recording));
+  std::vector<Figures> all(recordings.size());
+  std::ranges::transform(recordings, all.begin(), figures_of);
   std::vector<Remark> remarks;
   tell_of_drives(recordings, remarks);
   tell_of_signs(recordings, remarks);

@@ -154,7 +154,7 @@ struct Joint {
 };
 
 // `done` is told the share of the simulations that it may take.
-Joint fit_jointly(const std::vector<Surroundings>& conditions, Surface surface, int order, std::size_t most,
+Joint fit_jointly(const std::vector<Surroundings>& conditions, const Surface& surface, int order, std::size_t most,
                   const Done& done) {
   Joint best{surface, total(conditions, surface, order), 1};
   const Eigen::Index terms = surface.cols();
@@ -206,7 +206,7 @@ Surface raised(const Surface& surface, Eigen::Index terms) {
   return result;
 }
 
-std::string quartile(std::vector<double> values, double share) {
+std::string quartile(const std::vector<double>& values, double share) {
   return values.empty() ? "-" : format_number(quantile(values, share), 3);
 }
 

@@ -286,6 +286,10 @@ Shown shown_by(std::string_view code) {
   Shown shown{shows_a_date(code), {}, false};
   if (shown.date) return shown;
   bool behind = false;
+  const auto is_exponent = [&](std::size_t k) {
+    return lower_case(code.substr(k, 1)) == "e" &&
+           (code.substr(k + 1).starts_with('+') || code.substr(k + 1).starts_with('-'));
+  };
   for (std::size_t k = 0; k < code.size() && code[k] != ';'; ++k) {
     const char c = code[k];
     std::string_view text;
@@ -297,8 +301,8 @@ Shown shown_by(std::string_view code) {
       k = end;
     } else if (c == '\\' && k + 1 < code.size()) {
       text = code.substr(++k, 1);
-    } else if (c == '_' || c == '*') {
-      ++k;  // a blank as wide as the next character, or that character as often as it fits
+    } else if (c == '_' || c == '*' || is_exponent(k)) {
+      ++k;  // a blank as wide as the next character, that character as often as it fits, or the exponent's sign
     } else if (c == '0' || c == '#' || c == '?') {
       behind = true;
       shown.scaled = false;  // commas so far stand between thousands
@@ -308,8 +312,6 @@ Shown shown_by(std::string_view code) {
       k += 6;
     } else if (c == ',' || c == '%') {
       shown.scaled = behind;
-    } else if ((c == 'E' || c == 'e') && (code.substr(k + 1).starts_with('+') || code.substr(k + 1).starts_with('-'))) {
-      ++k;
     } else if (c != '.') {
       text = code.substr(k, 1);
     }
