@@ -34,6 +34,18 @@ class Exported : public Program {
     EXPECT_FALSE(fs::exists(folder_ / "out"));
     EXPECT_FALSE(fs::exists(folder_ / "class.py"));
   }
+
+  // The fitted model with an offset that follows a pressure of 1 to 3 bar.
+  void write_pressed() const {
+    nlohmann::json model = nlohmann::json::parse(testing::read(folder_ / "fitted/model.json"));
+    model["by"]["pressure"] = {{"unit", "Pa"}, {"from", 1e5}, {"to", 3e5}, {"parameters", {{"f0", 1}}}};
+    model["parameters"].push_back({{"name", "f0*pressure"},
+                                   {"parameter", "f0"},
+                                   {"condition_powers", {{"pressure", 1}}},
+                                   {"value", 1e-5},
+                                   {"unit", "N/Pa"}});
+    testing::write(folder_ / "pressed.json", model.dump());
+  }
 };
 
 TEST_F(Exported, AModelWithoutAFiniteForceIsRefused) {
@@ -125,15 +137,7 @@ TEST_F(Exported, WhatIsWrittenSaysWhatTheDriveIs) {
 }
 
 TEST_F(Exported, WhatIsWrittenSaysAtWhichConditionsItHolds) {
-  const fs::path path = folder_ / "fitted/model.json";
-  nlohmann::json model = nlohmann::json::parse(testing::read(path));
-  model["by"]["pressure"] = {{"unit", "Pa"}, {"from", 1e5}, {"to", 3e5}, {"parameters", {{"f0", 1}}}};
-  model["parameters"].push_back({{"name", "f0*pressure"},
-                                 {"parameter", "f0"},
-                                 {"condition_powers", {{"pressure", 1}}},
-                                 {"value", 1e-5},
-                                 {"unit", "N/Pa"}});
-  testing::write(folder_ / "pressed.json", model.dump());
+  write_pressed();
   for (const auto& [target, file] : {std::pair{"c", "c/bouc_wen.h"},
                                      {"python", "python/bouc_wen.py"},
                                      {"simulink", "simulink/bouc_wen_sfun.c"},
@@ -174,15 +178,7 @@ TEST_F(Exported, AMotionBeyondWhatWasFittedIsTold) {
 }
 
 TEST_F(Exported, AConditionHeldBeyondWhatWasFittedIsTold) {
-  const fs::path path = folder_ / "fitted/model.json";
-  nlohmann::json model = nlohmann::json::parse(testing::read(path));
-  model["by"]["pressure"] = {{"unit", "Pa"}, {"from", 1e5}, {"to", 3e5}, {"parameters", {{"f0", 1}}}};
-  model["parameters"].push_back({{"name", "f0*pressure"},
-                                 {"parameter", "f0"},
-                                 {"condition_powers", {{"pressure", 1}}},
-                                 {"value", 1e-5},
-                                 {"unit", "N/Pa"}});
-  testing::write(folder_ / "pressed.json", model.dump());
+  write_pressed();
   const auto told = [&](const std::string& at) {
     const Outcome outcome = run({"export", "pressed.json", "--to", "c", "--at", at, "--out", "pressed"});
     EXPECT_EQ(outcome.status, 0) << outcome.err;
