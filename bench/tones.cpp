@@ -19,24 +19,21 @@
 #include <string>
 #include <vector>
 
+#include "bench/base_left.hpp"
 #include "bench/page.hpp"
 #include "bench/program.hpp"
 #include "challenge/concealed.hpp"
 #include "challenge/levels.hpp"
 #include "challenge/statistics.hpp"
 #include "core/random.hpp"
-#include "diagnose/diagnose.hpp"
 #include "diagnose/residual/leftover.hpp"
 #include "diagnose/residual/tone.hpp"
-#include "diagnose/workbenches.hpp"
-#include "io/campaign.hpp"
 
 namespace {
 
 using namespace hysteron;
 
 constexpr std::array<double, 3> shares = {0.1, 0.2, 0.4};
-constexpr std::size_t base_budget = 20000;
 // Of a recording: below so many cycles nothing is looked at, and above so much of its sampling frequency either.
 constexpr double lowest_cycles = 16.0;
 constexpr double highest_part = 0.45;
@@ -50,19 +47,9 @@ struct Examined {
 };
 
 Examined examine(const std::string& name, const std::filesystem::path& folder, bool measured, int threads) {
-  Campaign campaign = load_campaign({folder.string()});
-  without_outliers(campaign);
-  DiagnoseOptions options;
-  options.model = campaign.model.empty() ? "bouc-wen" : campaign.model;
-  options.layout.by_current = campaign.by_current;
-  options.layout.by_frequency = campaign.by_frequency;
-  options.objective.threads = threads;
-  std::vector<std::string> notes;
-  const Workbenches benches = workbenches_of(campaign, split_of(campaign), options, notes);
-  const Fit base = benches.quick.from_anywhere({options.model, {}, {}}, base_budget);
-  const std::vector<Recording>& recordings = benches.whole.split().fit;
+  const bench::BaseLeft left = bench::base_left(folder, threads);
   return {name, measured,
-          leftovers_of(recordings, benches.whole.plain_residuals(base), std::vector<double>(recordings.size(), 1.0))};
+          leftovers_of(left.recordings, left.residuals, std::vector<double>(left.recordings.size(), 1.0))};
 }
 
 // The frequencies that are looked at in every recording, Hz.

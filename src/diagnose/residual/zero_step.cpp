@@ -7,32 +7,30 @@
 #include <numbers>
 #include <span>
 
+#include "core/mean.hpp"
+#include "core/squared.hpp"
+
 namespace hysteron {
 namespace {
 
-// Samples of a recording that tell a step from noise.
-constexpr std::size_t fewest_samples = 100;
 // Of the recording, that a step has on either side.
 constexpr double least_side = 0.05;
 // Of the squared residual, that the step explains: it is most of what is left.
 constexpr double least_share = 0.5;
 // Cosines of the slow course that a step must do better than: a random walk has nine tenths of its squares in them.
 constexpr int slow_terms = 6;
-// The motion is the same on both sides where its spreads differ by no more than this factor, and its middle and drive
-// by no more than this share of the largest.
-constexpr double same_spread = 1.5;
-constexpr double same_place = 0.2;
+// The motion is the same on both sides where its middle and its spread, and the middle of its drive, differ by no more
+// than this share of the largest.
+constexpr double same = 0.25;
 
 struct Spread {
   double mean = 0.0;
   double deviation = 0.0;
 };
 Spread spread_of(std::span<const double> values) {
-  double sum = 0.0;
-  for (const double value : values) sum += value;
-  const double mean = sum / static_cast<double>(values.size());
+  const double mean = mean_of(values);
   double squares = 0.0;
-  for (const double value : values) squares += (value - mean) * (value - mean);
+  for (const double value : values) squares += squared(value - mean);
   return {mean, std::sqrt(squares / static_cast<double>(values.size()))};
 }
 
@@ -44,7 +42,7 @@ bool alike(const std::vector<double>& values, std::size_t from, std::size_t at, 
   const auto [low, high] = std::ranges::minmax(all.subspan(from));
   const double largest = std::max(std::fabs(low), std::fabs(high));
   const auto [less, more] = std::minmax(before.deviation, after.deviation);
-  return std::fabs(before.mean - after.mean) <= same_place * largest && (!also_spread || more <= same_spread * less);
+  return std::fabs(before.mean - after.mean) <= same * largest && (!also_spread || more - less <= same * more);
 }
 
 double slow_squares(std::span<const double> residual, double mean) {
@@ -64,7 +62,7 @@ double slow_squares(std::span<const double> residual, double mean) {
 
 std::optional<ZeroStep> zero_step_of(const Recording& recording, const Residual& residual) {
   const std::span<const double> left = std::span(residual.force).subspan(residual.from);
-  if (left.size() < fewest_samples) return std::nullopt;
+  if (left.empty()) return std::nullopt;
   const auto count = static_cast<double>(left.size());
   const Spread all = spread_of(left);
   const double squares = all.deviation * all.deviation * count;
