@@ -63,12 +63,14 @@ std::optional<TimePackets> time_packets_of(const std::vector<double>& time, cons
   if (!steps) return std::nullopt;
   const std::size_t reach = std::min(steps->apart - 1, steps_beside);
   std::vector<double> lengths;
+  for (const std::size_t n : steps->after) lengths.push_back(time[n + 1] - time[n]);
+  const double between = median_of(std::move(lengths));
   double over_over = 0.0;
   double over_beside = 0.0;
   double beside_beside = 0.0;
   for (const std::size_t n : steps->after) {
-    lengths.push_back(time[n + 1] - time[n]);
-    if (n < reach || n + 1 + reach >= time.size()) continue;
+    // Where a packet is missing the displacement goes further.
+    if (n < reach || n + 1 + reach >= time.size() || time[n + 1] - time[n] > longer * between) continue;
     const double over = displacement[n + 1] - displacement[n];
     const double beside =
         (displacement[n] - displacement[n - reach] + displacement[n + 1 + reach] - displacement[n + 1]) /
@@ -81,7 +83,7 @@ std::optional<TimePackets> time_packets_of(const std::vector<double>& time, cons
   TimePackets result;
   result.samples = steps->apart;
   result.within = steps->usual;
-  result.between = median_of(std::move(lengths));
+  result.between = between;
   // Regression of the one on the other, and how much it tells: noise alone tells nothing.
   const double ratio = result.between / result.within;
   const double by = over_beside / beside_beside;
@@ -93,7 +95,7 @@ std::optional<TimePackets> time_packets_of(const std::vector<double>& time, cons
   const double packet = result.step * static_cast<double>(result.samples);
   result.even = std::ranges::all_of(steps->after, [&](std::size_t n) {
     const double expected = time[first] + static_cast<double>(n + 1 - first) * result.step;
-    return std::fabs(time[n + 1] - expected) <= 0.5 * packet;
+    return std::fabs(time[n + 1] - expected) <= 0.5 * packet && time[n + 1] - time[n] <= longer * between;
   });
   return result;
 }

@@ -97,6 +97,16 @@ TEST(TimePackets, AreEvenedOutWithAWord) {
   EXPECT_NEAR(recording.velocity[500], 0.02 * 2.0 * std::numbers::pi, 1e-4);
 }
 
+// One packet that is missing, over which the displacement goes far, does not hide the others.
+TEST(TimePackets, AreFoundThoughOneIsMissing) {
+  const auto sample = [](int n) { return n < 500 ? n : n + 10; };
+  const auto found =
+      packets([&](int n) { return stamp(sample(n), 10, 0.0012); }, [&](int n) { return at(0.002 * sample(n)); });
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->samples, 10U);
+  EXPECT_FALSE(found->even);
+}
+
 // Where packets are missing there is no even spacing.
 TEST(TimePackets, OfWhichSomeAreMissingAreToldAlone) {
   std::vector<std::string> said;
