@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <atomic>
 #include <functional>
-#include <thread>
 #include <vector>
 
 #include "diagnose/record.hpp"
@@ -25,14 +24,15 @@ namespace {
 using nlohmann::json;
 
 // Counts the blocks of samples that an objective passes, on whatever threads, and tells how many of a hundred parts are
-// done from the thread that it belongs to.
+// done from the thread that it belongs to. A thread is known by an object of its own, as a browser's standard library
+// has no <thread>.
 class Blocks {
  public:
   explicit Blocks(const std::function<void(double share)>& done) : done_(done) {}
   void expect(std::size_t whole) { whole_ = std::max<std::size_t>(whole, 1); }
   void add() {
     const std::size_t count = ++count_;
-    if (std::this_thread::get_id() != own_) return;
+    if (&here() != own_) return;
     const std::size_t parts = std::min<std::size_t>(100 * count / whole_, 100);
     if (parts > told_) {
       told_ = parts;
@@ -41,10 +41,15 @@ class Blocks {
   }
 
  private:
+  static const char& here() {
+    thread_local const char mark = 0;
+    return mark;
+  }
+
   const std::function<void(double share)>& done_;
   std::size_t whole_ = 1;
   std::atomic<std::size_t> count_{0};
-  std::thread::id own_ = std::this_thread::get_id();
+  const char* own_ = &here();
   std::size_t told_ = 0;  // to `own_`
 };
 
