@@ -98,7 +98,8 @@ def diagnosis_section(entry):
             ("acts", entry["acts"]),
             ("inputs needed", ", ".join(["motion and force", *entry["needs"]])),
             ("related effects", ", ".join(related) if related else "none"),
-            ("told apart by", entry["experiment"])]
+            ("told apart by", entry["experiment"]),
+            ("may also come from outside the damper", entry["rig_cause"] or "nothing that is known")]
     return "## In a diagnosis\n\n" + table(("", ""), rows) + "\n"
 
 

@@ -847,6 +847,7 @@ function effectBlock(e, d) {
   if (lesser.length) add("Less likely", lesser.map((id, i) => [i ? ", " : "", el("code", {}, id)]), " would do as well.");
   if (isNumber(e.share_of_misfit)) add("Share of the misfit", `${rounded(e.share_of_misfit)} comes back when it is taken out; held-out NRMSE ${fmt(e.nrmse_heldout_before, 3)} without it, ${fmt(e.nrmse_heldout_after, 3)} with it.`);
   if (e.experiment) add("Recording that would decide", `${capital(e.experiment)}.`);
+  if (e.rig_cause) add("May also come from outside the damper", `${e.rig_cause}.`);
   return el("div", { class: `effect ${e.grade || ""}` },
     el("h4", {}, e.in_place_of ? "or " : "", el("code", {}, e.id), isNumber(e.confidence) ? `, confidence ${probability(e.confidence)}${list(e.indistinguishable_from).length ? ` that it is this or ${e.indistinguishable_from.join(" or ")}` : ""}` : "", e.family ? el("span", { class: "muted" }, `, family ${e.family}`) : ""),
     e.sentence ? el("p", {}, prose(e.sentence)) : null,

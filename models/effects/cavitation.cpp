@@ -39,6 +39,7 @@ struct Cavitation {
       .in_words = "cavitation (a force limit on one side, with dwell)",
       .shows = "the force of one direction stops growing, and on the way back the void is filled without force",
       .experiment = "the same run at two gas pressures and at rising speed",
+      .rig_cause = "a joint that lifts off in one direction",
       .kin = kin,
       .contrasts = contrasts,
   };

@@ -36,6 +36,7 @@ struct Clearance {
       .experiment =
           "two strokes at the same speed, one about as small as the suspected gap[, at two currents]: a gap keeps its "
           "width in mm, a compliance grows with the force",
+      .rig_cause = "a loose pin or joint between the displacement sensor and the damper",
       .kin = kin,
       .holds = holds,
       .ends_as = ends_as,

@@ -31,6 +31,7 @@ struct CoilLag {
       .in_words = "a lag of the coil current",
       .shows = "the force follows a step of the current late, by the same time at any speed",
       .experiment = "current steps up and down at constant velocity, at several levels",
+      .rig_cause = "a current that was commanded and not measured, or a filter in its channel",
       .needs = needs,
       .kin = kin,
       .contrasts = contrasts,

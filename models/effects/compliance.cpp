@@ -27,6 +27,7 @@ struct Compliance {
       .experiment =
           "[current steps while the damper is held, and the same stroke at three currents|the same stroke at three "
           "speeds]: the deflection of a compliance grows with the force",
+      .rig_cause = "a load cell, fixture or joint that gives between the displacement sensor and the damper",
       .kin = kin,
       .kindred = kindred,
       .contrasts = contrasts,

@@ -32,6 +32,7 @@ struct CoulombFriction {
       .in_words = "Coulomb friction",
       .shows = "a force of one size against the motion, at the slowest speed too",
       .experiment = "a slow triangle[ without current] at several speeds below 20 mm/s",
+      .rig_cause = "a guide or bearing between the load cell and the damper",
       .kin = kin,
       .ends_as = ends_as,
       .contrasts = contrasts,

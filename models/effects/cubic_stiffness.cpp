@@ -22,6 +22,7 @@ struct CubicStiffness {
       .in_words = "a cubic stiffness",
       .shows = "a stiffness that grows, or where k3 is negative falls, towards both ends of the stroke",
       .experiment = "a slow full stroke around two mid-positions",
+      .rig_cause = "a linkage or guide that binds towards the ends of the stroke",
       .acts = Acts::by_place,
       .kin = kin,
       .contrasts = contrasts,

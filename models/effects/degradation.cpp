@@ -27,6 +27,7 @@ struct Degradation {
       .in_words = "a degradation with the work done",
       .shows = "the force falls with the work done and does not come back after a pause",
       .experiment = "the first recording again at the end of the campaign, cold, each file with its start",
+      .rig_cause = "[a supply that lets the current sink, or ]a force channel whose gain sinks",
       .kin = kin,
       .part_of = part_of,
       .contrasts = contrasts,

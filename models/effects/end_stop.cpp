@@ -31,6 +31,7 @@ struct EndStop {
       .in_words = "an end stop",
       .shows = "a steep force near the ends of the stroke and none elsewhere",
       .experiment = "a slow stroke to both ends",
+      .rig_cause = "a fixture that touches at the ends of the stroke",
       .acts = Acts::at_ends,
       .kin = kin,
       .holds = holds,

@@ -36,6 +36,7 @@ struct EntrappedGas {
           "the force builds up after each reversal first softly, then steeply, over a travel that falls with the gas "
           "pressure",
       .experiment = "the same run at two charge pressures or after a long rest: only entrapped gas changes",
+      .rig_cause = "a soft bush in a joint",
       .kin = kin,
       .holds = holds,
       .ends_as = ends_as,

@@ -21,6 +21,7 @@ struct ForceDrift {
       .in_words = "a drift of the load cell",
       .shows = "the force moves at a constant rate, at rest too",
       .experiment = "a minute of recording at rest before and after the run",
+      .rig_cause = "a load cell or amplifier that warms up",
       .contrasts = contrasts,
   };
 

@@ -33,6 +33,7 @@ struct GasSpring {
       .in_words = "the gas spring of the accumulator",
       .shows = "a force of the position alone that stiffens as the gas is compressed",
       .experiment = "a slow full stroke around two mid-positions",
+      .rig_cause = "a spring or flexure beside the damper",
       .acts = Acts::by_place,
       .kin = kin,
       .holds = holds,

@@ -25,6 +25,7 @@ struct Inertia {
       .experiment =
           "the same amplitude at frequencies an octave apart, and a run with the damper disconnected for the mass of "
           "the fixture",
+      .rig_cause = "the mass of rod end, joint and fixture between the load cell and the damper",
       .one_form = true,
       .kin = kin,
       .contrasts = contrasts,

@@ -22,6 +22,7 @@ struct LinearStiffness {
       .in_words = "a linear stiffness",
       .shows = "a force in proportion to the displacement, at any speed",
       .experiment = "a slow full stroke around two mid-positions",
+      .rig_cause = "a spring or flexure beside the damper",
       .acts = Acts::by_place,
       .one_form = true,
       .kin = kin,

@@ -35,6 +35,7 @@ struct MagneticRemanence {
       .shows =
           "the force is larger after a step down of the current than after a step up to the same current, and stays so",
       .experiment = "a current staircase up and down at constant velocity",
+      .rig_cause = "a current that was commanded and not measured",
       .needs = needs,
       .kin = kin,
       .ends_as = ends_as,

@@ -26,6 +26,7 @@ struct MagneticSaturation {
       .in_words = "magnetic saturation",
       .shows = "the force rises less and less with the current",
       .experiment = "at least five current levels up to the highest",
+      .rig_cause = "an amplifier at its limit, or one whose gain changed",
       .needs = needs,
       .kin = kin,
       .contrasts = contrasts,

@@ -22,6 +22,7 @@ struct OffsetForce {
       .in_words = "a constant offset force",
       .shows = "the loops sit higher or lower by a constant force, at any position and speed",
       .experiment = "a slow full stroke around two mid-positions: an offset is the same in both, a gas spring is not",
+      .rig_cause = "the zero of the load cell, or the weight of a fixture",
       .acts = Acts::by_place,
       .one_form = true,
       .kin = kin,

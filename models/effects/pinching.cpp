@@ -30,6 +30,7 @@ struct Pinching {
       .in_words = "pinching around mid-stroke",
       .shows = "the force of both directions is smaller around one place of the stroke",
       .experiment = "small strokes inside a large one, at two amplitudes",
+      .rig_cause = "a joint that is loose and rubs",
       .acts = Acts::by_place,
       .kin = kin,
       .part_of = part_of,

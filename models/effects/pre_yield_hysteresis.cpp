@@ -25,6 +25,7 @@ struct PreYieldHysteresis {
       .in_words = "pre-yield hysteresis (a Dahl element in parallel)",
       .shows = "strokes below the yield displacement draw loops of their own, the same at any speed",
       .experiment = "small strokes at several amplitudes below the knee",
+      .rig_cause = "a rubber mount between the displacement sensor and the damper",
       .kin = kin,
       .contrasts = contrasts,
   };

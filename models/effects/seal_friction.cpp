@@ -37,6 +37,7 @@ struct SealFriction {
       .in_words = "seal friction (Coulomb-Stribeck)",
       .shows = "a force against the motion that is largest at low speed[, the same at any current]",
       .experiment = "a slow triangle[ without current] at several speeds below 20 mm/s",
+      .rig_cause = "a guide or bearing between the load cell and the damper",
       .kin = kin,
       .holds = holds,
       .ends_as = ends_as,

@@ -36,6 +36,7 @@ struct SelfHeating {
       .in_words = "self-heating",
       .shows = "the force falls as the damper warms up, its viscous part most, and comes back after a pause",
       .experiment = "a long run of constant severity, a pause, and the first recording again, each file with its start",
+      .rig_cause = "[a supply that lets the current sink as it warms up, or ]a force channel whose gain sinks",
       .kin = kin,
       .ends_as = ends_as,
       .contrasts = contrasts,

@@ -28,6 +28,7 @@ struct SensorDelay {
       .experiment =
           "[a current step at constant velocity and ]sines at frequencies an octave apart: a delay stays constant in "
           "ms",
+      .rig_cause = "filters that differ between the channels, or channels sampled one after the other",
       .kin = kin,
       .contrasts = contrasts,
   };

@@ -26,6 +26,7 @@ struct SeriesDashpot {
       .in_words = "a series dashpot (roll-off at low speed)",
       .shows = "the force rolls off at low speed and relaxes while the rod is held",
       .experiment = "slow triangles from 1 to 20 mm/s, and a hold after a fast stroke to see the force relax",
+      .rig_cause = "a force channel that passes no steady force, as behind AC coupling or a charge amplifier",
       .kin = kin,
       .part_of = part_of,
       .contrasts = contrasts,

@@ -29,6 +29,7 @@ struct ShearThinning {
       .in_words = "shear thinning",
       .shows = "the force rises less and less with the speed",
       .experiment = "constant-velocity runs over at least a decade of speed",
+      .rig_cause = "a force channel at its limit",
       .kin = kin,
       .holds = holds,
       .ends_as = ends_as,

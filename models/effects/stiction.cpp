@@ -26,6 +26,7 @@ struct Stiction {
       .in_words = "first-travel stiction",
       .shows = "the first travel after a rest needs more force than the travel after it",
       .experiment = "the same run after rests of different length",
+      .rig_cause = "a joint that settles only with the first travel",
       .kin = kin,
       .ends_as = ends_as,
       .contrasts = contrasts,

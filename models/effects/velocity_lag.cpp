@@ -27,6 +27,7 @@ struct VelocityLag {
       .experiment =
           "a sine at each of three frequencies with displacement and velocity recorded: the slope of the displacement "
           "shows the lag of the velocity channel",
+      .rig_cause = "a filter in the velocity's channel",
       .needs = needs,
       .kin = kin,
       .contrasts = contrasts,

@@ -22,6 +22,7 @@ struct ViscousDamping {
       .in_words = "viscous damping",
       .shows = "a force in proportion to the velocity",
       .experiment = "constant-velocity runs over at least a decade of speed",
+      .rig_cause = "a greased guide or bearing between the load cell and the damper",
       .one_form = true,
       .kin = kin,
       .contrasts = contrasts,

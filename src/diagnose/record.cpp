@@ -110,6 +110,11 @@ json view_json(const Diagnosis& diagnosis, const std::optional<ContrastView>& vi
               : json(nullptr);
 }
 
+json rig_cause_json(const Diagnosis& diagnosis, const Named& named) {
+  const std::string cause = worded(knowledge_of(named.id).rig_cause, diagnosis.drive);
+  return cause.empty() ? json(nullptr) : json(cause);
+}
+
 json named_json(const Diagnosis& diagnosis, const Named& named, std::size_t index) {
   return {{"id", named.id},
           {"title", title_of(named.id)},
@@ -127,6 +132,7 @@ json named_json(const Diagnosis& diagnosis, const Named& named, std::size_t inde
           {"robustness_value", named.robustness},
           {"nearest_rival", rival_json(diagnosis, named)},
           {"experiment", experiment_for(diagnosis, named)},
+          {"rig_cause", rig_cause_json(diagnosis, named)},
           {"behind_other_laws", laws_json(diagnosis, named)},
           {"parameters", parameters_json(diagnosis.parameters[index])},
           {"nrmse_heldout_before", without_of(diagnosis, named).heldout},

@@ -208,6 +208,20 @@ std::string sentence_of_place(const Diagnosis& diagnosis) {
                      percent(place.share_of_samples));
 }
 
+// "What looks like cavitation may also come from outside the damper: a joint that lifts off in one direction."; of the
+// likeliest name or suggestion.
+std::string sentence_of_rig(const Diagnosis& diagnosis) {
+  const std::vector<Named> stated = listed(diagnosis.verdict);
+  if (stated.empty()) {
+    return {};
+  }
+  const Named& likeliest = *std::ranges::max_element(stated, {}, &Named::confidence);
+  const std::string cause = worded(knowledge_of(likeliest.id).rig_cause, diagnosis.drive);
+  return cause.empty() ? std::string()
+                       : fmt::format("What looks like {} may also come from outside the damper: {}.",
+                                     title_of(likeliest.id), cause);
+}
+
 void add(std::vector<std::string>& summary, const std::string& sentence) {
   if (!sentence.empty()) {
     summary.push_back(sentence);
@@ -253,6 +267,7 @@ std::vector<std::string> summary_of(const Diagnosis& diagnosis) {
                                            [](const Named& named) { return named.in_place_of.has_value(); });
     add(summary, sentence_of_robustness(first, alone ? "it" : "the first") + ".");
   }
+  add(summary, sentence_of_rig(diagnosis));
   add(summary, "Next recording: " + diagnosis.next_experiment + ".");
   return summary;
 }

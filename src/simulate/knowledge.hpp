@@ -81,8 +81,9 @@ struct Knowledge {
   std::string_view in_words;  // its title as it stands in a sentence
   // In both "current" stands for the drive, "[with|without]" for what is said with a drive and without one:
   // "equally far at any speed[ and current]".
-  std::string_view shows;       // what the force does where it is there, a clause
-  std::string_view experiment;  // a recording that tells it from what it is mistaken for
+  std::string_view shows;           // what the force does where it is there, a clause
+  std::string_view experiment;      // a recording that tells it from what it is mistaken for
+  std::string_view rig_cause = {};  // what looks the same to the recordings without being in the damper
   Acts acts = Acts::everywhere;
   // The force is a multiple of one channel or a constant: a form that cannot be missed, so that what stays beside it is
   // not the remainder of its own.

@@ -81,6 +81,9 @@ std::string names_text(const json& record) {
       if (!text_of(effect, "experiment").empty()) {
         text += "  " + wrapped("decided by: " + text_of(effect, "experiment"), 2);
       }
+      if (effect.contains("rig_cause") && effect["rig_cause"].is_string()) {
+        text += "  " + wrapped("may also come from outside the damper: " + text_of(effect, "rig_cause"), 2);
+      }
     }
   }
   return text;

@@ -73,7 +73,8 @@ json effect_card_json(const std::string& effect) {
           {"needs", needs_of(known)},
           {"related", related},
           {"contrasts", told_by},
-          {"experiment", or_null(known.experiment)}};
+          {"experiment", or_null(known.experiment)},
+          {"rig_cause", or_null(known.rig_cause)}};
 }
 
 std::string effect_card_text(const std::string& effect) {
@@ -110,6 +111,10 @@ std::string effect_card_text(const std::string& effect) {
       "Inputs needed: motion and force" + (known.needs.empty() ? "" : ", " + joined(needs_of(known), " and ")), 2);
   if (!known.experiment.empty()) {
     text += wrapped("Told apart by: " + worded(known.experiment, DriveKind::current), 2);
+  }
+  if (!known.rig_cause.empty()) {
+    text += wrapped(
+        fmt::format("May also come from outside the damper: {}", worded(known.rig_cause, DriveKind::current)), 2);
   }
   return text;
 }

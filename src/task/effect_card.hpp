@@ -6,8 +6,8 @@
 
 namespace hysteron {
 
-// {"family": {"id", "title"}, "shows", "acts", "needs": [..], "related": [{"id", "how"}, ..], "experiment"}; null where
-// the card of an effect does not say it.
+// {"family": {"id", "title"}, "shows", "acts", "needs": [..], "related": [{"id", "how"}, ..], "experiment",
+// "rig_cause"}; null where the card of an effect does not say it.
 nlohmann::json effect_card_json(const std::string& effect);
 
 // The same in lines that begin with what they say; empty for an effect of which nothing is known.

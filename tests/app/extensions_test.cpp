@@ -145,6 +145,8 @@ TEST_F(Extensions, CardsOfEffectsAreDescribedAndListed) {
   EXPECT_NE(text.find("Related effects: magnetic-remanence, magnetic-saturation\n"), std::string::npos) << text;
   EXPECT_NE(text.find("a current or voltage that changes within a recording"), std::string::npos) << text;
   EXPECT_NE(text.find("Told apart by: current steps"), std::string::npos) << text;
+  EXPECT_NE(text.find("May also come from outside the damper: a current that was commanded"), std::string::npos)
+      << text;
   EXPECT_EQ(run("describe bouc-wen").out.find("Related effects"), std::string::npos);
 }
 

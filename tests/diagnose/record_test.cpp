@@ -4,9 +4,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <string>
+#include <vector>
 
 #include "diagnose/concealed_damper.hpp"
 #include "diagnose/search/relatives.hpp"
@@ -72,6 +75,8 @@ void expect_named(const json& row, double least, double most) {
   expect_text(row, "family");
   expect_text(row, "sentence");
   expect_text(row, "experiment");
+  ASSERT_TRUE(row.contains("rig_cause"));
+  if (!row["rig_cause"].is_null()) expect_text(row, "rig_cause");
   expect_share(row, "confidence");
   EXPECT_GE(row["confidence"].get<double>(), least);
   EXPECT_LT(row["confidence"].get<double>(), most);
@@ -118,6 +123,16 @@ void expect_contract(const Diagnosis& diagnosis) {
     EXPECT_TRUE(sentence.get<std::string>().ends_with(".")) << sentence;
   }
   EXPECT_TRUE(record["summary"].back().get<std::string>().starts_with("Next recording: "));
+
+  const auto likeliest = [](const json& a, const json& b) { return a["confidence"] < b["confidence"]; };
+  std::vector<json> stated = record.at("effects");
+  for (const json& row : record.at("suggestions")) stated.push_back(row);
+  const auto first = std::max_element(stated.begin(), stated.end(), likeliest);
+  const bool told = first != stated.end() && !(*first)["rig_cause"].is_null();
+  const auto outside = std::count_if(record["summary"].begin(), record["summary"].end(), [](const json& sentence) {
+    return sentence.get<std::string>().find(" may also come from outside the damper: ") != std::string::npos;
+  });
+  EXPECT_EQ(outside, told ? 1 : 0);
 
   std::set<std::string> accounted;
   for (const json& row : record.at("effects")) {
