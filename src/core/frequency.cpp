@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "core/robust.hpp"
@@ -15,6 +16,13 @@ constexpr double least_swing = 0.1;
 // one, sampling alone makes them differ by a sample.
 constexpr double alike_share = 0.05;
 constexpr double alike_samples = 1.01;
+// Where turns come at other times too, the frequency is that of the sine that is nearly all of the displacement, if one
+// is: a motion of several tones is as fast as it turns.
+constexpr double nearly_all = 0.9;
+// Samples that it is looked for in, of a turn and in all.
+constexpr std::size_t samples_of_a_turn = 8;
+constexpr std::size_t fewest_samples = 256;
+constexpr std::size_t most_samples = 2048;
 
 // When the displacement turns at or beside this sample: the vertex of a parabola through it and its neighbours.
 double turn_at(const Recording& recording, std::size_t n) {
@@ -63,6 +71,108 @@ std::vector<double> turns_of(const Recording& recording) {
   return turns;
 }
 
+// The displacement at equal steps of time, each the mean of the samples about it, or between those beside it where
+// there are none.
+struct Even {
+  double step = 0.0;  // s
+  std::vector<double> x;
+};
+Even evenly(const Recording& recording, std::size_t count) {
+  const std::vector<double>& time = recording.time;
+  const double span = time.back() - time.front();
+  Even result{span / static_cast<double>(count - 1), std::vector<double>(count)};
+  std::size_t n = 0;
+  for (std::size_t k = 0; k < count; ++k) {
+    const double at = time.front() + static_cast<double>(k) * result.step;
+    double sum = 0.0;
+    double samples = 0.0;
+    for (; n < time.size() && time[n] < at + 0.5 * result.step; ++n, ++samples) {
+      sum += recording.displacement[n];
+    }
+    if (samples > 0.0) {
+      result.x[k] = sum / samples;
+      continue;
+    }
+    const std::size_t right = std::clamp<std::size_t>(n, 1, time.size() - 1);
+    const double share = (at - time[right - 1]) / (time[right] - time[right - 1]);
+    result.x[k] = std::lerp(recording.displacement[right - 1], recording.displacement[right], share);
+  }
+  return result;
+}
+
+// Share of the squares about the mean that a sine of this frequency beside a constant takes off, by least squares.
+double share_of_sine(const Even& even, double frequency) {
+  const double angle = 2.0 * std::numbers::pi * frequency * even.step;
+  const double turn_cosine = std::cos(angle);
+  const double turn_sine = std::sin(angle);
+  double cosine = 1.0;
+  double sine = 0.0;
+  double c = 0.0, s = 0.0, cc = 0.0, cs = 0.0, ss = 0.0;
+  double x = 0.0, xx = 0.0, xc = 0.0, xs = 0.0;
+  for (const double value : even.x) {
+    c += cosine;
+    s += sine;
+    cc += cosine * cosine;
+    cs += cosine * sine;
+    ss += sine * sine;
+    x += value;
+    xx += value * value;
+    xc += value * cosine;
+    xs += value * sine;
+    const double next = cosine * turn_cosine - sine * turn_sine;
+    sine = sine * turn_cosine + cosine * turn_sine;
+    cosine = next;
+  }
+  const auto count = static_cast<double>(even.x.size());
+  cc -= c * c / count;
+  cs -= c * s / count;
+  ss -= s * s / count;
+  xx -= x * x / count;
+  xc -= x * c / count;
+  xs -= x * s / count;
+  const double determinant = cc * ss - cs * cs;
+  if (!(determinant > 0.0) || !(xx > 0.0)) {
+    return 0.0;
+  }
+  const double taken = (ss * xc * xc - 2.0 * cs * xc * xs + cc * xs * xs) / determinant;
+  return taken / xx;
+}
+
+// The sine that takes off most of the motion, of those that turn no more often than the motion does; 0 where none is
+// nearly all of it, as none is of a sweep or of noise.
+double frequency_of_sine(const Recording& recording, std::size_t turns) {
+  const std::size_t count =
+      std::min({recording.size(), most_samples, std::max(fewest_samples, samples_of_a_turn * turns)});
+  const Even even = evenly(recording, count);
+  const double span = recording.time.back() - recording.time.front();
+  const double apart = 0.5 / span;
+  const double highest = std::min(static_cast<double>(turns + 1) * apart, 0.4 / even.step);
+  double best = 0.0;
+  double share = 0.0;
+  for (std::size_t k = 2; static_cast<double>(k) * apart <= highest; ++k) {
+    const double frequency = static_cast<double>(k) * apart;
+    if (const double of_this = share_of_sine(even, frequency); of_this > share) {
+      share = of_this;
+      best = frequency;
+    }
+  }
+  // By golden sections, to a ten-thousandth of a period over the whole recording.
+  constexpr double golden = 0.6180339887498949;
+  double low = best - apart;
+  double high = best + apart;
+  while (high - low > 1e-4 * apart) {
+    const double left = high - golden * (high - low);
+    const double right = low + golden * (high - low);
+    if (share_of_sine(even, left) < share_of_sine(even, right)) {
+      low = left;
+    } else {
+      high = right;
+    }
+  }
+  best = 0.5 * (low + high);
+  return share_of_sine(even, best) >= nearly_all ? best : 0.0;
+}
+
 }  // namespace
 
 double dominant_frequency(const Recording& recording) {
@@ -79,14 +189,21 @@ double dominant_frequency(const Recording& recording) {
   const double step = (recording.time.back() - recording.time.front()) / static_cast<double>(recording.size() - 1);
   const double alike = std::max(alike_share * median, alike_samples * step);
   double sum = 0.0;
-  double count = 0.0;
+  std::size_t count = 0;
   for (const double half : halves) {
     if (std::fabs(half - median) <= alike) {
       sum += half;
-      count += 1.0;
+      ++count;
     }
   }
-  return 0.5 * count / sum;
+  const double by_turns = 0.5 * static_cast<double>(count) / sum;
+  if (count == halves.size()) {
+    return by_turns;
+  }
+  const double of_sine = frequency_of_sine(recording, turns.size());
+  // Where most half periods are alike the others are those of a ramp or a rest, which a sine knows nothing of.
+  const bool ramp = 2 * count > halves.size() && std::fabs(of_sine - by_turns) <= alike_share * by_turns;
+  return of_sine > 0.0 && !ramp ? of_sine : by_turns;
 }
 
 }  // namespace hysteron

@@ -86,6 +86,56 @@ bool repeats(const Recording& recording, std::size_t period) {
   return std::sqrt(squares / static_cast<double>(count)) < repeating_share * std::sqrt(variance);
 }
 
+// A motion of several tones comes again where it misses itself by this share of its standard deviation, and by what
+// half a sample more or less does: its period is no whole number of them.
+constexpr double tones_share = 0.03;
+// Samples in which its period is looked for first, and how much more it may miss itself there.
+constexpr std::size_t first_look = 1000;
+constexpr double first_look_times = 8.0;
+
+// Root mean square change of the displacement over so many samples, of every `stride`-th one.
+double change_after(const std::vector<double>& x, std::size_t lag, std::size_t stride) {
+  double squares = 0.0;
+  double count = 0.0;
+  for (std::size_t n = 0; n + lag < x.size(); n += stride, ++count) {
+    const double change = x[n + lag] - x[n];
+    squares += change * change;
+  }
+  return std::sqrt(squares / count);
+}
+
+// Samples after which a motion with harmonics, or of several tones, comes again, twice at least; 0 where it does not.
+// Its turns tell nothing of that.
+std::size_t tones_return_after(const std::vector<double>& x) {
+  const std::size_t stride = std::max<std::size_t>(1, x.size() / first_look);
+  double mean = 0.0;
+  for (const double value : x) mean += value / static_cast<double>(x.size());
+  double variance = 0.0;
+  for (const double value : x) variance += (value - mean) * (value - mean) / static_cast<double>(x.size());
+  const double deviation = std::sqrt(variance);
+  const double tolerance = tones_share * deviation + 0.5 * change_after(x, 1, 1);
+  bool left = false;  // the motion is no longer where it was at first
+  for (std::size_t lag = stride; 2 * lag <= x.size(); lag += stride) {
+    const double change = change_after(x, lag, stride);
+    left = left || change > deviation;
+    if (!left || change > first_look_times * tolerance) {
+      continue;
+    }
+    std::size_t best = lag;
+    double least = change_after(x, lag, 1);
+    for (std::size_t near = lag - stride + 1; near < lag + stride && 2 * near <= x.size(); ++near) {
+      if (const double of_this = change_after(x, near, 1); of_this < least) {
+        least = of_this;
+        best = near;
+      }
+    }
+    if (least <= tolerance) {
+      return best;
+    }
+  }
+  return 0;
+}
+
 }  // namespace
 
 std::size_t returns_after(const Recording& recording, double frequency) {
@@ -123,7 +173,7 @@ std::size_t returns_after(const Recording& recording, double frequency) {
       best = n;
     }
   }
-  return best > 0 && repeats(recording, best) ? best : 0;
+  return best > 0 && repeats(recording, best) ? best : tones_return_after(recording.displacement);
 }
 
 Start start_of(const Recording& recording) {

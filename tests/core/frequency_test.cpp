@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 
 namespace hysteron {
@@ -30,6 +31,44 @@ TEST(Frequency, OfARampedSineIsThatOfItsSteadyPart) {
     recording.displacement[n] *= std::min(1.0, recording.time[n] / 0.8);
   }
   EXPECT_NEAR(dominant_frequency(recording), 1.4, 0.02);
+}
+
+// What is added turns the motion between its own turns, so that these tell nothing of it.
+TEST(Frequency, IsThatOfTheStrongestTone) {
+  struct Beside {
+    double share, multiple, phase;
+  };
+  for (const Beside beside : {Beside{0.1, 7.0, 0.0}, {0.2, 7.0, 0.0}, {0.3, 3.0, 0.0}, {0.3, 5.3, 0.4}}) {
+    for (const double rate : {500.0, 2000.0}) {
+      Recording recording = sine(4.0, rate, 6.0);
+      const Recording other = sine(4.0 * beside.multiple, rate, 6.0);
+      const auto late = static_cast<std::size_t>(beside.phase * 0.01 * rate);
+      for (std::size_t n = 0; n + late < recording.size(); ++n) {
+        recording.displacement[n] += beside.share * other.displacement[n + late];
+      }
+      EXPECT_NEAR(dominant_frequency(recording), 4.0, 4e-3) << beside.share << " of " << beside.multiple;
+    }
+  }
+}
+
+TEST(Frequency, OfANoisySineIsThatOfTheSine) {
+  Recording recording = sine(0.5, 500.0, 6.0);
+  std::uint32_t state = 1;
+  for (double& x : recording.displacement) {
+    state = 1664525U * state + 1013904223U;
+    x += 4e-4 * (static_cast<double>(state) / 4294967296.0 - 0.5);
+  }
+  EXPECT_NEAR(dominant_frequency(recording), 0.5, 5e-3);
+}
+
+// No sine is most of a sweep: its frequency stays one that it turns with.
+TEST(Frequency, OfASweepIsThatOfItsTurns) {
+  Recording recording = sine(1.0, 500.0, 20.0);
+  for (std::size_t n = 0; n < recording.size(); ++n) {
+    const double t = recording.time[n];
+    recording.displacement[n] = 2e-3 * std::sin(2.0 * std::numbers::pi * (0.5 * t + 0.1 * t * t));
+  }
+  EXPECT_GT(dominant_frequency(recording), 2.0);
 }
 
 TEST(Frequency, OfWhatNeverTurnsIsZero) {

@@ -4,7 +4,9 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 
+#include "core/frequency.hpp"
 #include "fit/objective.hpp"
 
 namespace hysteron {
@@ -69,6 +71,34 @@ TEST(Start, OnlyAMotionThatRepeatsHasAPeriodBeforehand) {
     wandering.displacement[n] += 0.01 * away * std::sin(0.37 * w * t);
   }
   EXPECT_EQ(returns_after(wandering, frequency), 0u);
+}
+
+// Harmonics and a second tone turn the motion between its own turns; a third tone that fits into no period of both does
+// not come again.
+TEST(Start, AMotionOfSeveralTonesHasAPeriodBeforehand) {
+  struct Tones {
+    double share, multiple, other_share, other;
+    double after;
+  };
+  for (const Tones tones : {Tones{0.35, 3.0, 0.0, 1.0, 250},
+                            {0.6, 2.0, 0.0, 1.0, 250},
+                            {0.2, 7.0, 0.0, 1.0, 250},
+                            {0.9, 1.5, 0.0, 1.0, 500},
+                            {0.6, 2.0, 0.4, 1.37, 0}}) {
+    Recording recording = moving(0.0, 3.0);
+    const double w = 2.0 * std::numbers::pi * frequency;
+    for (std::size_t n = 0; n < recording.size(); ++n) {
+      const double t = recording.time[n];
+      for (const auto& [share, multiple] :
+           {std::pair{tones.share, tones.multiple}, std::pair{tones.other_share, tones.other}}) {
+        recording.displacement[n] += 0.01 * share * std::sin(multiple * w * t + 1.0);
+        recording.velocity[n] += 0.01 * share * multiple * w * std::cos(multiple * w * t + 1.0);
+      }
+      recording.displacement[n] += 5e-5 * std::sin(7.1 * static_cast<double>(n));
+    }
+    EXPECT_NEAR(static_cast<double>(returns_after(recording, dominant_frequency(recording))), tones.after, 1.0)
+        << tones.multiple;
+  }
 }
 
 // A recording simulated from the neutral state at full speed is predicted as it was simulated.
