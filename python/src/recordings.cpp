@@ -15,6 +15,7 @@
 #include "datasets/dataset.hpp"
 #include "datasets/support/shipped.hpp"
 #include "io/block_means.hpp"
+#include "io/condition_faults.hpp"
 #include "io/conditions.hpp"
 #include "io/csv.hpp"
 #include "io/csv_text.hpp"
@@ -194,7 +195,9 @@ std::map<std::string, ConditionNumber> numbers_of(const std::map<std::string, st
                        " is not a number with a unit, expected e.g. 2.1e5 or '2.1 bar'");
     }
     number->file = "at";
-    result.insert_or_assign(condition_name(word, "at"), *number);
+    const std::string name = condition_name(word, "at");
+    if (const std::string fault = fault_of_condition(name, text); !fault.empty()) throw InputError("at: " + fault);
+    result.insert_or_assign(name, *number);
   }
   return result;
 }

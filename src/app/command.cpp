@@ -22,6 +22,7 @@
 #include "io/block_means.hpp"
 #include "io/campaign_file.hpp"
 #include "io/channels.hpp"
+#include "io/condition_faults.hpp"
 #include "io/conditions.hpp"
 #include "io/file.hpp"
 #include "io/sha256.hpp"
@@ -108,9 +109,11 @@ std::map<std::string, ConditionNumber> numbers_at(const DataOptions& options) {
   for (const std::string& text : options.at) {
     const auto [word, value] = split_pair("--at", text, "NAME=NUMBER [UNIT], e.g. pressure=\"2.1 bar\"");
     std::optional<ConditionNumber> number = condition_number(value);
+    std::string with_unit = value;
     // "pressure [bar]=2.1"
     if (const std::string unit = split_column(word).unit; number && number->unit.empty() && !unit.empty()) {
-      number = condition_number(value + " " + unit);
+      with_unit += " " + unit;
+      number = condition_number(with_unit);
     }
     if (!number) {
       throw InputError("--at: '" + value + "' of " + word + " is not a number with a unit, expected e.g. 2.1e5 or " +
@@ -118,6 +121,9 @@ std::map<std::string, ConditionNumber> numbers_at(const DataOptions& options) {
     }
     number->file = "--at";
     const std::string name = name_asked(word, "--at");
+    if (const std::string fault = fault_of_condition(name, with_unit); !fault.empty()) {
+      throw InputError("--at: " + fault);
+    }
     if (!result.emplace(name, *number).second) {
       throw InputError("--at: '" + name + "' is given twice, expected each once");
     }

@@ -10,6 +10,7 @@
 #include "core/error.hpp"
 #include "core/suggest.hpp"
 #include "io/clock_time.hpp"
+#include "io/condition_faults.hpp"
 #include "io/conditions.hpp"
 #include "io/file.hpp"
 #include "io/text.hpp"
@@ -86,6 +87,8 @@ class CampaignParser : private TomlReader {
     } else if (const auto real = node.as_floating_point()) {
       if (std::isfinite(real->get())) number = ConditionNumber{real->get(), {}, {}, 0};
     } else if (const auto text = node.as_string()) {
+      const std::string fault = fault_of_condition(key.str(), text->get());
+      if (!fault.empty()) fail(node, fault);
       number = condition_number(text->get());
     }
     if (!number || !(std::abs(number->value) <= largest_value)) {

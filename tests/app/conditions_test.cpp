@@ -209,7 +209,13 @@ TEST_F(Pressed, WhatIsWrongIsSaidInOneLine) {
     EXPECT_NE(outcome.err.find(part), std::string::npos) << outcome.err;
   };
   refused({"simulate", "a/model.json", "bare.csv", "--out", "o.csv"}, "no column 'pressure', which parameters follow");
-  refused({"simulate", "a/model.json", "bare.csv", "--at", "pressure=2 mm", "--out", "o.csv"}, "expected 'Pa'");
+  refused({"simulate", "a/model.json", "bare.csv", "--at", "pressure=2 mm", "--out", "o.csv"},
+          "expected one of Pa, bar, psi");
+  refused({"simulate", "a/model.json", "bare.csv", "--at", "pressure [mm]=2", "--out", "o.csv"},
+          "--at: '2 mm' of 'pressure' has a unit of another quantity");
+  refused({"simulate", "a/model.json", "bare.csv", "--at", "pressure=2 turns", "--out", "o.csv"}, "expected 'Pa'");
+  refused({"simulate", "a/model.json", "bare.csv", "--at", "pressure=2,5 bar", "--out", "o.csv"},
+          "--at: '2,5 bar' of 'pressure' has a comma in its number, expected a decimal point");
   refused({"export", "a/model.json", "--to", "c", "--out", "c"}, "expected its value by --at \"pressure=NUMBER Pa\"");
   refused({"export", "a/model.json", "--to", "c", "--at", "pressure=1", "--at", "valve=2", "--out", "c"},
           "--at: no parameter of the model follows 'valve', expected pressure");

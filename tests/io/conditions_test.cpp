@@ -8,6 +8,7 @@
 #include "core/error.hpp"
 #include "io/campaign.hpp"
 #include "io/clock_time.hpp"
+#include "io/condition_faults.hpp"
 #include "io/csv.hpp"
 #include "io/temporary_folder.hpp"
 
@@ -54,6 +55,46 @@ TEST(Conditions, UnitsOfEveryKindBecomeSi) {
   for (const char* text : {"", "bar", "nan", "inf", "1e999", "1e30 bar", "--1"}) {
     EXPECT_FALSE(condition_number(text)) << text;
   }
+}
+
+TEST(Conditions, WhatFollowsANumberIsAUnitOfTheCondition) {
+  EXPECT_EQ(fault_of_condition("temperature", "10,5 degC"),
+            "'10,5 degC' of 'temperature' has a comma in its number, expected a decimal point");
+  EXPECT_EQ(fault_of_condition("run", "1,5").find("'1,5' of 'run' has a comma"), 0U);
+  for (const char* text : {"10-12 turns", "10..12", "10 \xC2\xB1 1", "4 (of 5)", "3 [bar]"}) {
+    EXPECT_NE(fault_of_condition("valve", text).find("behind its number, which is no unit"), std::string::npos) << text;
+  }
+  EXPECT_EQ(fault_of_condition("oil temperature", "10 bar"),
+            "'10 bar' of 'oil temperature' has a unit of another quantity, expected one of degC, K, degF");
+  for (const auto& [name, text] : {std::pair("pressure", "2 mm"),
+                                   {"hours", "3 km"},
+                                   {"hours", "2 bar"},
+                                   {"voltage", "3 A"},
+                                   {"current", "3 V"},
+                                   {"valve frequency", "3 s"}}) {
+    EXPECT_NE(fault_of_condition(name, text).find("a unit of another quantity"), std::string::npos)
+        << name << " " << text;
+  }
+  for (const auto& [name, text] : {std::pair("temperature", "10 degC"),
+                                   {"temperature", "283 K"},
+                                   {"temperature", "-5"},
+                                   {"pressure", "2 barg"},
+                                   {"valve", "30 %"},
+                                   {"valve", "3 bar"},
+                                   {"crank", "60 1/min"},
+                                   {"hours", "2.5 h"},
+                                   {"frequency", "2 Hz"},
+                                   {"current", "500 mA"},
+                                   {"angle", "30 \xC2\xB0"},
+                                   {"valve", "open"}}) {
+    EXPECT_EQ(fault_of_condition(name, text), "") << name << " " << text;
+  }
+  const TemporaryFolder folder;
+  folder.write("r1.csv", plain());
+  const auto path =
+      folder.write("campaign.toml", schema + "[[recording]]\nfile = \"r1.csv\"\ntemperature = \"10,5 degC\"\n");
+  EXPECT_EQ(message_of<InputError>([&] { (void)load_campaign({folder.path().string()}); }),
+            path.string() + ":4: '10,5 degC' of 'temperature' has a comma in its number, expected a decimal point");
 }
 
 TEST(Conditions, TwoUnitsOfOneColumnAreRefused) {
