@@ -1515,6 +1515,35 @@ TEST(Xlsx, WhichOfSeveralSheetsIsReadIsTold) {
   EXPECT_EQ(told_of({{"Data", table}}, {}), "");
 }
 
+// A filter hides rows, and what hides a column may be that another one was corrected.
+TEST(Xlsx, HiddenRowsAndColumnsAreReadAndTold) {
+  const std::string head = row({cell("time [s]"), cell("disp [mm]"), cell("force [N]"), cell("note")});
+  const auto told_of = [&](int from, int to, const std::string& columns) {
+    std::string sheet = head;
+    for (int k = 0; k < 20; ++k) {
+      std::string one = row({cell(0.1 * k), cell(1.0 * k), cell(2.0 * k), cell(3.0)});
+      if (k >= from && k < to) one.insert(one.find("<row") + 4, " hidden=\"1\"");
+      sheet += one;
+    }
+    auto parts = workbook_parts({{"A", sheet}});
+    parts[0].second.insert(parts[0].second.find("<sheetData>"), columns);
+    Told told;
+    EXPECT_EQ(read("xlsx", zip_of(parts), told.options).size(), 20U);
+    std::string lines;
+    for (const std::string& line : told.lines) lines += line.find("hidden") == std::string::npos ? "" : line + "\n";
+    return lines;
+  };
+  EXPECT_EQ(told_of(0, 0, ""), "");
+  EXPECT_EQ(told_of(5, 6, ""), "row 7 of sheet 'A' is hidden: its numbers are read all the same\n");
+  EXPECT_EQ(told_of(5, 9, ""), "4 rows of sheet 'A', from row 7 on, are hidden: their numbers are read all the same\n");
+  const auto hides = [](const std::string& ends) { return "<cols><col " + ends + " hidden=\"1\"/></cols>"; };
+  EXPECT_EQ(told_of(0, 0, hides(R"(min="3" max="3")")),
+            "column 'force [N]' of sheet 'A' is hidden: it is read all the same\n");
+  EXPECT_EQ(told_of(0, 0, hides(R"(min="2" max="16384")")),
+            "columns 'disp [mm]', 'force [N]' of sheet 'A' are hidden: they are read all the same\n");
+  EXPECT_EQ(told_of(0, 0, hides(R"(min="4" max="4")")), "") << "no channel";
+}
+
 TEST(Xlsx, EntitiesAndBombsAreRefused) {
   auto parts = workbook_parts({{"A", ""}});
   parts[0].second = "<?xml version=\"1.0\"?><!DOCTYPE x [<!ENTITY a \"aaaa\">]><worksheet><sheetData/></worksheet>";

@@ -161,6 +161,7 @@ struct SheetRow {
   std::uint32_t number = 0;
   std::size_t first = 0;  // in Sheet::cells
   std::size_t count = 0;
+  bool hidden = false;
 };
 
 struct Sheet {
@@ -169,6 +170,7 @@ struct Sheet {
   std::vector<Cell> cells;  // those that are not empty
   std::vector<SheetRow> rows;
   std::vector<std::uint32_t> unvalued;  // rows of formulas without a value, once for each
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> hidden_columns;  // first and last of stretches
 
   [[nodiscard]] std::string_view text(const Cell& cell) const {
     return std::string_view(letters).substr(cell.at, cell.length);
@@ -200,6 +202,8 @@ std::optional<std::uint32_t> whole(std::string_view text) {
   if (read.ec != std::errc() || read.ptr != text.data() + text.size()) return std::nullopt;
   return value;
 }
+
+bool is_true(std::string_view attribute) { return attribute == "1" || attribute == "true"; }
 
 std::optional<double> number_of(std::string_view text) {
   double value = 0.0;
@@ -371,7 +375,15 @@ class SheetParser {
  private:
   void begin(std::string_view name, const XmlAttributes& attributes) {
     if (name == "row") {
-      begin_row(attribute(attributes, "r"));
+      begin_row(attribute(attributes, "r"), is_true(attribute(attributes, "hidden")));
+    } else if (name == "col") {
+      const std::optional<std::uint32_t> first = whole(attribute(attributes, "min"));
+      const std::optional<std::uint32_t> last = whole(attribute(attributes, "max"));
+      // Counted from 1.
+      if (first && last && *first > 0 && is_true(attribute(attributes, "hidden")) &&
+          sheet_.hidden_columns.size() < most_columns) {
+        sheet_.hidden_columns.emplace_back(*first - 1, *last - 1);
+      }
     } else if (name == "c") {
       if (sheet_.rows.empty()) throw Damage("a cell outside of a row");
       const std::string_view reference = attribute(attributes, "r");
@@ -393,13 +405,13 @@ class SheetParser {
     if (name == "rPh") ++phonetic_;
   }
 
-  void begin_row(std::string_view number) {
+  void begin_row(std::string_view number, bool hidden) {
     if (in_cell_) throw Damage("a row in a cell");
     const std::optional<std::uint32_t> row = number.empty() ? next_row_ : whole(number);
     if (!row || *row < next_row_ || *row > most_rows) throw Damage("a row " + in_quotes(number) + " out of order");
     next_row_ = *row + 1;
     next_column_ = 0;
-    sheet_.rows.push_back({*row, sheet_.cells.size(), 0});
+    sheet_.rows.push_back({*row, sheet_.cells.size(), 0, hidden});
   }
 
   void end(std::string_view name) {
@@ -726,8 +738,7 @@ class WorkbookReader {
     XmlEvents events;
     events.begin = [&](std::string_view element, const XmlAttributes& attributes) {
       if (element == "workbookPr") {
-        const std::string_view from_1904 = attribute(attributes, "date1904");
-        if (from_1904 == "1" || from_1904 == "true") days_at_1970_ -= days_from_1900_to_1904;
+        if (is_true(attribute(attributes, "date1904"))) days_at_1970_ -= days_from_1900_to_1904;
       }
       if (element != "sheet") return;
       const std::string_view id = attribute(attributes, "*:id");
@@ -946,6 +957,38 @@ class WorkbookReader {
     return split_column(name == nullptr ? std::string_view{} : sheet.text(*name));
   }
 
+  // A filter or a hand hides rows and columns of what is seen; their numbers are those of the recording all the same.
+  void tell_hidden_rows(const Sheet& sheet, const Table& table, std::uint32_t last) const {
+    std::size_t count = 0;
+    std::uint32_t first = 0;
+    for (std::size_t r = table.header + 1; r < sheet.rows.size() && sheet.rows[r].number <= last; ++r) {
+      const SheetRow& row = sheet.rows[r];
+      if (!row.hidden || numbers_in(sheet, row, table.columns) == 0) continue;
+      if (count++ == 0) first = row.number;
+    }
+    if (count == 0 || !options_.remark) return;
+    const std::string row = "row " + std::to_string(first);
+    const std::string of_sheet = " of sheet " + in_quotes(sheet.name);
+    options_.remark({file_, Remark::Kind::dialect, "hidden rows",
+                     count == 1 ? row + of_sheet + " is hidden: its numbers are read all the same"
+                                : std::to_string(count) + " rows" + of_sheet + ", from " + row +
+                                      " on, are hidden: their numbers are read all the same"});
+  }
+
+  void tell_hidden_columns(const Sheet& sheet, const Table& table) const {
+    std::vector<std::string> names;
+    for (const std::uint32_t at : table.columns) {
+      const bool hidden = std::ranges::any_of(sheet.hidden_columns,
+                                              [&](const auto& ends) { return at >= ends.first && at <= ends.second; });
+      const Column column = column_at(sheet, table, at);
+      if (hidden && channel_of(column)) names.push_back(column.text);
+    }
+    if (names.empty() || !options_.remark) return;
+    options_.remark({file_, Remark::Kind::dialect, "hidden columns",
+                     (names.size() == 1 ? "column " : "columns ") + list(names) + " of sheet " + in_quotes(sheet.name) +
+                         (names.size() == 1 ? " is hidden: it is" : " are hidden: they are") + " read all the same"});
+  }
+
   [[nodiscard]] Recording read_table(Sheet& sheet, const Table& table) const {
     const std::optional<double> first_date = read_dates(sheet, table);
     const std::optional<double> start = first_date ? first_date : start_above(sheet, table);
@@ -969,6 +1012,8 @@ class WorkbookReader {
     ReadOptions of_table = options_;
     of_table.skip = 0;  // the text begins with the rows above the header, which are empty
     const auto last = static_cast<std::uint32_t>(std::ranges::count(table_text.text, '\n'));
+    tell_hidden_rows(sheet, table, last);
+    tell_hidden_columns(sheet, table);
     Recording recording = parse_csv(table_text.text, file_, of_table, units_of_formats(sheet, table, last));
     if (start) recording.started = start;
     return recording;
