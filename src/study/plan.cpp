@@ -1,7 +1,6 @@
 #include "study/plan.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -12,6 +11,7 @@
 #include "fit/usable.hpp"
 #include "io/campaign.hpp"
 #include "io/sha256.hpp"
+#include "io/value_hash.hpp"
 
 namespace hysteron {
 namespace {
@@ -20,19 +20,8 @@ using nlohmann::json;
 
 // Recordings that are made, not read: the hash of their numbers stands for the hash of a file.
 std::string hash_of(const Recording& recording) {
-  std::string bytes;
-  const auto add = [&](const std::vector<double>& channel) {
-    for (const double value : channel) {
-      auto word = std::bit_cast<std::uint64_t>(value);
-      for (int k = 0; k < 8; ++k, word >>= 8U) bytes += static_cast<char>(word & 0xffU);
-    }
-    bytes += ';';
-  };
-  for (const auto* channel : {&recording.time, &recording.displacement, &recording.velocity, &recording.force,
-                              &recording.acceleration, &recording.drive, &recording.temperature}) {
-    add(*channel);
-  }
-  return sha256_hex(bytes);
+  return sha256_of_channels({&recording.time, &recording.displacement, &recording.velocity, &recording.force,
+                             &recording.acceleration, &recording.drive, &recording.temperature});
 }
 
 // What is wrong with a path that a study names, rather than with a file in it, is said with the study's line.
@@ -80,9 +69,9 @@ bool named_by(const std::vector<std::string>& parts, const Recording& recording)
                              [&](const std::string& part) { return recording.file.find(part) != std::string::npos; });
 }
 
-std::string listed(const std::vector<std::string>& words, const std::string& between) {
+std::string listed(const std::vector<std::string>& words) {
   std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "'" : between + "'") + word + "'";
+  for (const std::string& word : words) text += (text.empty() ? "'" : ", '") + word + "'";
   return text;
 }
 
@@ -94,7 +83,21 @@ std::string names_in(const Campaign& campaign) {
     if (names.size() < most) names.push_back(recording.file);
   }
   const std::size_t others = campaign.recordings.size() - names.size();
-  return listed(names, ", ") + (others == 0 ? "" : " or " + std::to_string(others) + " others");
+  return listed(names) + (others == 0 ? "" : " or " + std::to_string(others) + " others");
+}
+
+// Every part that 'only' or 'validate' holds is meant to choose something.
+void refuse_unmatched(const std::string& key, const std::vector<std::string>& parts,
+                      const std::vector<Recording>& recordings, const Campaign& campaign, const DataSpec& spec,
+                      const std::string& file) {
+  for (const std::string& part : parts) {
+    if (std::ranges::any_of(recordings, [&](const Recording& recording) { return named_by({part}, recording); })) {
+      continue;
+    }
+    throw InputError(file, spec.line,
+                     "no recording of '" + spec.label + "' has a name that contains '" + part + "' of '" + key +
+                         "', expected a part of " + names_in(campaign));
+  }
 }
 
 struct DataGroup {
@@ -105,6 +108,7 @@ struct DataGroup {
 
 std::vector<DataGroup> groups_of(const DataSpec& spec, const std::string& file, std::vector<Remark>& remarks) {
   const Campaign campaign = load(spec, file, remarks);
+  refuse_unmatched("only", spec.only, campaign.recordings, campaign, spec, file);
   DataGroup all{spec.label, {}, {}};
   std::vector<DataGroup> each;
   for (std::size_t k = 0; k < campaign.recordings.size(); ++k) {
@@ -119,23 +123,12 @@ std::vector<DataGroup> groups_of(const DataSpec& spec, const std::string& file, 
         spec.validate.empty() ? campaign.roles[k] == Role::validate : named_by(spec.validate, recording);
     (judges ? all.heldout : all.fitted).push_back(recording);
   }
-  if (all.fitted.empty() && all.heldout.empty()) {
-    throw InputError(file, spec.line,
-                     "no recording of '" + spec.label + "' has a name that contains " + listed(spec.only, " or ") +
-                         " of 'only', expected a part of " + names_in(campaign));
-  }
   if (spec.each) return each;
   if (all.fitted.empty()) {
     throw InputError(file, spec.line,
                      "every recording of '" + spec.label + "' has the role validate, expected one to fit");
   }
-  for (const std::string& part : spec.validate) {
-    if (std::ranges::none_of(all.heldout, [&](const Recording& recording) { return named_by({part}, recording); })) {
-      throw InputError(file, spec.line,
-                       "no recording of '" + spec.label + "' has a name that contains '" + part +
-                           "' of 'validate', expected a part of " + names_in(campaign));
-    }
-  }
+  refuse_unmatched("validate", spec.validate, all.heldout, campaign, spec, file);
   return {all};
 }
 

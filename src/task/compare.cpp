@@ -33,6 +33,7 @@ constexpr std::size_t page_points = 700;
 struct Compared {
   std::string label;
   StoredModel stored;
+  std::vector<bool> fitted_on;  // one a recording
   std::vector<std::vector<double>> force;
   std::vector<Score> scores;  // one a recording
   double overall = 0.0;
@@ -122,13 +123,13 @@ ModelComparison compare_models(const std::vector<ComparedModel>& given, const st
   for (Compared& model : models) {
     check_rate(model.stored, recordings);
     follow_conditions(model.stored, recordings);
+    for (const Recording& recording : recordings) model.fitted_on.push_back(was_fitted_on(model.stored, recording));
   }
   std::vector<std::size_t> all;
   std::vector<std::size_t> common;  // fitted by every model
   for (std::size_t r = 0; r < recordings.size(); ++r) {
     all.push_back(r);
-    if (std::ranges::all_of(
-            models, [&](const Compared& model) { return model.stored.fitted_on.contains(recordings[r].sha256); })) {
+    if (std::ranges::all_of(models, [&](const Compared& model) { return model.fitted_on[r]; })) {
       common.push_back(r);
     }
   }
@@ -149,7 +150,7 @@ ModelComparison compare_models(const std::vector<ComparedModel>& given, const st
                                     model.label, *time));
       }
       model.scores.push_back(score(model.force.back(), recording, objective.normalisation));
-      (model.stored.fitted_on.contains(recording.sha256) ? seen : unseen).push_back(r);
+      (model.fitted_on[r] ? seen : unseen).push_back(r);
     }
     model.overall = *overall_of(model, recordings, objective, all);
     model.fitted = overall_of(model, recordings, objective, seen);
@@ -222,7 +223,7 @@ ModelComparison compare_models(const std::vector<ComparedModel>& given, const st
       row["nrmse"].push_back(model.scores[r].nrmse);
       row["rmse_n"].push_back(model.scores[r].rmse);
       row["fit_percent"].push_back(model.scores[r].fit_percent);
-      row["fitted"].push_back(model.stored.fitted_on.contains(recordings[r].sha256));
+      row["fitted"].push_back(static_cast<bool>(model.fitted_on[r]));
     }
     file["recordings"].push_back(std::move(row));
   }

@@ -13,6 +13,7 @@
 #include "io/output.hpp"
 #include "report/terminal.hpp"
 #include "task/guesses.hpp"
+#include "task/impossible_laws.hpp"
 #include "task/remarks.hpp"
 #include "task/result_file.hpp"
 
@@ -104,6 +105,7 @@ ModelExport export_model(StoredModel stored, const std::string& path, const std:
     append(remarks, beyond_fitted(stored, path, {*motion}));
   } else {
     append(remarks, units_assumed(stored, path));
+    append(remarks, impossible_laws(stored, path));
   }
   append(remarks, guessed);
   ExportedModel exported{stored.model, stored.held, stored.terms, request.name};

@@ -10,6 +10,7 @@
 #include "core/error.hpp"
 #include "core/frequency.hpp"
 #include "fit/layout.hpp"
+#include "task/impossible_laws.hpp"
 #include "task/remarks.hpp"
 
 namespace hysteron {
@@ -91,6 +92,7 @@ std::vector<std::string> drive_assumed(const StoredModel& stored, const std::str
 std::vector<std::string> guesses_of(const StoredModel& stored, const std::string& path,
                                     const std::vector<Recording>& recordings) {
   std::vector<std::string> remarks = units_assumed(stored, path);
+  append(remarks, impossible_laws(stored, path));
   append(remarks, drive_assumed(stored, path, recordings));
   const bool voltage = stored.drive == DriveKind::voltage;
   const char* const drive_word = voltage ? "voltage" : "current";

@@ -16,9 +16,9 @@ std::vector<std::string> units_assumed(const StoredModel& stored, const std::str
 std::vector<std::string> drive_assumed(const StoredModel& stored, const std::string& path,
                                        const std::vector<Recording>& recordings);
 
-// These, and remarks where drive, frequency or conditions (follow_conditions) lie beyond what the laws were fitted over
-// by more than a tenth of that: a polynomial says nothing there. One line each for all recordings, of the one that is
-// farthest out.
+// These, those of impossible_laws, and remarks where drive, frequency or conditions (follow_conditions) lie beyond what
+// the laws were fitted over by more than a tenth of that: a polynomial says nothing there. One line each for all
+// recordings, of the one that is farthest out.
 std::vector<std::string> guesses_of(const StoredModel& stored, const std::string& path,
                                     const std::vector<Recording>& recordings);
 

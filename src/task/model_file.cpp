@@ -16,6 +16,7 @@
 #include "io/conditions.hpp"
 #include "io/file.hpp"
 #include "io/json_reader.hpp"
+#include "io/value_hash.hpp"
 #include "task/rate.hpp"
 #include "task/words.hpp"
 
@@ -146,7 +147,9 @@ json model_json(const Identification& result, const Campaign& campaign, const Id
   }
   json fitted = json::array();
   for (const std::size_t index : result.fitted) {
-    fitted.push_back({{"file", campaign.recordings[index].file}, {"sha256", campaign.recordings[index].sha256}});
+    const Recording& recording = campaign.recordings[index];
+    fitted.push_back(
+        {{"file", recording.file}, {"sha256", recording.sha256}, {"values_sha256", sha256_of_values(recording)}});
   }
   json effects = json::array();
   for (const Part* effect : result.layout.model().effects) {
@@ -461,6 +464,8 @@ StoredModel parse_model(std::string_view text, const std::string& path) {
     for (const json& entry : root.value("fitted_on", json::array())) {
       if (entry.is_object() && entry.contains("sha256") && entry.at("sha256").is_string()) {
         result.fitted_on.insert(entry.at("sha256").get<std::string>());
+        const std::string values = entry.value("values_sha256", "");
+        if (!values.empty()) result.fitted_values.insert(values);
       }
     }
     result.drive_range = stated_range(root, "laws_fitted_over", "drive");
@@ -623,6 +628,11 @@ void hold_conditions(StoredModel& stored, const std::map<std::string, ConditionN
   }
   stored.terms = std::move(held);
   stored.conditions.clear();
+}
+
+bool was_fitted_on(const StoredModel& stored, const Recording& recording) {
+  return stored.fitted_on.contains(recording.sha256) ||
+         (!stored.fitted_values.empty() && stored.fitted_values.contains(sha256_of_values(recording)));
 }
 
 void check_rate(const StoredModel& stored, const std::vector<Recording>& recordings) {

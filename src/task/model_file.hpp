@@ -31,6 +31,7 @@ struct StoredModel {
   std::vector<ConditionRange> conditions;  // that laws follow, with the range they were fitted over
   std::size_t searched = 0;                // terms that were fitted, not held
   std::set<std::string> fitted_on;         // sha256 of the recordings
+  std::set<std::string> fitted_values;     // sha256 of what they hold (io/value_hash.hpp); none of older files
   // Units of the parameters whose entries state none: theirs are taken to be these.
   std::vector<std::pair<std::string, std::string>> assumed_units;
   // Where the laws were fitted, lowest and highest; none of files without laws and of those that do not say it.
@@ -66,6 +67,9 @@ void follow_conditions(StoredModel& stored, const std::vector<Recording>& record
 // without a value, or with one in another unit, and for a value of anything else. `command` opens the message.
 void hold_conditions(StoredModel& stored, const std::map<std::string, ConditionNumber>& values,
                      const std::string& command);
+
+// Whether the model was fitted on a recording, or on a copy that holds the same numbers in other bytes.
+bool was_fitted_on(const StoredModel& stored, const Recording& recording);
 
 // Throws InputError where a recording has no time and the force depends on the rate (task/rate.hpp).
 void check_rate(const StoredModel& stored, const std::vector<Recording>& recordings);

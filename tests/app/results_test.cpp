@@ -141,7 +141,12 @@ TEST_F(Results, NothingOfAnotherHandIsReplaced) {
   fs::remove(folder_ / "twin/2.0Hz_0.5A.csv");
   refused(generate, "twin/campaign.toml", "campaign.toml is there, which the dataset does not have");
   fs::remove(folder_ / "twin/campaign.toml");
+  refused(generate, "twin/mine.csv", "mine.csv is there, which is no recording of the dataset");
+  fs::remove(folder_ / "twin/mine.csv");
+  write(folder_ / "twin/.mine.csv", "no recording");
+  write(folder_ / "twin/log.xlsx", "no recording beside others");
   EXPECT_EQ(run(generate).status, 0);
+  EXPECT_EQ(run({"generate", "rd8040-twin", "--only", "2.0Hz_0.2A", "--out", "twin"}).status, 0) << "another of them";
   EXPECT_EQ(run(generate).status, 0) << "what it wrote itself";
   const std::vector<std::string> exported = {"export", "fitted/model.json", "--to", "c", "--out", "c"};
   refused(exported, "c/bouc_wen.c", "bouc_wen.c is there and was not written by hysteron");

@@ -138,6 +138,10 @@ INSTANTIATE_TEST_SUITE_P(
               head + "models = [\"viscous\"]\nsolvers = [\"pso\"]\nbudgets = 1\nseeds = 1\n[[data]]\ndataset = "
                      "\"rd8040-twin\"\nonly = \"9Hz\"\n",
               6, "contains '9Hz' of 'only', expected a part of '"},
+        Wrong{"one_of_two_chosen",
+              head + "models = [\"viscous\"]\nsolvers = [\"pso\"]\nbudgets = 1\nseeds = 1\n[[data]]\ndataset = "
+                     "\"rd8040-twin\"\nonly = [\"2.0Hz\", \"2.0hz\"]\n",
+              6, "contains '2.0hz' of 'only', expected a part of '"},
         Wrong{"unknown_parameter",
               head + "models = [{ id = \"viscous\", by_current = { zeta = 1 } }]\nsolvers = [\"pso\"]\nbudgets = "
                      "1\nseeds = 1\n[[data]]\ndataset = \"rd8040-twin\"\n",
