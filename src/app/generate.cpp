@@ -16,6 +16,7 @@
 #include "datasets/dataset.hpp"
 #include "datasets/support/shipped.hpp"
 #include "io/file.hpp"
+#include "io/format.hpp"
 #include "io/output.hpp"
 #include "task/dataset.hpp"
 
@@ -61,6 +62,18 @@ std::map<std::string, std::string> files_of(const DatasetEntry& entry, const Cam
     files["campaign.toml"] = std::move(toml);
   }
   return files;
+}
+
+// Recordings of another hand would be read with those of the dataset.
+void refuse_other_recordings(const std::filesystem::path& folder, const Campaign& campaign) {
+  std::error_code code;
+  for (std::filesystem::directory_iterator at(folder, code), end; !code && at != end; at.increment(code)) {
+    const std::string name = at->path().filename().string();
+    const bool own = std::ranges::find(campaign.recordings, name, &Recording::file) != campaign.recordings.end();
+    if (own || in_folders(at->path()) != InFolders::all || !at->is_regular_file(code)) continue;
+    throw InputError("--out " + folder.string() + ": " + name +
+                     " is there, which is no recording of the dataset, expected another folder");
+  }
 }
 
 // What is there of another hand would be lost, or rule the folder.
@@ -133,6 +146,7 @@ void add_generate(CLI::App& program) {
     }
     const std::map<std::string, std::string> files = files_of(*entry, campaign, options->only);
     refuse_others(options->out, files);
+    refuse_other_recordings(options->out, campaign);
     make_output_folder(options->out);
     for (const auto& [name, text] : files) write_file_atomically(std::filesystem::path(options->out) / name, text);
     const auto written = std::ranges::count_if(campaign.recordings, [&](const Recording& recording) {

@@ -55,25 +55,15 @@ bool is_recording(const fs::path& path) {
   return false;
 }
 
-InFolders in_folders(const std::string& ending) {
-  for (const InputFormat* format : formats()) {
-    for (const Ending& known : format->endings) {
-      if (known.text == ending) return known.in_folders;
-    }
-  }
-  return InFolders::none;
-}
-
-// The recordings of a folder in bytewise order of name; hidden files are not recordings, nor are those that office
-// programs keep beside an open file (~$NAME).
+// The recordings of a folder in bytewise order of name.
 std::vector<std::string> names_in(const fs::path& folder) {
   std::vector<std::string> names;
   std::vector<std::string> if_alone;
   std::error_code code;
   for (fs::directory_iterator at(folder, code), end; !code && at != end; at.increment(code)) {
     const std::string name = at->path().filename().string();
-    const InFolders taken = in_folders(extension_of(at->path()));
-    if (taken == InFolders::none || name.starts_with('.') || name.starts_with("~$") || is_folder(at->path())) continue;
+    const InFolders taken = in_folders(at->path());
+    if (taken == InFolders::none || is_folder(at->path())) continue;
     (taken == InFolders::all ? names : if_alone).push_back(name);
   }
   if (code)

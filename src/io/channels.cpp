@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 #include <span>
 #include <utility>
@@ -112,6 +113,39 @@ constexpr std::pair<std::string_view, Quantity> ends_of_words[] = {{"zeit", Quan
                                                                    {"kraft", Quantity::force},
                                                                    {"strom", Quantity::current}};
 
+// Words of columns that hold what was asked for or worked out, and of those that hold what was measured.
+constexpr std::string_view unmeasured_words[] = {
+    "command",   "commanded", "cmd",     "target",      "setpoint", "set",        "demand",  "demanded",
+    "desired",   "reference", "nominal", "soll",        "computed", "calculated", "calc",    "estimated",
+    "predicted", "simulated", "model",   "theoretical", "error",    "max",        "maximum", "min",
+    "minimum",   "mean",      "average", "peak",        "rms"};
+constexpr std::string_view measured_words[] = {"measured", "actual", "feedback", "sensor", "response", "ist"};
+
+std::vector<std::string> words_of(std::string_view name) {
+  std::vector<std::string> words;
+  const std::string lower = lower_case(name);
+  for (std::size_t at = 0; at < lower.size();) {
+    const std::size_t end = std::min(lower.find_first_of(" _-.", at), lower.size());
+    if (end > at) words.push_back(lower.substr(at, end - at));
+    at = end + 1;
+  }
+  return words;
+}
+
+bool has_one_of(std::string_view name, std::span<const std::string_view> words) {
+  return std::ranges::any_of(words_of(name), [&](const std::string& word) {
+    return std::ranges::find(words, std::string_view(word)) != words.end();
+  });
+}
+
+bool is_unmeasured(std::string_view name) { return has_one_of(name, unmeasured_words); }
+
+// A single letter may be anything.
+bool has_word_of(Quantity quantity, std::string_view name) {
+  return std::ranges::any_of(
+      words_of(name), [&](const std::string& word) { return word.size() > 1 && quantity_of_name(word) == quantity; });
+}
+
 // "Position(Linear:Position)" -> "Position": the axis and the name again, as some testing machines write it.
 std::string_view without_axis(std::string_view name) {
   name = trimmed(name);
@@ -164,7 +198,7 @@ class Assigner {
     match_last_words();
     refuse_shared();
     for (std::size_t i = 0; i < columns_.size(); ++i) doubt_unit(i);
-    for (int q = 0; q < quantity_count; ++q) doubt_letter(static_cast<Quantity>(q));
+    for (int q = 0; q < quantity_count; ++q) doubt_without_unit(static_cast<Quantity>(q));
     for (const Quantity quantity : {Quantity::time, Quantity::displacement, Quantity::force}) {
       if (is_required(quantity)) require(quantity);
     }
@@ -210,6 +244,7 @@ class Assigner {
     const auto quantity = quantity_of_name(channel);
     if (!quantity) {
       std::vector<std::string> known;
+      known.reserve(quantity_count);
       for (int i = 0; i < quantity_count; ++i) known.emplace_back(quantity_name(static_cast<Quantity>(i)));
       const std::string_view meant = nearest(channel, known, channel.size() / 3);
       throw OptionError(Option::column + " " + channel + "=" + value + ": unknown channel " + in_quotes(channel) +
@@ -238,7 +273,7 @@ class Assigner {
     const auto& present = source(*quantity);
     const std::string name(quantity_name(*quantity));
     if (present.column < 0) {
-      assign(*quantity, i, {});
+      if (!leave_rotation(*quantity, i)) assign(*quantity, i, {});
       return;
     }
     const bool mapped = std::ranges::any_of(
@@ -247,6 +282,22 @@ class Assigner {
     fail("two columns for " + name + " (" + in_quotes(columns_[static_cast<std::size_t>(present.column)].text) +
          " and " + in_quotes(columns_[i].text) + "), expected one, or " + Option::column + " " + name +
          "=NAME to choose");
+  }
+
+  // "speed [rpm]" is that of the drive of the rig, not of the rod.
+  [[nodiscard]] bool leave_rotation(Quantity quantity, std::size_t i) const {
+    static constexpr std::string_view rotations[] = {"rpm",   "rev/min", "r/min", "1/min",
+                                                     "u/min", "rad/s",   "deg/s", "\xC2\xB0/s"};
+    const Column& column = columns_[i];
+    if (quantity != Quantity::velocity ||
+        std::ranges::find(rotations, lower_case(column.unit)) == std::end(rotations)) {
+      return false;
+    }
+    if (options_.remark) {
+      options_.remark({file_, Remark::Kind::dialect, "rotation",
+                       in_quotes(column.text) + " is not read as the velocity: its unit is one of a rotation"});
+    }
+    return true;
   }
 
   // "Total Time", "Axial_Force": a channel that no column names alone is the one column whose last word names it.
@@ -269,6 +320,7 @@ class Assigner {
           std::ranges::find_if(found, [&](std::size_t i) { return lower_case(columns_[i].name) == "total time"; });
       if (quantity == Quantity::time && total != found.end()) found = {*total};
       const std::string channel(quantity_name(quantity));
+      const std::vector<std::size_t> set = take_out_unmeasured(quantity, found);
       if (found.size() > 1 && quantity != Quantity::current) {
         fail(std::to_string(found.size()) + " columns may be the " + channel + " (" +
              in_quotes(columns_[found[0]].text) + ", " + in_quotes(columns_[found[1]].text) + "), expected one, or " +
@@ -278,9 +330,42 @@ class Assigner {
       assign(quantity, found.front(), {});
       if (options_.remark) {
         const std::string text = in_quotes(columns_[found.front()].text) + " is taken for the " + channel;
-        options_.remark({file_, Remark::Kind::dialect, text, text});
+        options_.remark({file_, Remark::Kind::dialect, text, text + beside(quantity, found.front(), set)});
       }
     }
+  }
+
+  // "command position" gives way to a measured one, by its last word as well or, as "LVDT feedback [mm]", by a word
+  // that says so, any other word and its unit. Gives those that gave way.
+  std::vector<std::size_t> take_out_unmeasured(Quantity quantity, std::vector<std::size_t>& found) const {
+    const auto gives_way = [&](std::size_t i) { return is_unmeasured(columns_[i].name); };
+    if (quantity == Quantity::time || std::ranges::none_of(found, gives_way)) return {};
+    std::vector<std::size_t> measured;
+    for (std::size_t i = 0; i < columns_.size(); ++i) {
+      const Column& column = columns_[i];
+      const bool said = has_one_of(column.name, measured_words) && has_word_of(quantity, column.name) &&
+                        find_unit(quantity, column.unit).has_value();
+      const bool named = said || std::ranges::find(found, i) != found.end();
+      if (!taken_[i] && named && !gives_way(i)) measured.push_back(i);
+    }
+    if (measured.empty()) return {};
+    std::vector<std::size_t> unmeasured;
+    std::ranges::copy_if(found, std::back_inserter(unmeasured), gives_way);
+    found = std::move(measured);
+    return unmeasured;
+  }
+
+  // What a remark on a column taken by one of its words tells of others: those that gave way to it, or, where it is not
+  // a measured one itself, the first that has a unit of the channel.
+  [[nodiscard]] Message beside(Quantity quantity, std::size_t taken, const std::vector<std::size_t>& set) const {
+    if (!set.empty()) return ", not " + in_quotes(columns_[set.front()].text);
+    if (quantity == Quantity::time || !is_unmeasured(columns_[taken].name)) return "";
+    for (std::size_t i = 0; i < columns_.size(); ++i) {
+      if (taken_[i] || columns_[i].unit.empty() || !find_unit(quantity, columns_[i].unit)) continue;
+      return ", not " + in_quotes(columns_[i].text) + ", which has a unit of it; " + Option::column + " " +
+             std::string(quantity_name(quantity)) + "=NAME chooses";
+    }
+    return "";
   }
 
   void assign(Quantity quantity, std::size_t i, const std::string& unit) {
@@ -328,18 +413,20 @@ class Assigner {
                          " is no unit, " + similar.front() + " is"});
   }
 
-  // "f" beside "Reaction [N]": a letter may be anything, a frequency too, where another column has the unit.
-  void doubt_letter(Quantity quantity) const {
+  // "f" beside "Reaction [N]": a letter may be anything, a frequency too, where another column has the unit; and so may
+  // "current" be beside "coil current [A]", the number of a run.
+  void doubt_without_unit(Quantity quantity) const {
     const int taken = sources_[static_cast<std::size_t>(quantity)].column;
     if (taken < 0 || !options_.remark) return;
     const Column& column = columns_[static_cast<std::size_t>(taken)];
     const bool mapped = std::ranges::any_of(
         options_.columns, [&](const auto& entry) { return quantity_of_name(entry.first) == quantity; });
-    if (mapped || column.name.size() != 1 || !column.unit.empty()) return;
+    if (mapped || !column.unit.empty()) return;
     for (std::size_t i = 0; i < columns_.size(); ++i) {
       if (taken_[i] || columns_[i].unit.empty() || !find_unit(quantity, columns_[i].unit)) continue;
+      if (column.name.size() != 1 && quantity_of_last_word(columns_[i].name) != quantity) continue;
       const std::string channel(quantity_name(quantity));
-      options_.remark({file_, Remark::Kind::dialect, "letter for " + channel,
+      options_.remark({file_, Remark::Kind::dialect, "no unit of " + channel,
                        in_quotes(column.text) + ", without a unit, is taken for the " + channel + ", and " +
                            in_quotes(columns_[i].text) + " has a unit of one; " + Option::column + " " + channel +
                            "=NAME chooses"});
@@ -390,7 +477,8 @@ class Assigner {
 }  // namespace
 
 std::optional<Quantity> quantity_of_name(std::string_view name) {
-  const std::string lower = lower_case(without_axis(name));
+  std::string lower = lower_case(without_axis(name));
+  std::ranges::replace(lower, '_', ' ');
   using Words = std::span<const std::pair<std::string_view, Quantity>>;
   for (const Words words : {Words(synonyms), Words(words_elsewhere)}) {
     for (const auto& [word, quantity] : words) {
@@ -426,11 +514,13 @@ std::optional<Quantity> quantity_of_last_word(std::string_view name) {
 
 namespace {
 
-// "force / kN", "force/kN" and "force_kN": what stands behind the mark is a unit of what stands before it.
+// "force / kN", "force/kN", "force_kN", "force in kN" and "force, kN": what stands behind the mark is a unit of what
+// stands before it.
 void split_at_mark(Column& column) {
   const std::string_view text = column.text;
-  for (const std::string_view mark : {" / ", "/", "_"}) {
-    const std::size_t cut = mark == "_" ? text.rfind(mark) : text.find(mark);
+  for (const std::string_view mark : {" / ", "/", "_", " in ", ","}) {
+    const bool is_stroke = mark.find('/') != std::string_view::npos;
+    const std::size_t cut = is_stroke ? text.find(mark) : text.rfind(mark);
     if (cut == std::string_view::npos) continue;
     const std::string_view name = trimmed(text.substr(0, cut));
     const std::string_view unit = trimmed(text.substr(cut + mark.size()));

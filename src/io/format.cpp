@@ -21,6 +21,18 @@ const InputFormat* find_format(const std::filesystem::path& path) {
   return nullptr;
 }
 
+InFolders in_folders(const std::filesystem::path& path) {
+  const std::string name = path.filename().string();
+  if (name.starts_with('.') || name.starts_with("~$")) return InFolders::none;
+  const std::string ending = lower_case(path.extension().string());
+  for (const InputFormat* format : formats()) {
+    for (const Ending& known : format->endings) {
+      if (known.text == ending) return known.in_folders;
+    }
+  }
+  return InFolders::none;
+}
+
 std::size_t samples_by_size(const std::filesystem::path& path) {
   constexpr std::uintmax_t sample = 16;
   std::error_code code;

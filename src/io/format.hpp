@@ -46,6 +46,10 @@ inline constexpr std::size_t bytes_of_head = 1024;
 // cannot be read.
 [[nodiscard]] const InputFormat* find_format(const std::filesystem::path& path);
 
+// Whether a file is a recording where its folder is named, by its name alone: hidden files are none, nor are those that
+// office programs keep beside an open file (~$NAME).
+[[nodiscard]] InFolders in_folders(const std::filesystem::path& path);
+
 // Of binary formats: two channels of numbers of 8 bytes.
 [[nodiscard]] std::size_t samples_by_size(const std::filesystem::path& path);
 

@@ -55,10 +55,70 @@ TEST(Csv, ExportsOfRigsAreReadAsTheyAre) {
                     std::string("0,9,1,2\n1,9,1,2\n2,9,1,2\n3,9,1,2\n4,9,1,2\n5,9,1,2\n6,9,1,2\n7,9,1,2\n"),
                 "a.csv");
   EXPECT_EQ(both.displacement[0], 1e-3);
-  EXPECT_EQ(message_of<InputError>(
-                [&] { (void)parse_csv("time,command position,actual position,force\n1,2,3,4\n", "a.csv"); }),
-            "a.csv:1: 2 columns may be the displacement ('command position', 'actual position'), expected one, or "
-            "column displacement=NAME to choose");
+  EXPECT_EQ(
+      message_of<InputError>([&] { (void)parse_csv("time,upper position,lower position,force\n1,2,3,4\n", "a.csv"); }),
+      "a.csv:1: 2 columns may be the displacement ('upper position', 'lower position'), expected one, or "
+      "column displacement=NAME to choose");
+}
+
+// What was asked for or worked out is nothing that was measured.
+TEST(Csv, MeasuredColumnsGoBeforeCommandedOnes) {
+  std::string rows;
+  for (int n = 0; n < 10; ++n) rows += fmt::format("{},{},{},{}\n", n, 9, n * n, 10 * n);
+  EXPECT_EQ(remarks_of("time [s],command position [mm],actual position [mm],force [N]\n" + rows),
+            "'actual position [mm]' is taken for the displacement, not 'command position [mm]'\n");
+  EXPECT_EQ(remarks_of("time [s],command position [mm],LVDT feedback [mm],force [N]\n" + rows),
+            "'LVDT feedback [mm]' is taken for the displacement, not 'command position [mm]'\n");
+  EXPECT_EQ(remarks_of("time [s],command position [mm],position error [mm],force [N]\n" + rows),
+            "'command position [mm]' is taken for the displacement, not 'position error [mm]', which has a unit of it; "
+            "column displacement=NAME chooses\n");
+  EXPECT_EQ(remarks_of("time [s],computed force [N],x [mm],load_cell [N]\n" + rows), "");
+  EXPECT_EQ(parse_csv("time [s],computed force [N],x [mm],load_cell_N\n" + rows, "a.csv").force[2], 20.0);
+  EXPECT_EQ(
+      remarks_of("time [s],computed force [N],x [mm],Reaction [N]\n" + rows),
+      "'computed force [N]' is taken for the force, not 'Reaction [N]', which has a unit of it; column force=NAME "
+      "chooses\n");
+  EXPECT_EQ(remarks_of("time [s],computed force [N],x [mm],Reaction [V]\n" + rows),
+            "'computed force [N]' is taken for the force\n");
+}
+
+// The number of a run would be followed as the current.
+TEST(Csv, AColumnWithoutAUnitBesideOneOfTheChannelIsTold) {
+  std::string rows;
+  for (int n = 0; n < 10; ++n) rows += fmt::format("{},{},{},{},{}\n", n, n * n, 10 * n, 7, 0.5);
+  const auto said = [&](const std::string& names) {
+    return remarks_of("time [s],x [mm],F [N]," + names + "\n" + rows);
+  };
+  EXPECT_EQ(said("current,coil current [A]"),
+            "'current', without a unit, is taken for the current, and 'coil current [A]' has a unit of one; column "
+            "current=NAME chooses\n");
+  EXPECT_EQ(said("current [A],coil current [A]"), "");
+  EXPECT_EQ(said("current,coil current"), "");
+  EXPECT_EQ(said("current,coil [A]"), "");
+}
+
+TEST(Csv, UnitsStandBehindInOrAComma) {
+  const std::string ten = ten_rows();
+  for (const char* names : {"Time in s,Displacement in mm,Force in kN", "Zeit in s,Weg in mm,Kraft in kN",
+                            "\"Time, s\",\"Displacement, mm\",\"Force, kN\""}) {
+    const Recording recording = parse_csv(names + ("\n" + ten), "a.csv");
+    EXPECT_DOUBLE_EQ(recording.displacement[3], 9e-3) << names;
+    EXPECT_DOUBLE_EQ(recording.force[2], 20e3) << names;
+  }
+  EXPECT_EQ(split_column("Force in clevis").unit, "");
+  EXPECT_EQ(split_column("Axial Force in kN").name, "Axial Force");
+}
+
+TEST(Csv, ARotationIsNoVelocityOfTheRod) {
+  std::string rows;
+  for (int n = 0; n < 10; ++n) rows += fmt::format("{},{},{},{}\n", n, n * n, 10 * n, 60);
+  EXPECT_EQ(remarks_of("time [s],x [mm],F [N],speed [rpm]\n" + rows),
+            "'speed [rpm]' is not read as the velocity: its unit is one of a rotation\n");
+  EXPECT_FALSE(parse_csv("time [s],x [mm],F [N],speed [rpm]\n" + rows, "a.csv").velocity_measured);
+  EXPECT_NE(message_of<InputError>([&] {
+              (void)parse_csv("time [s],x [mm],F [N],speed [knots]\n" + rows, "a.csv");
+            }).find("unknown unit 'knots' of velocity"),
+            std::string::npos);
 }
 
 TEST(Csv, LinesBeforeTheHeaderAreNotRead) {
