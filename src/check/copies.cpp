@@ -12,6 +12,7 @@
 #include <span>
 #include <unordered_map>
 
+#include "check/rounded_copies.hpp"
 #include "io/velocity.hpp"
 
 namespace hysteron {
@@ -64,14 +65,6 @@ std::optional<double> difference_of_copy(const Recording& one, const Recording& 
   if (!displacement) return std::nullopt;
   return std::max(*force, *displacement);
 }
-
-// Samples of a recording that are those of an earlier one.
-struct Shared {
-  std::size_t recording = 0;  // the earlier one
-  std::size_t first = 0;
-  std::size_t first_there = 0;
-  std::size_t count = 0;
-};
 
 // Finds stretches of samples that two recordings share. The force of every block of an earlier recording is known by
 // its hash, and looked for at every sample of a later one.
@@ -159,6 +152,7 @@ std::vector<Remark> remarks_on_copies(const std::vector<Recording>& recordings) 
   std::vector<Remark> remarks;
   std::map<std::string, std::string> first;  // of the same bytes
   SharedSamples samples(recordings);
+  RoundedCopies rounded(recordings);
   for (std::size_t k = 0; k < recordings.size(); ++k) {
     const Recording& recording = recordings[k];
     const auto [known, fresh] = first.emplace(recording.sha256, recording.file);
@@ -180,16 +174,16 @@ std::vector<Remark> remarks_on_copies(const std::vector<Recording>& recordings) 
     }
     // A copy of it would share the same samples.
     if (told) continue;
-    if (const auto shared =
-            recording.displacement.size() == recording.force.size() ? samples.longest(k) : std::nullopt) {
+    const bool has_both = recording.displacement.size() == recording.force.size();
+    const std::optional<Shared> same = has_both ? samples.longest(k) : std::nullopt;
+    if (const auto shared = same ? same : rounded.with_earlier(k)) {
       const auto last = [&](std::size_t from) { return from + shared->count; };
-      remarks.push_back(
-          {recording.file, Remark::Kind::implausible, "shared samples",
-           fmt::format(
-               "samples {} to {} have the displacement and force of samples {} to {} of {}, digit for digit, as "
-               "a part cut out of one recording has: neither is held out from the other",
-               shared->first + 1, last(shared->first), shared->first_there + 1, last(shared->first_there),
-               recordings[shared->recording].file)});
+      remarks.push_back({recording.file, Remark::Kind::implausible, "shared samples",
+                         fmt::format("samples {} to {} have the displacement and force of samples {} to {} of {}, {}, "
+                                     "as a part cut out of one recording has: neither is held out from the other",
+                                     shared->first + 1, last(shared->first), shared->first_there + 1,
+                                     last(shared->first_there), recordings[shared->recording].file,
+                                     same ? "digit for digit" : "but for the rounding of their digits")});
     }
     samples.add(k);
   }

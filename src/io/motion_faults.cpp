@@ -11,6 +11,7 @@
 #include "core/squared.hpp"
 #include "io/channel_faults.hpp"
 #include "io/channel_lag.hpp"
+#include "io/strokes.hpp"
 #include "io/velocity.hpp"
 
 namespace hysteron {
@@ -22,11 +23,9 @@ constexpr double longer = 8.0;
 constexpr std::size_t steps_beside = 4;
 constexpr double least_leap = 0.02;
 // A step of the motion itself has rest on one side. The channel moves where it goes by this part of the leap, and
-// beyond its noise, within this part of the time of a usual stroke, whatever the sampling rate. Strokes are larger than
-// this part of the span.
+// beyond its noise, within this part of the time of a usual stroke, whatever the sampling rate.
 constexpr double moving = 0.02;
 constexpr double near = 0.125;
-constexpr double least_stroke = 0.1;
 
 // A counter that overflows jumps by nearly its range, what is half of it is looked at; once in so many samples at most.
 // Its speed on one side is at least this part of that on the other.
@@ -60,25 +59,6 @@ constexpr double least_hold = 1.8;
 constexpr std::size_t fewest_sizes = 10;
 
 double step_at(const std::vector<double>& values, std::size_t n) { return std::fabs(values[n + 1] - values[n]); }
-
-// Samples of the channel over the strokes that they make.
-std::size_t samples_a_stroke(const std::vector<double>& values) {
-  const double least = least_stroke * span_of(values);
-  double furthest = values.front();
-  double sign = 0.0;  // of the stroke that goes on
-  std::size_t strokes = 1;
-  for (const double value : values) {
-    if (sign == 0.0 && std::fabs(value - furthest) > least) sign = std::copysign(1.0, value - furthest);
-    if (sign * (furthest - value) > least) {
-      ++strokes;
-      sign = -sign;
-      furthest = value;
-    } else if (sign * (value - furthest) > 0.0) {
-      furthest = value;
-    }
-  }
-  return values.size() / strokes;
-}
 
 // How a channel goes on from sample `from`, beside a leap: forwards or backwards.
 struct Beside {

@@ -57,6 +57,46 @@ TEST(Copies, APartCutOutOfARecording) {
                   "a part cut out of one recording has: neither is held out from the other"});
 }
 
+// Written again with steps of `displacement` and `force`.
+Recording rounded(Recording recording, double displacement, double force) {
+  for (double& x : recording.displacement) x = displacement * std::round(x / displacement);
+  for (double& f : recording.force) f = force * std::round(f / force);
+  for (double& t : recording.time) t -= recording.time.front();
+  return recording;
+}
+
+TEST(Copies, APartCutOutOfARecordingWithOtherDigits) {
+  const Recording whole = test("a", 1);
+  // Of a thousandth, of the noise, and four times as coarse as that.
+  for (const double step : {0.01, 1.0, 4.0}) {
+    const Recording part = rounded(part_of(whole, "c", 700, 1700), 1e-6, step);
+    EXPECT_EQ(said_of({whole, test("b", 2), part}),
+              Lines{"c: samples 1 to 1000 have the displacement and force of samples 701 to 1700 of a, but for the "
+                    "rounding of their digits, as a part cut out of one recording has: neither is held out from the "
+                    "other"})
+        << step;
+  }
+  // The coarser one before, and longer; the whole of one, coarser than its noise.
+  const Recording coarse = rounded(test("b", 1), 1e-5, 4.0);
+  EXPECT_EQ(said_of({coarse, part_of(whole, "c", 700, 1700)}).size(), 1U);
+  EXPECT_EQ(said_of({whole, rounded(test("b", 1), 1e-5, 6.0)}).size(), 1U);
+  // Of numbers that are rounded already, to a tenth of the step.
+  EXPECT_EQ(said_of({rounded(whole, 1e-6, 0.1), rounded(part_of(whole, "c", 700, 1700), 1e-5, 1.0)}).size(), 1U);
+}
+
+// Honest repeats: noise of their own is rounded apart, however coarse the digits are.
+TEST(Copies, TestsOfOneMotionInCoarseDigitsAreNone) {
+  for (const double step : {0.1, 1.0, 4.0, 20.0}) {
+    const Recording part = rounded(part_of(test("b", 2), "c", 700, 1700), 1e-5, step);
+    EXPECT_EQ(said_of({test("a", 1), part}), Lines{}) << step;
+    EXPECT_EQ(said_of({rounded(test("a", 1), 1e-5, step), part}), Lines{}) << step;
+  }
+  // The force alone is no copy.
+  Recording moved = part_of(test("a", 1), "c", 700, 1700);
+  for (double& x : moved.displacement) x += 2e-5;
+  EXPECT_EQ(said_of({test("a", 1), rounded(moved, 1e-6, 1.0)}), Lines{});
+}
+
 TEST(Copies, TestsOfOneMotionAreNone) {
   const Recording one = test("a", 1);
   EXPECT_EQ(said_of({one, test("b", 2), test("c", 3)}), Lines{});
