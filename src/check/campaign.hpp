@@ -10,7 +10,7 @@ namespace hysteron {
 
 enum class Moving { damper, excitation };
 
-// Remarks on sampling (of motions of a damper), on units beside the other recordings, and on copies.
+// Remarks on sampling (of motions of a damper), on units and noise beside the other recordings, and on copies.
 std::vector<Remark> remarks_on(const std::vector<Recording>& recordings, Moving moving);
 
 }  // namespace hysteron

@@ -199,7 +199,8 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const Split& split
   }
 
   SearchOptions searching;
-  const std::string doubt = doubt_of_velocity(diagnosis.bench.split().fit);
+  std::string doubt = doubt_of_velocity(diagnosis.bench.split().fit);
+  if (doubt.empty()) doubt = doubt_of_channels(campaign.recordings);
   // No name is given on a fault of the data, so no effects are looked for.
   searching.most_effects = doubt.empty() ? options.most_effects : 0;
   searching.candidates = candidates_of(options, diagnosis);

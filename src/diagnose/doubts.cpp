@@ -10,6 +10,8 @@
 #include "diagnose/search/of_fit.hpp"
 #include "diagnose/search/wording.hpp"
 #include "diagnose/signal/noise.hpp"
+#include "io/clipped_ends.hpp"
+#include "io/dead_force.hpp"
 #include "io/velocity.hpp"
 
 namespace hysteron {
@@ -50,6 +52,17 @@ std::vector<std::string> surprises(const Workbench& bench, const Fit& fit) {
   return result;
 }
 
+std::string sentence_of_surprises(const std::vector<std::string>& files, bool fitted_have_structure) {
+  const std::string where = joined(files, " and ");
+  return fitted_have_structure
+             ? fmt::format(
+                   "over its noise more than {:.0f} times as much is left of {} as of any fitted recording: what "
+                   "is missing shows most there, and only a fitted recording can tell its cause",
+                   std::sqrt(surprise), where)
+             : "nothing but noise is left on the fitted recordings, but not on " + where +
+                   ": what is missing shows there only, and only a fitted recording can tell its cause";
+}
+
 std::optional<Tone> tone_left(const Search& search, const Workbench& bench) {
   const std::vector<Recording>& recordings = bench.split().fit;
   return tone_of(
@@ -66,8 +79,7 @@ std::string sentence_of(const Tone& tone) {
 Doubt doubt_of_completeness(const Search& search, const Workbench& fine, const std::vector<std::string>& surprising,
                             const std::optional<Tone>& tone) {
   if (!surprising.empty()) {
-    return {"nothing but noise is left on the fitted recordings, but not on " + joined(surprising, " and ") +
-            ": what is missing shows there only, and only a fitted recording can tell its cause"};
+    return {sentence_of_surprises(surprising, structured(search.misfit))};
   }
   const Misfit& left = search.misfit;
   const auto parameters = static_cast<double>(search.augmented.dimension());
@@ -123,6 +135,16 @@ std::string doubt_of_velocity(const std::vector<Recording>& recordings) {
           "the velocity would be derived",
           recording.file, alike);
     }
+  }
+  return {};
+}
+
+std::string doubt_of_channels(const std::vector<Recording>& recordings) {
+  if (const auto clippings = clipping_of(recordings); !clippings.empty()) {
+    return sentence_of(clippings.front(), recordings.size());
+  }
+  if (const auto dead = dead_forces_of(recordings); !dead.empty()) {
+    return recordings[dead.front().recording].file + ": " + sentence_of(dead.front());
   }
   return {};
 }

@@ -12,6 +12,8 @@ namespace hysteron {
 
 // Files of the held-out recordings that show what the fitted ones do not.
 std::vector<std::string> surprises(const Workbench& bench, const Fit& fit);
+// What is said of them, without a full stop, where the fitted recordings have structure left and where they have none.
+std::string sentence_of_surprises(const std::vector<std::string>& files, bool fitted_have_structure);
 
 // In N. Of every sample: a thinned recording has no high frequencies.
 std::optional<Tone> tone_left(const Search& search, const Workbench& bench);
@@ -31,5 +33,9 @@ Doubt doubt_of_completeness(const Search& search, const Workbench& fine, const s
 // Why no name can be given: the recorded velocity is not that of the displacement, and effects would explain a fault of
 // the data. Empty where it is.
 std::string doubt_of_velocity(const std::vector<Recording>& recordings);
+
+// Likewise where a channel is cut off at an end of its range, or a load cell was not connected. Of all recordings: one
+// beside the others shows it.
+std::string doubt_of_channels(const std::vector<Recording>& recordings);
 
 }  // namespace hysteron
