@@ -19,6 +19,7 @@
 #include "io/file.hpp"
 #include "io/header_row.hpp"
 #include "io/plausible.hpp"
+#include "io/rounded_times.hpp"
 #include "io/sha256.hpp"
 #include "io/text.hpp"
 #include "io/time_packets.hpp"
@@ -165,6 +166,7 @@ class CsvReader {
     if (means_) {
       for (std::size_t c = 0; c < conditions_.size(); ++c) condition_values_[c] = condition_means_[c].take();
     }
+    even_out_rounded_times(channels_, options_, file_);
     even_out_packets(channels_, options_, file_);
     remark_on_settings(sources_, channels_, conditions_, condition_values_, columns_, options_, file_);
     std::vector<ConditionChannel> conditions = make_conditions(conditions_, std::move(condition_values_), channels_);

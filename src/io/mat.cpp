@@ -14,6 +14,7 @@
 #include "io/mat5.hpp"
 #include "io/mat73.hpp"
 #include "io/plausible.hpp"
+#include "io/rounded_times.hpp"
 #include "io/sha256.hpp"
 #include "io/text.hpp"
 #include "io/time_packets.hpp"
@@ -64,6 +65,7 @@ class MatReader {
     variables_ = {};  // as large as the channels
     Sources present = sources;
     if (made_time) present[0].column = 0;
+    even_out_rounded_times(channels, options_, file_);
     even_out_packets(channels, options_, file_);
     thin(channels, present, options_, file_);
     thin_conditions(values, samples, options_);

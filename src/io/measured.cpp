@@ -16,6 +16,7 @@
 #include "io/conditions.hpp"
 #include "io/plausible.hpp"
 #include "io/resample.hpp"
+#include "io/rounded_times.hpp"
 #include "io/text.hpp"
 #include "io/time_packets.hpp"
 
@@ -65,6 +66,7 @@ class RecordingMaker {
     std::optional<double> started;
     if (epoch_) started = clock_time(*epoch_ + values_[time_at].front());
     const std::size_t samples = values_[time_at].size();
+    even_out_rounded_times(values_, options_, file_);
     even_out_packets(values_, options_, file_);
     thin(values_, sources_, options_, file_);
     thin_conditions(condition_values_, samples, options_);
