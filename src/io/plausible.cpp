@@ -15,9 +15,14 @@
 #include "core/extent.hpp"
 #include "core/robust.hpp"
 #include "io/channel_faults.hpp"
+#include "io/held_ends.hpp"
+#include "io/mains_hum.hpp"
 #include "io/motion_faults.hpp"
 #include "io/outliers.hpp"
+#include "io/rectified.hpp"
+#include "io/straight_pieces.hpp"
 #include "io/text.hpp"
+#include "io/velocity.hpp"
 
 namespace hysteron {
 namespace {
@@ -27,6 +32,7 @@ namespace {
 struct Range {
   double low;
   double high;
+  [[nodiscard]] bool holds(double value) const { return value >= low && value <= high; }
 };
 struct Believed {
   Range stated;
@@ -60,7 +66,7 @@ class Remarks {
     if (source.column < 0) return;
     const Range range = source.assumed ? believed.assumed : believed.stated;
     // A channel that is zero throughout is not one of a wrong unit.
-    if (value == 0.0 || (value >= range.low && value <= range.high)) return;
+    if (value == 0.0 || range.holds(value)) return;
     const std::string name(quantity_name(quantity));
     if (source.assumed) {
       const auto units = accepted_units(quantity);
@@ -237,6 +243,22 @@ void tell_of_ends(const Recording& recording, Remarks& remarks) {
     tell("force", *end, value, rounded(end->told, value), "N");
 }
 
+// A channel that was interpolated by straight lines, to more samples than its own.
+void tell_of_straight_pieces(const Recording& recording, Remarks& remarks) {
+  const double rate = static_cast<double>(recording.size() - 1) / (recording.time.back() - recording.time.front());
+  for (const auto& [name, values, lost] :
+       {std::tuple("displacement", &recording.displacement, "its slope goes in steps"),
+        std::tuple("force", &recording.force, "what it did in between is lost")}) {
+    const auto pieces = straight_pieces_of(*values);
+    if (!pieces) continue;
+    remarks.tell(std::string("straight pieces of ") + name,
+                 fmt::format("the {} goes in straight lines of {} samples each: a channel of {:.4g} Hz that was "
+                             "interpolated to {:.4g} Hz looks so, and {}; record it at {:.4g} Hz, or keep one sample "
+                             "in {} of all channels",
+                             name, *pieces, rate / static_cast<double>(*pieces), rate, lost, rate, *pieces));
+  }
+}
+
 // Samples that are lost, a counter that overflowed, glitches unless those beyond the range are told, channels slower
 // than the log, and a velocity that is none.
 void tell_of_motion(const Recording& recording, const Sources& sources, const std::optional<Wrap>& wrap,
@@ -286,10 +308,12 @@ void tell_of_motion(const Recording& recording, const Sources& sources, const st
     if (held) {
       remarks.tell(std::string("held ") + name,
                    fmt::format("the {} holds each value for {:.3g} samples: a sensor slower than the log looks so, and "
-                               "is {:.3g} ms late on average; record all channels at its rate, or interpolate it",
+                               "is {:.3g} ms late on average; record all channels at its rate, or interpolate it by a "
+                               "curve",
                                name, *held, 0.5e3 * (*held - 1.0) * step));
     }
   }
+  tell_of_straight_pieces(recording, remarks);
   const auto& velocity = sources[static_cast<std::size_t>(Quantity::velocity)];
   if (velocity.column >= 0 && !recording.velocity_measured) {
     const auto set = std::ranges::find(recording.unused, set_velocity, &UnusedColumn::name);
@@ -341,6 +365,57 @@ void tell_of_noise(const Recording& recording, Remarks& remarks) {
                   recording.velocity_measured
                       ? "if the displacement has less noise, remove the column: its slope is then taken"
                       : "a larger stroke, or a sensor with less noise, mends it"));
+}
+
+// Of what the mass stands on, where the file gives no unit. What no unit would excuse is told where it excites
+// (task/excitation_faults.hpp), where it is not known any more that this one was assumed. The limits of a damper's
+// stroke and speed hold of it too: shake tables move by a metre or two, and the ground by less in all but the strongest
+// earthquakes, at a tenth of 10 m/s.
+void tell_of_base(const Recording& recording, Remarks& remarks) {
+  if (recording.base.empty() || !remarks.assumed(Quantity::base)) return;
+  const double stroke = span_of(recording.base);
+  const double speed = peak_of(derive_velocity(recording.time, recording.base));
+  if (!stroke_m.stated.holds(stroke) || !speed_m_s.stated.holds(speed)) return;
+  if (stroke_m.assumed.holds(stroke)) {
+    remarks.judge(Quantity::base, speed_m_s, speed, fmt::format("a speed of {:.3g} m/s, from base and time,", speed));
+  } else {
+    remarks.judge(Quantity::base, stroke_m, stroke, fmt::format("a stroke of {:.3g} m", stroke));
+  }
+}
+
+// A tone of the mains is no noise to what tells that.
+void tell_of_hum(const Recording& recording, Remarks& remarks) {
+  const auto hum = mains_hum_of(recording);
+  if (!hum) return;
+  remarks.tell("mains hum",
+               fmt::format("a tone of {:.3g} Hz and {:.2g} mm runs through the displacement and makes {:.0f} % of the "
+                           "velocity that is derived from it (RMS), and the force does not follow it: mains hum looks "
+                           "so, and a damping comes out about {:.2g} % too small; shield the sensor, or filter its "
+                           "channel and the force alike",
+                           hum->frequency, 1e3 * hum->amplitude, 100.0 * hum->share, 100.0 * hum->share * hum->share));
+}
+
+// Channels without their sign.
+void tell_of_rectified(const Recording& recording, Remarks& remarks) {
+  const auto tell = [&](const std::string& name, const std::string& meanwhile) {
+    remarks.tell("rectified " + name,
+                 fmt::format("the {} is never below 0 and turns up by a kink wherever it comes down to it, {}: one "
+                             "without its sign looks so; give it its sign back",
+                             name, meanwhile));
+  };
+  if (force_is_rectified(recording)) tell("force", "while the rod goes to and fro");
+  if (displacement_is_rectified(recording)) tell("displacement", "and the force goes on through that");
+}
+
+void tell_of_held_end(const Recording& recording, Remarks& remarks) {
+  const auto held = held_end_of(recording);
+  if (!held || silence_of(recording.force)) return;  // zeros are told already
+  remarks.tell("held end",
+               fmt::format("displacement and force have exactly one value each in the {} {} samples, {} {:.4g} s, and "
+                           "noise elsewhere: a file that was filled up with {} looks so; cut them",
+                           held->first ? "first" : "last", held->count, held->first ? "until" : "from",
+                           recording.time[held->first ? held->count - 1 : recording.size() - held->count],
+                           held->first ? "its first values" : "its last values"));
 }
 
 // A channel that stays while the other one goes on.
@@ -426,6 +501,7 @@ void remark_on_sizes(const Recording& recording, const Sources& sources, const s
                              "{:.3g} m; give the unit, as in time [ms]",
                              speed, stroke));
   }
+  tell_of_base(recording, remarks);
   if (!moves) return;
   double power = 0.0;
   for (std::size_t n = 0; n < recording.force.size(); ++n) {
@@ -491,7 +567,12 @@ void remark_on_sizes(const Recording& recording, const Sources& sources, const s
                     recording.force[first ? silence->count : silence->first - 1], first ? "on late" : "off early"));
   }
   // A mass may rest while the force on it changes, and swing under one that does not.
-  if (options.force_required && !recording.force.empty()) tell_of_motion_and_force(recording, remarks);
+  if (options.force_required && !recording.force.empty()) {
+    tell_of_motion_and_force(recording, remarks);
+    tell_of_held_end(recording, remarks);
+    tell_of_rectified(recording, remarks);
+    tell_of_hum(recording, remarks);
+  }
   const Range ratio = recording.velocity_measured ? velocity_over_slope(recording) : Range{1.0, 1.0};
   // Where the velocity has the wrong sign the force may well follow the displacement.
   if (ratio.low > 0.0 && options.force_required && !recording.force.empty() && drives_its_rig(recording)) {
@@ -555,7 +636,7 @@ void remark_on_numbers(const ReadOptions& options, const std::string& file) {
     const auto given = options.numbers.find(std::string(kind.name));
     if (given == options.numbers.end() || !given->second.unit.empty() || given->second.value == 0.0) continue;
     const double value = kind.name == "temperature" ? given->second.value : std::fabs(given->second.value);
-    if (value >= kind.range.low && value <= kind.range.high) continue;
+    if (kind.range.holds(value)) continue;
     options.remark(
         {file, Remark::Kind::implausible, std::string(kind.name) + " number",
          fmt::format("the number {} = {:.6g} has no unit and was taken in {}: that is not of a damper's size; "

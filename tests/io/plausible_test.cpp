@@ -150,6 +150,31 @@ TEST(Plausible, ANumberThatStandsForMissingSamples) {
   }
 }
 
+TEST(Plausible, ABaseWithoutAUnit) {
+  const auto said_of = [](const std::string& base, double stroke, double frequency) {
+    std::string text = "time [s],displacement [mm]," + base + "\n";
+    for (int n = 0; n < 400; ++n) {
+      const double t = 0.05 * n / frequency / 4.0;
+      text += std::to_string(t) + "," + std::to_string(10.0 * std::sin(12.0 * frequency * t)) + "," +
+              std::to_string(0.5 * stroke * std::sin(12.0 * frequency * t)) + "\n";
+    }
+    std::vector<std::string> said;
+    ReadOptions options;
+    options.force_required = false;
+    options.remark = [&](const Remark& remark) { said.push_back(remark.text.plain()); };
+    (void)parse_csv(text, "a.csv", options);
+    return said;
+  };
+  // As of 3 mm, and of 0.8 mm at 20 times that frequency.
+  expect_one(said_of("base", 3.0, 1.0),
+             "base has no unit and was taken in m: a stroke of 3 m is not of a damper's size; give the unit, as in "
+             "column base=\"base [UNIT]\"");
+  expect_one(said_of("base", 0.8, 4.0),
+             "base has no unit and was taken in m: a speed of 19.2 m/s, from base and time, is not of a damper's size");
+  EXPECT_TRUE(said_of("base", 0.8, 1.0).empty());
+  EXPECT_TRUE(said_of("base [m]", 3.0, 1.0).empty());
+}
+
 TEST(Plausible, ADisplacementWithoutAUnitIsFast) {
   std::string text = "time [s],displacement,force [N]\n";
   for (int n = 0; n < 400; ++n) {
