@@ -106,9 +106,13 @@ std::string law_with_parts(const std::string& law, const std::string& asked) {
   return parts.empty() ? law : law + ", which includes " + joined(parts, " and ") + ",";
 }
 
-// "noise 0.010"; where the motion does not repeat slow noise is not seen.
-std::string noise_text(const Diagnosis& diagnosis) {
-  return fmt::format("noise {}{:#.2g}", diagnosis.noise_floor_method == NoiseMethod::cycles ? "" : "at least ",
+// "noise 0.010"; where the motion does not repeat slow noise is not seen, and the rest is an estimate, which an error
+// may come out below.
+std::string noise_text(const Diagnosis& diagnosis, double error) {
+  return fmt::format("noise {}{:#.2g}",
+                     diagnosis.noise_floor_method == NoiseMethod::cycles ? ""
+                     : error < diagnosis.noise_floor_heldout             ? "about "
+                                                                         : "at least ",
                      diagnosis.noise_floor_heldout);
 }
 
@@ -133,13 +137,13 @@ std::string sentence_of_errors(const Diagnosis& diagnosis) {
   }
   if (search.augmented.what == search.base.what) {
     return fmt::format("The held-out error of {} is {:#.2g} ({}).", search.base.what.model, before,
-                       noise_text(diagnosis));
+                       noise_text(diagnosis, before));
   }
   const bool many = subject == "Together they";
   // As printed, with two digits: what is the same there has not changed.
   const std::string from = fmt::format("{:#.2g}", before);
   const std::string to = fmt::format("{:#.2g}", after);
-  const std::string noise = noise_text(diagnosis);
+  const std::string noise = noise_text(diagnosis, after);
   if (from == to) {
     return fmt::format("{} {} the held-out error at {} ({}).", subject, many ? "leave" : "leaves", from, noise);
   }

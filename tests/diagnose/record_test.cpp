@@ -277,8 +277,12 @@ TEST(Record, SaysWhatItsNumbersAreOf) {
             std::string::npos)
       << paragraph(changed);
   changed.noise_floor_method = NoiseMethod::mixed;
+  changed.noise_floor_heldout = 0.9 * changed.search.augmented.heldout;
   changed.summary = summary_of(changed);
   EXPECT_NE(paragraph(changed).find("(noise at least 0."), std::string::npos) << "slow noise is not seen everywhere";
+  changed.noise_floor_heldout = 1.1 * changed.search.augmented.heldout;
+  changed.summary = summary_of(changed);
+  EXPECT_NE(paragraph(changed).find("(noise about 0."), std::string::npos) << "an error below what is at least there";
 }
 
 TEST(Record, WhereNothingIsMissing) {
