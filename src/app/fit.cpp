@@ -18,6 +18,7 @@
 #include "report/html.hpp"
 #include "report/terminal.hpp"
 #include "task/finite.hpp"
+#include "task/response_faults.hpp"
 #include "task/stages.hpp"
 
 namespace hysteron::app {
@@ -162,6 +163,7 @@ void run(const FitOptions& options) {
   ask_conditions(options.laws, from);
   Campaign campaign = load(from, options.response ? Required::motion : Required::motion_and_force, &remarks);
   FitRequest request = request_of(options);
+  if (request.rig) refuse_absolute_displacement(campaign.recordings, remarks, request.excitation);
   // Wrong names are told before a folder is made.
   const FitData data = fit_data(std::move(campaign), request);
   const bool to_files = !is_standard_output(options.out);
@@ -171,15 +173,22 @@ void run(const FitOptions& options) {
   }
 
   ProgressLine progress(options.common.quiet);
-  const FitResult fit =
-      fit_campaign(data, request, remarks, command_line(),
-                   [&](const std::string& stage, const std::string& of, const RunResult& run) {
-                     progress.show(stage, static_cast<double>(run.evaluations) / static_cast<double>(run.budget),
-                                   fmt::format("{} of {} evaluations, best NRMSE {}{}", run.evaluations, run.budget,
-                                               of.empty() ? "" : "of " + of + " ",
-                                               run.cost < diverged_cost ? format_number(run.cost, 4) : "-"));
-                     return !interrupted();
-                   });
+  const FitResult fit = [&] {
+    try {
+      return fit_campaign(data, request, remarks, command_line(),
+                          [&](const std::string& stage, const std::string& of, const RunResult& run) {
+                            progress.show(stage, static_cast<double>(run.evaluations) / static_cast<double>(run.budget),
+                                          fmt::format("{} of {} evaluations, best NRMSE {}{}", run.evaluations,
+                                                      run.budget, of.empty() ? "" : "of " + of + " ",
+                                                      run.cost < diverged_cost ? format_number(run.cost, 4) : "-"));
+                            return !interrupted();
+                          });
+    } catch (...) {
+      progress.finish();
+      warn_of(data.remarks);  // a motion that runs away may do so for what they say
+      throw;
+    }
+  }();
   progress.finish();
   if (to_files) {
     make_output_folder(options.out);

@@ -8,6 +8,7 @@
 #include "core/number_text.hpp"
 #include "core/suggest.hpp"
 #include "fit/law_start.hpp"
+#include "fit/no_candidate.hpp"
 
 namespace hysteron {
 namespace {
@@ -218,8 +219,7 @@ Identification identify(const Campaign& campaign, const std::string& model, cons
       run.cost = calm_cost(run.best);
     }
     if (run.best.empty() || run.cost >= diverged_cost) {
-      throw WorkError("solver " + run.solver + " found no candidate whose simulation stays finite in " +
-                      std::to_string(run.evaluations) + " evaluations");
+      throw_without_candidate("", run, layout, options.layout, start.evaluations);
     }
     SolverOutcome outcome{std::move(run), {}};
     if (!heldout.empty()) {

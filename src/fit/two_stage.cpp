@@ -8,6 +8,7 @@
 #include "core/error.hpp"
 #include "core/frequency.hpp"
 #include "core/message.hpp"
+#include "fit/no_candidate.hpp"
 
 namespace hysteron {
 namespace {
@@ -167,8 +168,7 @@ TwoStage fit_two_stage(const Campaign& campaign, const Layout& layout, const std
         [&](const Request& request) { return objective.evaluate(request); },
         [&](const RunResult& partial) { return !progress || progress(stage, partial); });
     if (run.best.empty() || run.cost >= diverged_cost) {
-      throw WorkError(stage + ": solver " + run.solver + " found no candidate whose simulation stays finite in " +
-                      std::to_string(run.evaluations) + " evaluations");
+      throw_without_candidate(stage, run, own, options.layout);
     }
     spent += run.evaluations * samples_of(condition.recordings);
     Identification estimated{own, own.terms(run.best), {}, {}, 0, run.cost, {}, {}, {}, false, {}};

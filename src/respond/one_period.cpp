@@ -21,6 +21,11 @@ double roughness(const std::array<double, 6>& y) {
   return result;
 }
 
+// The last sample is a step short of it.
+double period_of(std::span<const double> time) {
+  return (time.back() - time.front()) * static_cast<double>(time.size()) / static_cast<double>(time.size() - 1);
+}
+
 }  // namespace
 
 bool last_repeats_first(std::span<const double> values) {
@@ -35,9 +40,10 @@ bool last_repeats_first(std::span<const double> values) {
   return dropped < kept;
 }
 
+double end_of_periods(std::span<const double> time, int count) { return time.front() + count * period_of(time); }
+
 std::vector<double> repeated_times(std::span<const double> time, int count) {
-  const double period =
-      (time.back() - time.front()) * static_cast<double>(time.size()) / static_cast<double>(time.size() - 1);
+  const double period = period_of(time);
   std::vector<double> result;
   for (int k = 0; k < count; ++k) {
     for (const double t : time) {

@@ -12,5 +12,7 @@ bool last_repeats_first(std::span<const double> values);
 
 // Times of `count` periods one after the other, at the samples of one whose last sample is a step short of the next.
 std::vector<double> repeated_times(std::span<const double> time, int count);
+// When the last of them ends.
+double end_of_periods(std::span<const double> time, int count);
 
 }  // namespace hysteron

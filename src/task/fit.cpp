@@ -22,6 +22,7 @@
 #include "task/rate.hpp"
 #include "task/remarks.hpp"
 #include "task/residual_record.hpp"
+#include "task/response_faults.hpp"
 #include "task/stages.hpp"
 #include "task/track.hpp"
 #include "task/words.hpp"
@@ -375,6 +376,7 @@ FitData fit_data(Campaign campaign, FitRequest& request) {
     for (const Recording& recording : data.responses) {
       for (Remark& remark : faults_of_excitation(recording, request.rig->base)) faults.push_back(std::move(remark));
     }
+    for (Remark& remark : mend_responses(data.responses, *request.rig)) faults.push_back(std::move(remark));
     append(data.remarks, told_once(faults));
     data.campaign.recordings = damper_recordings(data.responses, *request.rig);
   }
@@ -392,6 +394,7 @@ FitData fit_data(Campaign campaign, FitRequest& request) {
     require_one_drive(request.rig ? data.responses : data.campaign.recordings);
   }
   const CompositeModel model = make_model(data.model, identify_with.effects);
+  if (request.rig) append(data.remarks, told_once(places_of_rest(data.responses, *request.rig, model)));
   normaliser(data.campaign.recordings.front(), identify_with.objective.normalisation);
   if (request.two_stages && layout.by_current.empty() && layout.by_frequency.empty()) {
     throw OptionError(Option::stages + " two: no parameter has a law, expected " + Option::by_current + " or " +

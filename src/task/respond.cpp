@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <optional>
 #include <utility>
 
 #include "core/drive.hpp"
@@ -11,6 +13,7 @@
 #include "core/frequency.hpp"
 #include "core/message.hpp"
 #include "respond/one_period.hpp"
+#include "respond/settling.hpp"
 #include "task/excitation_faults.hpp"
 #include "task/guesses.hpp"
 #include "task/remarks.hpp"
@@ -69,6 +72,35 @@ Excitation excitation_of(const Recording& recording, bool base, const ResponseRe
   }
   excitation.conditions = condition_signals(recording, periodic);
   return excitation;
+}
+
+std::string percent(double share) {
+  return share < 0.1 ? fmt::format("{:.2g} %", 100.0 * share) : fmt::format("{:.0f} %", 100.0 * share);
+}
+
+// In two digits, rounded up.
+std::string about(double count) {
+  const double digit = std::pow(10.0, std::floor(std::log10(count)) - 1.0);
+  return fmt::format("{:.0f}", std::ceil(count / digit) * digit);
+}
+
+// What is to be known where a steady motion was asked for.
+std::optional<std::string> unsteady(const MassMotion& motion, int periods, std::size_t samples) {
+  // Of the largest displacement and velocity: a sensor is not calibrated better.
+  constexpr double steady = 0.01;
+  const Settling settling = settling_of(motion, periods, samples);
+  const std::string change = fmt::format(
+      "the motion is not steady in {}: its start and end differ by {} of the largest",
+      periods == 1 ? "one period" : fmt::format("the last of {} periods", periods), percent(settling.change));
+  if (!settling.left) {
+    if (settling.change <= steady) return std::nullopt;
+    return change + (periods == 1 ? "; expected more periods" : ", no less than in the period before");
+  }
+  if (std::max(*settling.left, settling.change) <= steady) return std::nullopt;
+  const double more = std::max(std::log(steady / *settling.left) / std::log(*settling.factor), 1.0);
+  return change +
+         fmt::format(", and at the pace of the last two it is {} off the steady one; expected about {} periods",
+                     percent(*settling.left), about(static_cast<double>(periods) + more));
 }
 
 // Of the last period, or of everything where none is repeated.
@@ -166,8 +198,19 @@ MassResponse response_to(StoredModel stored, const std::string& path, Recording 
   const bool follows = std::ranges::any_of(stored.terms, [](const Term& term) { return term.drive_power > 0; });
   require_response(stored.model, parameters_at(stored.held, stored.terms, 0.0, frequency, middle_of(stored.conditions)),
                    follows && drive_varies(recording));
-  const Excitation excitation = excitation_of(recording, base, request);
-  const MassMotion motion = respond(oscillator, excitation, request.respond);
+  Excitation excitation = excitation_of(recording, base, request);
+  if (request.periods > 0) excitation.time.push_back(end_of_periods(recording.time, request.periods));
+  MassMotion motion = respond(oscillator, excitation, request.respond);
+  if (request.periods > 0) {
+    if (const auto told = unsteady(motion, request.periods, recording.size())) {
+      remarks.push_back(recording.file + ": " + *told);
+    }
+    // The last sample was for this alone.
+    excitation.time.pop_back();
+    for (std::vector<double>* channel : {&motion.displacement, &motion.velocity, &motion.acceleration, &motion.force}) {
+      channel->pop_back();
+    }
+  }
   as_motion.displacement = motion.displacement;
   as_motion.velocity = motion.velocity;
   append(remarks, beyond_fitted(stored, path, {as_motion}));

@@ -1,0 +1,35 @@
+#include "fit/no_candidate.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "core/error.hpp"
+#include "core/message.hpp"
+#include "fit/solver.hpp"
+
+namespace hysteron {
+
+void throw_without_candidate(const std::string& stage, const RunResult& run, const Layout& layout,
+                             const LayoutOptions& options, std::size_t before) {
+  const std::string solver = (stage.empty() ? "" : stage + ": ") + "solver " + run.solver;
+  if (run.evaluations == before) {
+    throw OptionError(
+        Message(solver + " cannot evaluate anything in a budget of " + std::to_string(run.budget) +
+                (before > 0 ? fmt::format(", {} of which are spent", before) : "") + ", expected a larger ") +
+        Option::budget + fmt::format(": an evaluation with derivatives counts {}", layout.dimension() + 1));
+  }
+  // An objective is a sum of squares, and one of diverged_cost is none (fit/solver.hpp).
+  const std::string text = fmt::format(
+      "{} found no candidate whose simulation stays finite and misses the recordings by less than {:g} "
+      "times their size in {} evaluations",
+      solver, std::sqrt(diverged_cost), run.evaluations - before);
+  const bool held = !options.fix.empty();
+  const bool bounded = !options.bounds.empty();
+  throw WorkError(text + (held && bounded ? ": check what is held and the bounds"
+                          : held          ? ": check what is held"
+                          : bounded       ? ": check the bounds"
+                                          : ""));
+}
+
+}  // namespace hysteron

@@ -1,0 +1,28 @@
+// What recordings of the motion of a mass on a damper show of faults that the reader of a damper's recordings does not
+// look for, since they are of the mass.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "io/channels.hpp"
+#include "respond/refine.hpp"
+#include "simulate/composite.hpp"
+#include "task/excites.hpp"
+
+namespace hysteron {
+
+// Throws InputError where a base moves and the reader has remarked that it took a column with an absolute displacement
+// for that of the mass: `remarks` are its own.
+void refuse_absolute_displacement(const std::vector<Recording>& responses, const std::vector<std::string>& remarks,
+                                  Excites excitation);
+
+// Leaves out what comes before a release, and an acceleration that is not that of the mass relative to its base;
+// remarks on both, and on forces and a mass that do not go with the motion.
+std::vector<Remark> mend_responses(std::vector<Recording>& responses, const Rig& rig);
+
+// Free decays that come to rest in different places, of which the model knows one.
+std::vector<Remark> places_of_rest(const std::vector<Recording>& responses, const Rig& rig,
+                                   const CompositeModel& model);
+
+}  // namespace hysteron
