@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/extent.hpp"
 #include "core/frequency.hpp"
 
 namespace hysteron {
@@ -136,29 +137,30 @@ std::size_t tones_return_after(const std::vector<double>& x) {
   return 0;
 }
 
+// At a turning point of a running motion the velocity is small too: at rest it stays small.
+bool begins_at_rest(const Recording& recording, double frequency) {
+  const double peak = peak_of(recording.velocity);
+  if (std::fabs(recording.velocity[0]) >= 0.05 * peak) {
+    return false;
+  }
+  const double quarter = recording.time[0] + 0.125 / frequency;
+  for (std::size_t n = 0; n < recording.size() && recording.time[n] < quarter; ++n) {
+    if (std::fabs(recording.velocity[n]) > 0.3 * peak) {
+      return false;
+    }
+  }
+  return true;
+}
+
 }  // namespace
 
 std::size_t returns_after(const Recording& recording, double frequency) {
-  if (!(frequency > 0.0)) {
+  if (!(frequency > 0.0) || begins_at_rest(recording, frequency)) {
     return 0;
   }
-  double peak = 0.0;
-  for (const double velocity : recording.velocity) {
-    peak = std::max(peak, std::fabs(velocity));
-  }
+  const double peak = peak_of(recording.velocity);
   const auto [low, high] = std::ranges::minmax(recording.displacement);
   const double stroke = high - low;
-  if (std::fabs(recording.velocity[0]) < 0.05 * peak) {
-    // At a turning point of a running motion the velocity is small too: at rest it stays small.
-    const double quarter = recording.time[0] + 0.125 / frequency;
-    bool moves = false;
-    for (std::size_t n = 0; n < recording.size() && recording.time[n] < quarter; ++n) {
-      moves = moves || std::fabs(recording.velocity[n]) > 0.3 * peak;
-    }
-    if (!moves) {
-      return 0;
-    }
-  }
   const double expected = recording.time[0] + 1.0 / frequency;
   std::size_t best = 0;
   double best_distance = 0.1;
@@ -173,14 +175,21 @@ std::size_t returns_after(const Recording& recording, double frequency) {
       best = n;
     }
   }
-  return best > 0 && repeats(recording, best) ? best : tones_return_after(recording.displacement);
+  return best > 0 && repeats(recording, best) ? best : 0;
+}
+
+std::size_t period_of(const Recording& recording, double frequency) {
+  const std::size_t by_turns = returns_after(recording, frequency);
+  return by_turns > 0 || !(frequency > 0.0) || begins_at_rest(recording, frequency)
+             ? by_turns
+             : tones_return_after(recording.displacement);
 }
 
 Start start_of(const Recording& recording) {
   if (recording.start != Start::unknown) {
     return recording.start;
   }
-  const std::size_t period = returns_after(recording, dominant_frequency(recording));
+  const std::size_t period = period_of(recording, dominant_frequency(recording));
   return period > 0 && force_settles(recording, period) ? Start::from_nothing : Start::in_cycle;
 }
 

@@ -11,6 +11,10 @@ namespace hysteron {
 // first brings the hysteresis into its cycle; 0 when it starts at rest or does not repeat.
 std::size_t returns_after(const Recording& recording, double frequency);
 
+// The same, or else that of a motion with harmonics or of several tones, which comes again twice at least: its turning
+// points tell nothing of its period.
+std::size_t period_of(const Recording& recording, double frequency);
+
 // What the force says of the start. A recording without force, or with less than two periods, counts as in its cycle.
 Start start_of(const Recording& recording);
 

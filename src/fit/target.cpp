@@ -64,9 +64,13 @@ double fastest_of(const Motion& motion) {
   return result;
 }
 
-// The period to march beforehand, if any, so that the recording goes on from its end.
-void lead_in(Target& target, const Recording& recording) {
-  target.preroll = start_of(recording) == Start::from_nothing ? 0 : returns_after(recording, target.frequency);
+// The period to march beforehand, if any, so that the recording goes on from its end. Where the run-in does not count
+// only a motion between turning points has one: of others little is lost with it, and a force that comes out of nothing
+// under noise would be taken for one in its cycle.
+void lead_in(Target& target, const Recording& recording, bool skip_run_in) {
+  if (start_of(recording) != Start::from_nothing) {
+    target.preroll = skip_run_in ? returns_after(recording, target.frequency) : period_of(recording, target.frequency);
+  }
   if (target.preroll == 0) {
     return;
   }
@@ -175,7 +179,7 @@ Target make_target(const Recording& recording, const ObjectiveOptions& options, 
   }
   take_circumstances(recording, target);
   target.inputs_vary = target.inputs_vary || conditions_vary(recording);
-  lead_in(target, recording);
+  lead_in(target, recording, options.skip_run_in);
   if (options.comparing) {
     target.lead_in = comparing_motion(std::move(target.lead_in));
     target.motion = comparing_motion(std::move(target.motion));
@@ -198,7 +202,7 @@ Target make_screening_target(const Target& full, const Recording& whole, const O
   target.motion = motion_of(recording, options.tolerance, false);
   target.fastest = fastest_of(target.motion);
   if (full.preroll > 0) {
-    lead_in(target, recording);
+    lead_in(target, recording, options.skip_run_in);
     target.lead_in = screening_motion(std::move(target.lead_in));
   }
   target.motion = screening_motion(std::move(target.motion));

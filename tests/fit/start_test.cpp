@@ -96,7 +96,7 @@ TEST(Start, AMotionOfSeveralTonesHasAPeriodBeforehand) {
       }
       recording.displacement[n] += 5e-5 * std::sin(7.1 * static_cast<double>(n));
     }
-    EXPECT_NEAR(static_cast<double>(returns_after(recording, dominant_frequency(recording))), tones.after, 1.0)
+    EXPECT_NEAR(static_cast<double>(period_of(recording, dominant_frequency(recording))), tones.after, 1.0)
         << tones.multiple;
   }
 }
