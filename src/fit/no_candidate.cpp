@@ -1,7 +1,5 @@
 #include "fit/no_candidate.hpp"
 
-#include <fmt/format.h>
-
 #include <cmath>
 
 #include "core/error.hpp"
@@ -16,14 +14,14 @@ void throw_without_candidate(const std::string& stage, const RunResult& run, con
   if (run.evaluations == before) {
     throw OptionError(
         Message(solver + " cannot evaluate anything in a budget of " + std::to_string(run.budget) +
-                (before > 0 ? fmt::format(", {} of which are spent", before) : "") + ", expected a larger ") +
-        Option::budget + fmt::format(": an evaluation with derivatives counts {}", layout.dimension() + 1));
+                (before > 0 ? ", " + std::to_string(before) + " of which are spent" : "") + ", expected a larger ") +
+        Option::budget + (": an evaluation with derivatives counts " + std::to_string(layout.dimension() + 1)));
   }
   // An objective is a sum of squares, and one of diverged_cost is none (fit/solver.hpp).
-  const std::string text = fmt::format(
-      "{} found no candidate whose simulation stays finite and misses the recordings by less than {:g} "
-      "times their size in {} evaluations",
-      solver, std::sqrt(diverged_cost), run.evaluations - before);
+  const std::string text = solver +
+                           " found no candidate whose simulation stays finite and misses the recordings by less than " +
+                           std::to_string(std::lround(std::sqrt(diverged_cost))) + " times their size in " +
+                           std::to_string(run.evaluations - before) + " evaluations";
   const bool held = !options.fix.empty();
   const bool bounded = !options.bounds.empty();
   throw WorkError(text + (held && bounded ? ": check what is held and the bounds"

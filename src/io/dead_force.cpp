@@ -92,6 +92,7 @@ std::vector<DeadForce> dead_forces_of(const std::vector<Recording>& recordings) 
       expected = std::min(expected, slower * rms_of(recordings[j].force));
     }
     const double rms = rms_of(recordings[k].force);
+    if (!(span_of(recordings[k].force) > 0.0)) continue;  // refused as constant
     if (span_of(recordings[k].displacement) >= shortest && rms < weaker * expected) dead.push_back({k, rms, expected});
   }
   return dead;
