@@ -13,6 +13,7 @@
 
 #include "diagnose/diagnose.hpp"
 #include "diagnose/search/relatives.hpp"
+#include "diagnose/search/stage.hpp"
 #include "fit/synthetic.hpp"
 
 namespace hysteron {
@@ -155,6 +156,27 @@ TEST(Cards, ADampingOfAnEffectFollowsTheDriveAsTheLawsOwn) {
     EXPECT_EQ(orders_of(hardened.layout({"bouc-wen", {effect}, {}})), (std::map<std::string, int>{{"alpha", 2}}))
         << effect;
   }
+}
+
+// A field changes forces, dampings and stiffnesses. Where a yield displacement seems to grow with it, a spring in
+// series gives way, and a law that bends would hide that.
+TEST(Cards, APlaceOrAShareDoesNotFollowTheDrive) {
+  Split split;
+  for (const double level : {0.2, 0.6, 1.0}) {
+    Recording recording = testing::motion("r.csv", {{0.01, 1.0}}, 3.0, 300, 0.5);
+    testing::set_drive(recording, level);
+    recording.force = recording.velocity;
+    split.fit.push_back(recording);
+  }
+  LayoutOptions layout;
+  layout.by_current = {{"alpha", 1}};
+  const Workbench bench(scale_of(split.fit), split, layout, {}, 1, [] { return false; });
+  std::set<std::string> meant = {"alpha", "c0", "k0", "f0"};
+  for (const Extension& law : law_candidates(bench, {"bouc-wen", {}, {}})) {
+    ASSERT_EQ(law.parameters.size(), 1U);
+    EXPECT_EQ(meant.erase(law.parameters.front()), 1U) << law.parameters.front();
+  }
+  EXPECT_TRUE(meant.empty()) << *meant.begin();
 }
 
 TEST(Cards, WhatALawHasOfItsOwn) {

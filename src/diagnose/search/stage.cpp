@@ -70,10 +70,10 @@ std::vector<Extension> law_candidates(const Workbench& bench, const Hypothesis& 
   const int highest = highest_order(bench.split().fit);
   const Layout layout = bench.layout(what);
   const std::vector<Parameter> cards = layout.model().parameters();
-  const std::size_t own = layout.model().law->parameters.size();
   for (const ParameterLaw& law : layout.laws()) {
-    // Of an effect, what is a force, a damping or a stiffness may follow the field; a time or a place does not.
-    const bool may = law.parameter < own || cards[law.parameter].role != PhysicalRole::none;
+    // What is a force, a damping or a stiffness may follow the field; a time, a place or a share does not: a yield
+    // displacement that grows with the field is what a spring in series does.
+    const bool may = cards[law.parameter].role != PhysicalRole::none;
     if (may && static_cast<int>(law.drive_nodes.size()) <= highest) {
       result.push_back(law_extension({layout.names()[law.parameter]}));
     }
