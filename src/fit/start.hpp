@@ -7,8 +7,8 @@
 
 namespace hysteron {
 
-// Samples of the first period when a recording starts in mid-motion and the motion repeats itself, so that marching them
-// first brings the hysteresis into its cycle; 0 when it starts at rest or does not repeat.
+// Samples of the first period when a recording starts in mid-motion and the motion repeats itself, so that marching
+// them first brings the hysteresis into its cycle; 0 when it starts at rest or does not repeat.
 std::size_t returns_after(const Recording& recording, double frequency);
 
 // The same, or else that of a motion with harmonics or of several tones, which comes again twice at least: its turning

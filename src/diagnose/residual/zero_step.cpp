@@ -115,9 +115,8 @@ std::optional<ZeroSteps> zero_steps_of(const std::vector<Recording>& recordings,
 std::string sentence_of(const ZeroSteps& steps) {
   return fmt::format(
       "the zero of the force steps by {:.3g} N at {:.3g} s of {} ({} of {} recordings {} such a step), as of a load "
-      "cell "
-      "that is zeroed while the test runs, and effects explain it as physics: cut the recordings there, or shift the "
-      "force back",
+      "cell that is zeroed while the test runs, and effects explain it as physics: cut the recordings there, or "
+      "shift the force back",
       steps.largest.step, steps.largest.time, steps.file, steps.with, steps.of, steps.with == 1 ? "has" : "have");
 }
 
