@@ -18,7 +18,6 @@
 #include "report/html.hpp"
 #include "report/terminal.hpp"
 #include "task/finite.hpp"
-#include "task/response_faults.hpp"
 #include "task/stages.hpp"
 
 namespace hysteron::app {
@@ -163,7 +162,6 @@ void run(const FitOptions& options) {
   ask_conditions(options.laws, from);
   Campaign campaign = load(from, options.response ? Required::motion : Required::motion_and_force, &remarks);
   FitRequest request = request_of(options);
-  if (request.rig) refuse_absolute_displacement(campaign.recordings, remarks, request.excitation);
   // Wrong names are told before a folder is made.
   const FitData data = fit_data(std::move(campaign), request);
   const bool to_files = !is_standard_output(options.out);

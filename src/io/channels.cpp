@@ -196,6 +196,7 @@ class Assigner {
     keep_for_conditions();
     for (std::size_t i = 0; i < columns_.size(); ++i) match(i);
     match_last_words();
+    refuse_absolute();
     refuse_shared();
     for (std::size_t i = 0; i < columns_.size(); ++i) doubt_unit(i);
     for (int q = 0; q < quantity_count; ++q) doubt_without_unit(static_cast<Quantity>(q));
@@ -333,6 +334,21 @@ class Assigner {
         options_.remark({file_, Remark::Kind::dialect, text, text + beside(quantity, found.front(), set)});
       }
     }
+  }
+
+  // Beside a base the displacement is that relative to it, and "absolute displacement" holds the base as well.
+  void refuse_absolute() {
+    const Source& taken = source(Quantity::displacement);
+    if (taken.column < 0 || source(Quantity::base).column < 0) return;
+    const bool mapped = std::ranges::any_of(
+        options_.columns, [&](const auto& entry) { return quantity_of_name(entry.first) == Quantity::displacement; });
+    const Column& column = columns_[static_cast<std::size_t>(taken.column)];
+    // Of "absolute", "Absoluter" and "absolu" alike.
+    if (mapped || lower_case(column.name).find("absolu") == std::string::npos) return;
+    fail(Message("column " + in_quotes(column.text) +
+                 " is not the displacement relative to the base, expected a column displacement that is: the absolute "
+                 "one less that of the base; or ") +
+         Option::column + " displacement=NAME");
   }
 
   // "command position" gives way to a measured one, by its last word as well or, as "LVDT feedback [mm]", by a word

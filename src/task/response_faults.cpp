@@ -8,10 +8,8 @@
 #include <span>
 #include <string>
 
-#include "core/error.hpp"
 #include "core/extent.hpp"
 #include "core/frequency.hpp"
-#include "core/lower_case.hpp"
 #include "respond/acceleration_fault.hpp"
 #include "respond/force_balance.hpp"
 #include "respond/release.hpp"
@@ -46,8 +44,8 @@ std::string text_of(const AccelerationFault& fault) {
   switch (fault.kind) {
     case Kind::reversed:
       return fmt::format(
-          "the acceleration runs against the displacement, {:.3g} times its second derivative: check its "
-          "sign",
+          "the acceleration runs against the displacement, {:.3g} times its second derivative: check "
+          "its sign",
           -fault.size);
     case Kind::factor:
       return fmt::format("the acceleration is {:.3g} times the second derivative of the displacement: check its unit",
@@ -115,24 +113,6 @@ std::optional<std::string> size_of_mass(const Recording& recording, const Rig& r
 }
 
 }  // namespace
-
-void refuse_absolute_displacement(const std::vector<Recording>& responses, const std::vector<std::string>& remarks,
-                                  Excites excitation) {
-  const auto has_base = [](const Recording& recording) { return !recording.base.empty(); };
-  if (excitation == Excites::force || std::ranges::none_of(responses, has_base)) return;
-  for (const std::string& remark : remarks) {
-    const std::size_t end = remark.find("' is taken for the displacement");
-    if (end == std::string::npos || end == 0) continue;
-    const std::size_t begin = remark.rfind('\'', end - 1);
-    if (begin == std::string::npos) continue;
-    const std::string name = remark.substr(begin + 1, end - begin - 1);
-    // Of "absolute", "Absoluter" and "absolu" alike.
-    if (lower_case(name).find("absolu") == std::string::npos) continue;
-    throw InputError(remark.substr(0, begin) + "column '" + name +
-                     "' is not the displacement relative to the base, expected a column displacement that is: the "
-                     "absolute one less that of the base");
-  }
-}
 
 std::vector<Remark> mend_responses(std::vector<Recording>& responses, const Rig& rig) {
   std::vector<Remark> remarks;

@@ -2,20 +2,13 @@
 // look for, since they are of the mass.
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "io/channels.hpp"
 #include "respond/refine.hpp"
 #include "simulate/composite.hpp"
-#include "task/excites.hpp"
 
 namespace hysteron {
-
-// Throws InputError where a base moves and the reader has remarked that it took a column with an absolute displacement
-// for that of the mass: `remarks` are its own.
-void refuse_absolute_displacement(const std::vector<Recording>& responses, const std::vector<std::string>& remarks,
-                                  Excites excitation);
 
 // Leaves out what comes before a release, and an acceleration that is not that of the mass relative to its base;
 // remarks on both, and on forces and a mass that do not go with the motion.

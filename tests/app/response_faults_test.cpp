@@ -150,7 +150,7 @@ TEST_F(FaultsOfAResponse, AnAbsoluteDisplacementIsRefusedOnABase) {
   record("time [s],base [m],absolute displacement [m]", 1500, row);
   const Outcome outcome = fitted();
   EXPECT_EQ(outcome.status, 2);
-  EXPECT_NE(outcome.err.find("error: r0.csv: column 'absolute displacement [m]' is not the displacement relative to "
+  EXPECT_NE(outcome.err.find("r0.csv:1: column 'absolute displacement [m]' is not the displacement relative to "
                              "the base"),
             std::string::npos)
       << outcome.err;
