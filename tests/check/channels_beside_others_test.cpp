@@ -3,12 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 #include <string>
 
 #include "check/campaign.hpp"
 #include "core/random.hpp"
+#include "io/sines.hpp"
 
 namespace hysteron {
 namespace {
@@ -16,21 +15,13 @@ namespace {
 // Sines of 10 to 40 mm, of 1200 N s/m under a load cell that ends at 180 N, with noise of `before` N under the end and
 // of `behind` N on it.
 std::vector<Recording> clipped(double before, double behind) {
-  std::vector<Recording> result;
-  for (std::size_t k = 0; k < 4; ++k) {
+  std::vector<Recording> result = testing::four_sines(2000, 0.01, 0.01);
+  for (std::size_t k = 0; k < result.size(); ++k) {
     const Stream noise(k);
-    Recording one;
-    one.file = "r" + std::to_string(k + 1) + ".csv";
-    const double amplitude = 0.01 + 0.01 * static_cast<double>(k);
-    for (std::uint64_t n = 0; n < 2000; ++n) {
-      const double phase = 0.01 * std::numbers::pi * static_cast<double>(n);
-      one.time.push_back(0.005 * static_cast<double>(n));
-      one.displacement.push_back(amplitude * std::sin(phase));
-      one.velocity.push_back(2.0 * std::numbers::pi * amplitude * std::cos(phase));
-      const double force = 1200.0 * one.velocity.back() + before * noise.normal(n);
-      one.force.push_back(std::clamp(force, -180.0, 180.0) + behind * noise.normal(9000 + n));
+    for (std::uint64_t n = 0; n < result[k].size(); ++n) {
+      const double force = 1200.0 * result[k].velocity[n] + before * noise.normal(n);
+      result[k].force.push_back(std::clamp(force, -180.0, 180.0) + behind * noise.normal(9000 + n));
     }
-    result.push_back(one);
   }
   return result;
 }

@@ -4,32 +4,23 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
-#include <numbers>
 #include <string>
 
 #include "core/random.hpp"
+#include "io/sines.hpp"
 
 namespace hysteron {
 namespace {
 
 // Sines of 10 to 40 mm, of 1200 N s/m, under a load cell that ends at `most` N; noise of 1 N.
 std::vector<Recording> campaign(double most = std::numeric_limits<double>::infinity()) {
-  std::vector<Recording> result;
-  for (std::size_t k = 0; k < 4; ++k) {
+  std::vector<Recording> result = testing::four_sines(2000, 0.01, 0.01);
+  for (std::size_t k = 0; k < result.size(); ++k) {
     const Stream noise(k);
-    Recording one;
-    one.file = "r" + std::to_string(k + 1) + ".csv";
-    const double amplitude = 0.01 + 0.01 * static_cast<double>(k);
-    for (std::uint64_t n = 0; n < 2000; ++n) {
-      const double phase = 0.01 * std::numbers::pi * static_cast<double>(n);
-      one.time.push_back(0.005 * static_cast<double>(n));
-      one.displacement.push_back(amplitude * std::sin(phase));
-      one.velocity.push_back(2.0 * std::numbers::pi * amplitude * std::cos(phase));
-      one.force.push_back(std::clamp(1200.0 * one.velocity.back(), -most, most) + noise.normal(n));
+    for (std::uint64_t n = 0; n < result[k].size(); ++n) {
+      result[k].force.push_back(std::clamp(1200.0 * result[k].velocity[n], -most, most) + noise.normal(n));
     }
-    result.push_back(one);
   }
   return result;
 }

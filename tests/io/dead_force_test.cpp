@@ -6,28 +6,20 @@
 #include <numbers>
 
 #include "core/random.hpp"
+#include "io/sines.hpp"
 
 namespace hysteron {
 namespace {
 
-constexpr std::size_t count = 4;
-
 // Sines of 20, 30, 40 and 50 mm and of 300 N, noise of 2 N.
 std::vector<Recording> campaign() {
-  std::vector<Recording> result;
-  for (std::size_t k = 0; k < count; ++k) {
+  std::vector<Recording> result = testing::four_sines(1000, 0.01, 0.005);
+  for (std::size_t k = 0; k < result.size(); ++k) {
     const Stream noise(k);
-    Recording one;
-    one.file = "r" + std::to_string(k) + ".csv";
-    const double amplitude = 0.01 + 0.005 * static_cast<double>(k);
-    for (std::uint64_t n = 0; n < 1000; ++n) {
-      const double phase = 0.01 * std::numbers::pi * static_cast<double>(n);
-      one.time.push_back(0.005 * static_cast<double>(n));
-      one.displacement.push_back(amplitude * std::sin(phase));
-      one.velocity.push_back(2.0 * std::numbers::pi * amplitude * std::cos(phase));
-      one.force.push_back(300.0 * std::cos(phase) + 2.0 * noise.normal(n));
+    for (std::uint64_t n = 0; n < result[k].size(); ++n) {
+      result[k].force.push_back(300.0 * std::cos(0.01 * std::numbers::pi * static_cast<double>(n)) +
+                                2.0 * noise.normal(n));
     }
-    result.push_back(one);
   }
   return result;
 }

@@ -1,6 +1,5 @@
 #include "io/held_ends.hpp"
 
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,10 +9,12 @@
 #include <vector>
 
 #include "core/random.hpp"
-#include "io/csv.hpp"
+#include "io/reread.hpp"
 
 namespace hysteron {
 namespace {
+
+using testing::said_of;
 
 // A sine of 1 Hz at 200 Hz; a force with noise, in steps.
 Recording recording(double noise_of_force, double step) {
@@ -60,21 +61,6 @@ TEST(HeldEnds, AreNotOfARodThatRests) {
   Recording resting = recording(2.0, 0.01);
   std::fill_n(resting.displacement.rbegin(), 200, 0.0);
   EXPECT_FALSE(held_end_of(resting));
-}
-
-// As a file that is read.
-std::vector<std::string> said_of(const Recording& recording, const std::string& key) {
-  std::string text = "time [s],displacement [m],force [N]\n";
-  for (std::size_t n = 0; n < recording.size(); ++n) {
-    text += fmt::format("{:.9g},{:.9g},{:.9g}\n", recording.time[n], recording.displacement[n], recording.force[n]);
-  }
-  std::vector<std::string> said;
-  ReadOptions options;
-  options.remark = [&](const Remark& remark) {
-    if (remark.key == key) said.push_back(remark.text.plain());
-  };
-  (void)parse_csv(text, "r.csv", options);
-  return said;
 }
 
 TEST(HeldEnds, AreTold) {

@@ -1,6 +1,5 @@
 #include "io/mains_hum.hpp"
 
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,11 +9,13 @@
 #include <vector>
 
 #include "core/random.hpp"
-#include "io/csv.hpp"
+#include "io/reread.hpp"
 #include "io/velocity.hpp"
 
 namespace hysteron {
 namespace {
+
+using testing::said_of;
 
 using Of = std::function<double(double t)>;
 
@@ -60,21 +61,6 @@ TEST(MainsHum, IsNoOtherThing) {
   Recording measured = recording(tone(1e-4, 50.0));
   measured.velocity_measured = true;
   EXPECT_FALSE(mains_hum_of(measured));
-}
-
-// As a file that is read.
-std::vector<std::string> said_of(const Recording& recording, const std::string& key) {
-  std::string text = "time [s],displacement [m],force [N]\n";
-  for (std::size_t n = 0; n < recording.size(); ++n) {
-    text += fmt::format("{:.9g},{:.9g},{:.9g}\n", recording.time[n], recording.displacement[n], recording.force[n]);
-  }
-  std::vector<std::string> said;
-  ReadOptions options;
-  options.remark = [&](const Remark& remark) {
-    if (remark.key == key) said.push_back(remark.text.plain());
-  };
-  (void)parse_csv(text, "r.csv", options);
-  return said;
 }
 
 TEST(MainsHum, IsTold) {

@@ -1,6 +1,5 @@
 #include "io/rectified.hpp"
 
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,10 +9,12 @@
 #include <vector>
 
 #include "core/random.hpp"
-#include "io/csv.hpp"
+#include "io/reread.hpp"
 
 namespace hysteron {
 namespace {
+
+using testing::said_of;
 
 using Of = std::function<double(double phase)>;
 
@@ -62,21 +63,6 @@ TEST(Rectified, ADisplacementWithoutItsSign) {
   // A ramp turns at zero by a kink, and the force with it.
   const auto turning = [](double phase) { return std::sin(phase) > 0.0 ? 300.0 : -300.0; };
   EXPECT_FALSE(displacement_is_rectified(recording(ramps, turning)));
-}
-
-// As a file that is read.
-std::vector<std::string> said_of(const Recording& recording, const std::string& key) {
-  std::string text = "time [s],displacement [m],force [N]\n";
-  for (std::size_t n = 0; n < recording.size(); ++n) {
-    text += fmt::format("{:.9g},{:.9g},{:.9g}\n", recording.time[n], recording.displacement[n], recording.force[n]);
-  }
-  std::vector<std::string> said;
-  ReadOptions options;
-  options.remark = [&](const Remark& remark) {
-    if (remark.key == key) said.push_back(remark.text.plain());
-  };
-  (void)parse_csv(text, "r.csv", options);
-  return said;
 }
 
 TEST(Rectified, IsTold) {
