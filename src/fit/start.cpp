@@ -6,6 +6,8 @@
 
 #include "core/extent.hpp"
 #include "core/frequency.hpp"
+#include "core/mean.hpp"
+#include "core/squared.hpp"
 
 namespace hysteron {
 namespace {
@@ -109,10 +111,9 @@ double change_after(const std::vector<double>& x, std::size_t lag, std::size_t s
 // Its turns tell nothing of that.
 std::size_t tones_return_after(const std::vector<double>& x) {
   const std::size_t stride = std::max<std::size_t>(1, x.size() / first_look);
-  double mean = 0.0;
-  for (const double value : x) mean += value / static_cast<double>(x.size());
+  const double mean = mean_of(x);
   double variance = 0.0;
-  for (const double value : x) variance += (value - mean) * (value - mean) / static_cast<double>(x.size());
+  for (const double value : x) variance += squared(value - mean) / static_cast<double>(x.size());
   const double deviation = std::sqrt(variance);
   const double tolerance = tones_share * deviation + 0.5 * change_after(x, 1, 1);
   bool left = false;  // the motion is no longer where it was at first

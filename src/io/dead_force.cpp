@@ -6,8 +6,10 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "core/extent.hpp"
+#include "core/mean.hpp"
 #include "core/squared.hpp"
 
 namespace hysteron {
@@ -24,15 +26,12 @@ constexpr std::size_t fewest_samples = 50;
 using Terms = std::array<std::vector<double>, 3>;
 
 void centre(std::vector<double>& values) {
-  double mean = 0.0;
-  for (const double value : values) mean += value / static_cast<double>(values.size());
+  const double mean = mean_of(values);
   for (double& value : values) value -= mean;
 }
 
 double product_of(const std::vector<double>& a, const std::vector<double>& b) {
-  double sum = 0.0;
-  for (std::size_t n = 0; n < a.size(); ++n) sum += a[n] * b[n];
-  return sum;
+  return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
 }
 
 // By Gram and Schmidt, one term after the other.
@@ -100,9 +99,8 @@ std::vector<DeadForce> dead_forces_of(const std::vector<Recording>& recordings) 
 
 std::string sentence_of(const DeadForce& dead) {
   return fmt::format(
-      "the force follows nothing of the motion and scatters by {:.3g} N (RMS), where the other recordings have {:.3g} "
-      "N "
-      "and more at such a speed: a load cell that was not connected looks so; leave this recording out",
+      "the force follows nothing of the motion and scatters by {:.3g} N (RMS), where the other recordings have "
+      "{:.3g} N and more at such a speed: a load cell that was not connected looks so; leave this recording out",
       dead.rms, dead.expected);
 }
 

@@ -8,7 +8,9 @@
 #include <optional>
 #include <utility>
 
+#include "core/extent.hpp"
 #include "core/number_text.hpp"
+#include "fit/layout.hpp"
 
 namespace hysteron {
 namespace {
@@ -69,22 +71,6 @@ class Law {
     return places;
   }
 
-  // The value there, and what rounding may have made of it.
-  [[nodiscard]] std::pair<double, double> at(const Place& place) const {
-    double sum = 0.0;
-    double size = 0.0;
-    for (const Term* term : terms_) {
-      double value =
-          term->value * std::pow(place.drive, term->drive_power) * std::pow(place.frequency, term->frequency_power);
-      for (std::size_t c = 0; c < term->condition_powers.size(); ++c) {
-        value *= std::pow(place.conditions[c], term->condition_powers[c]);
-      }
-      sum += value;
-      size += std::fabs(value);
-    }
-    return {sum, std::sqrt(std::numeric_limits<double>::epsilon()) * size};
-  }
-
   // "at a current of 0 A"
   [[nodiscard]] std::string where(const Place& place) const {
     std::vector<std::string> parts;
@@ -129,15 +115,21 @@ std::vector<std::string> impossible_laws(const StoredModel& stored, const std::s
   for (std::size_t k = 0; k < cards.size(); ++k) {
     const Law law(stored, k);
     if (!law.may_be_looked_at()) continue;
-    for (const Place& place : law.places()) {
-      const auto [value, rounding] = law.at(place);
-      const Limits& limits = cards[k].limits;
-      if (value >= limits.lower - rounding && value <= limits.upper + rounding) continue;
-      constexpr int digits = 4;
-      remarks.push_back(fmt::format("{}: at {} the law of '{}' gives {}, expected {}", path, law.where(place), names[k],
-                                    number_text(value, digits), limits_text(cards[k])));
-      break;
+    const std::vector<Place> places = law.places();
+    std::vector<double> values;
+    for (const Place& place : places) {
+      values.push_back(parameters_at(stored.held, stored.terms, place.drive, place.frequency, place.conditions)[k]);
     }
+    // What rounding makes of a value at a bound.
+    const double rounding = std::sqrt(std::numeric_limits<double>::epsilon()) * peak_of(values);
+    const Limits& limits = cards[k].limits;
+    const auto impossible = std::ranges::find_if(
+        values, [&](double value) { return !(value >= limits.lower - rounding && value <= limits.upper + rounding); });
+    if (impossible == values.end()) continue;
+    constexpr int digits = 4;
+    const Place& place = places[static_cast<std::size_t>(impossible - values.begin())];
+    remarks.push_back(fmt::format("{}: at {} the law of '{}' gives {}, expected {}", path, law.where(place), names[k],
+                                  number_text(*impossible, digits), limits_text(cards[k])));
   }
   return remarks;
 }
