@@ -117,6 +117,7 @@ std::vector<std::string> impossible_laws(const StoredModel& stored, const std::s
     if (!law.may_be_looked_at()) continue;
     const std::vector<Place> places = law.places();
     std::vector<double> values;
+    values.reserve(places.size());
     for (const Place& place : places) {
       values.push_back(parameters_at(stored.held, stored.terms, place.drive, place.frequency, place.conditions)[k]);
     }
