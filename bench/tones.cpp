@@ -22,9 +22,9 @@
 #include "bench/base_left.hpp"
 #include "bench/page.hpp"
 #include "bench/program.hpp"
+#include "bench/rate.hpp"
 #include "challenge/concealed.hpp"
 #include "challenge/levels.hpp"
-#include "challenge/statistics.hpp"
 #include "core/random.hpp"
 #include "diagnose/residual/leftover.hpp"
 #include "diagnose/residual/tone.hpp"
@@ -93,11 +93,6 @@ struct Told {
   [[nodiscard]] int all() const { return right + wrong + silent; }
 };
 
-std::string rate(int hits, int trials) {
-  const challenge::Bounds bounds = challenge::clopper_pearson(hits, trials);
-  return fmt::format("{} of {} ({:.0f}-{:.0f} %)", hits, trials, 100.0 * bounds.low, 100.0 * bounds.high);
-}
-
 std::string said(const Tone& tone) {
   return fmt::format("{:.3g} Hz, {:.0f} % of the squares, in {} of {} recordings", tone.frequency, 100.0 * tone.share,
                      tone.recordings, tone.of);
@@ -127,8 +122,8 @@ std::string page_of(const std::vector<Examined>& all, std::size_t draws, std::ui
       }
     }
     if (trials > 0) {
-      text +=
-          fmt::format("| {} | {} |\n", measured ? "measured dampers" : "campaigns of a challenge", rate(told, trials));
+      text += fmt::format("| {} | {} |\n", measured ? "measured dampers" : "campaigns of a challenge",
+                          bench::rate(told, trials));
     }
   }
   text += which.empty() ? "" : "\n" + which;
@@ -165,7 +160,8 @@ std::string page_of(const std::vector<Examined>& all, std::size_t draws, std::ui
       if (sum.all() > 0) {
         text += fmt::format("| {} | {:.0f} % | {} | {} | {} |\n",
                             measured ? "measured dampers" : "campaigns of a challenge", 100.0 * shares[s],
-                            rate(sum.right, sum.all()), rate(sum.wrong, sum.all()), rate(sum.silent, sum.all()));
+                            bench::rate(sum.right, sum.all()), bench::rate(sum.wrong, sum.all()),
+                            bench::rate(sum.silent, sum.all()));
       }
     }
   }

@@ -21,9 +21,9 @@
 #include "bench/base_left.hpp"
 #include "bench/page.hpp"
 #include "bench/program.hpp"
+#include "bench/rate.hpp"
 #include "challenge/concealed.hpp"
 #include "challenge/levels.hpp"
-#include "challenge/statistics.hpp"
 #include "core/random.hpp"
 #include "diagnose/residual/zero_step.hpp"
 
@@ -74,11 +74,6 @@ bench::BaseLeft with(bench::BaseLeft left, const Course& course, double share, c
   return left;
 }
 
-std::string rate(int hits, int trials) {
-  const challenge::Bounds bounds = challenge::clopper_pearson(hits, trials);
-  return fmt::format("{} of {} ({:.0f}-{:.0f} %)", hits, trials, 100.0 * bounds.low, 100.0 * bounds.high);
-}
-
 std::string page_of(const std::vector<Examined>& all, std::uint64_t seed, const std::string& command) {
   std::string text = fmt::format(
       "# A zero of the force that steps\n\nMade by\n\n    {}\n\n"
@@ -95,7 +90,8 @@ std::string page_of(const std::vector<Examined>& all, std::uint64_t seed, const 
       ++trials[one.measured ? 1 : 0];
       hits[one.measured ? 1 : 0] += is_told(one) ? 1 : 0;
     }
-    text += fmt::format("| {} | {} | {} | {} |\n", what, share, rate(hits[0], trials[0]), rate(hits[1], trials[1]));
+    text += fmt::format("| {} | {} | {} | {} |\n", what, share, bench::rate(hits[0], trials[0]),
+                        bench::rate(hits[1], trials[1]));
   };
   row("nothing", "-", [](const Examined& one) { return told(one.left); });
   for (const Course& course : courses) {
