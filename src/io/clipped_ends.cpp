@@ -293,7 +293,7 @@ std::string sentence_of(const Clipping& clipping, std::size_t recordings) {
   }
   return fmt::format(
       "the {} rests at {} {}, {} of its range, in {} of {} recordings, for up to {:.0f} % of the samples, {}: a "
-      "channel that saturates looks so, and what it would have been beyond is not known",
+      "channel that saturates looks so; record with a wider range, or leave these recordings out",
       force ? "force" : "displacement", levels, force ? "N" : "mm", clipping.ends.size() > 1 ? "the ends" : "an end",
       at.size(), recordings, 100.0 * share,
       force ? "whatever the motion and the drive" : "while the force turns round");

@@ -39,8 +39,8 @@ TEST(ChannelsBesideOthers, ALoadCellThatSaturatesUnderNoise) {
   EXPECT_EQ(
       said.front().text.plain(),
       "the force rests at 180 and -180 N, the ends of its range, in 2 of 4 recordings, for up to 30 % of the "
-      "samples, whatever the motion and the drive: a channel that saturates looks so, and what it would have been "
-      "beyond is not known");
+      "samples, whatever the motion and the drive: a channel that saturates looks so; record with a wider range, or "
+      "leave these recordings out");
   // What a recording shows alone is told of it.
   EXPECT_TRUE(remarks_on_channels_beside_others(clipped(1.0, 0.0)).empty());
   const auto all = keys_of(remarks_on(clipped(1.0, 0.3), Moving::damper));
