@@ -1,9 +1,9 @@
 // The force differs between the two directions.
-//   F <- F + (e + e_v |v| / (|v| + v_c)) |F|
-// The direction is that of the force and not of the motion: friction keeps it for a while after a reversal, and so does
-// what it differs by. Friction and damping need not differ alike: of a force f_y + c |v| of which f_y differs by e and
-// c by e + e_v, the whole differs by e + e_v |v| / (|v| + f_y / c). It acts on all of the force below, so that e and
-// e_v are not linear together with the forces of the law.
+//   F <- F + e |F| + c_d |v|
+// Of a damper of yield force f_y and damping c of which f_y differs by the share e_y and c by the share e_c, e is e_y
+// and c_d = (e_c - e_y) c. So c_d follows the drive as the damping does, and shares are the same at every drive.
+// The direction of e |F| is that of the force and not of the motion: friction keeps it for a while after a reversal, and
+// so does what it differs by. e acts on all of the force below and is not linear together with the forces of the law.
 // Source: standard; the passive damper literature writes separate coefficients for compression and rebound.
 #include "simulate/compile.hpp"
 
@@ -14,13 +14,12 @@ struct Asymmetry {
   static constexpr std::string_view id = "asymmetry";
   static constexpr std::string_view title = "Compression-rebound asymmetry";
   static constexpr std::string_view reference = "standard; separate coefficients for compression and rebound";
-  static constexpr std::string_view equations[] = {"F <- F + (e + e_v |v| / (|v| + v_c)) |F|"};
+  static constexpr std::string_view equations[] = {"F <- F + e |F| + c_d |v|"};
   static constexpr int states = 0;
   static constexpr bool bends = true;
   static constexpr Parameter parameters[] = {
-      {.name = "e", .unit = "1", .meaning = "relative difference of either direction from the mean at low speed", .box = {-0.8, 0.8}, .initial = 0, .limits = {.lower = -1, .upper = 1}},
-      {.name = "e_v", .unit = "1", .meaning = "what that gains with the speed", .box = {-0.8, 0.8}, .initial = 0},
-      {.name = "v_c", .unit = "m/s", .meaning = "speed at which half of that is gained: yield force over damping", .box = {5e-3, 1}, .initial = 0.05, .scale = Scale::logarithmic},
+      {.name = "e", .unit = "1", .meaning = "share by which the force in the positive direction is larger than the mean of both", .box = {-0.8, 0.8}, .initial = 0, .limits = {.lower = -1, .upper = 1}},
+      {.name = "c_d", .unit = "N s/m", .meaning = "what the damping in the positive direction is larger by, beyond that share", .box = {-5e3, 5e3}, .initial = 0, .linear = true, .role = PhysicalRole::damping, .limits = {}},
   };
   static constexpr std::string_view kin[] = {"cavitation"};
   static constexpr ContrastSense contrasts[] = {{ContrastKind::direction, Sense::either}};
@@ -35,10 +34,9 @@ struct Asymmetry {
   };
 
   template <class T>
-  static T force(const std::array<T, 3>& p, const std::array<T, 0>& /*s*/, const Input<T>& in, const T& below) {
-    const auto& [e, e_v, v_c] = p;
-    const T speed = abs(in.v);
-    return below + (e + e_v * speed / (speed + v_c)) * abs(below);
+  static T force(const std::array<T, 2>& p, const std::array<T, 0>& /*s*/, const Input<T>& in, const T& below) {
+    const auto& [e, c_d] = p;
+    return below + e * abs(below) + c_d * abs(in.v);
   }
 };
 

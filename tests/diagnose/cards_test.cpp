@@ -144,7 +144,7 @@ TEST(Cards, AYieldForceTakesOverTheLawOfOneThatAnotherLawLacks) {
 
 TEST(Cards, ADampingOfAnEffectFollowsTheDriveAsTheLawsOwn) {
   const std::map<std::string, std::string> meant = {
-      {"self-heating", "c_h"}, {"shear-thinning", "c_t"}, {"viscous-damping", "c"}};
+      {"asymmetry", "c_d"}, {"self-heating", "c_h"}, {"shear-thinning", "c_t"}, {"viscous-damping", "c"}};
   const Workbench damped = bench_with({{"c0", 2}});
   const Workbench hardened = bench_with({{"alpha", 2}});
   for (const std::string& effect : ids_of(effect_catalogue())) {
@@ -409,7 +409,8 @@ TEST(Cards, RolesOfEffectsAndOfSpringsAndOffsetsOfLaws) {
       }
     }
   }
-  EXPECT_EQ(of_effects, (std::map<std::string, NameSet>{{"coulomb-friction", {"fc"}},
+  EXPECT_EQ(of_effects, (std::map<std::string, NameSet>{{"asymmetry", {"c_d"}},
+                                                        {"coulomb-friction", {"fc"}},
                                                         {"end-stop", {"k_b"}},
                                                         {"inertia", {"m"}},
                                                         {"linear-stiffness", {"k"}},

@@ -26,8 +26,7 @@ TEST(Asymmetry, FrictionAndDampingDifferByTheirOwnShares) {
                                 {"c0", damping},
                                 {"v_s", 1e-4},
                                 {"asymmetry.e", of_friction},
-                                {"asymmetry.e_v", of_damping - of_friction},
-                                {"asymmetry.v_c", friction / damping}});
+                                {"asymmetry.c_d", (of_damping - of_friction) * damping}});
   for (const double speed : {0.002, 0.02, 0.2, 0.9}) {
     for (const double sense : {1.0, -1.0}) {
       const Vector time{0.0, 0.001};
