@@ -18,13 +18,13 @@ struct Pinching {
   static constexpr int states = 0;
   static constexpr Parameter parameters[] = {
       {.name = "p", .unit = "1", .meaning = "relative loss of force in the middle", .box = {-0.5, 0.95}, .initial = 0, .limits = {.upper = 1}},
-      {.name = "x_p", .unit = "m", .meaning = "middle of the weak range", .box = {-0.015, 0.015}, .initial = 0, .place = 1},
-      {.name = "w", .unit = "m", .meaning = "half width of the weak range", .box = {5e-4, 0.015}, .initial = 4e-3, .scale = Scale::logarithmic},
+      {.name = "x_p", .unit = "m", .meaning = "middle of the weak range", .box = {-0.03, 0.03}, .initial = 0, .place = 1},
+      {.name = "w", .unit = "m", .meaning = "half width of the weak range", .box = {5e-4, 0.03}, .initial = 4e-3, .scale = Scale::logarithmic},
       {.name = "q", .unit = "1", .meaning = "sharpness of its borders: 2 is a bell, more a flat bottom", .box = {1.2, 8}, .initial = 2, .scale = Scale::logarithmic},
   };
   static constexpr std::string_view kin[] = {"cubic-stiffness"};
   static constexpr PartOfLaw part_of[] = {{"baber-noori"}};
-  static constexpr ContrastSense contrasts[] = {{ContrastKind::middle_loss, Sense::either}};
+  static constexpr ContrastSense contrasts[] = {{ContrastKind::middle_loss, Sense::either}, {ContrastKind::side_loss, Sense::either}};
   static constexpr Knowledge knowledge = {
       .family = families::place,
       .in_words = "pinching around mid-stroke",

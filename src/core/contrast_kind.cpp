@@ -24,6 +24,7 @@ constexpr std::array<ContrastCard, contrast_kinds> cards = {{
     {Kind::stiffness_cubic, "stiffness-cubic", "force per cubed displacement", "N/m^3"},
     {Kind::stroke_end, "stroke-end", "stiffness at the ends of the stroke only", "N/m"},
     {Kind::middle_loss, "middle-loss", "loss of force in the middle of the stroke", "1"},
+    {Kind::side_loss, "side-loss", "loss of force on one side of the stroke", "1"},
     {Kind::energy_fade, "energy-fade", "loss of force per work done", "1/J"},
     {Kind::carried_fade, "carried-fade", "loss of force per work of the recordings before", "1/J", true},
     {Kind::pause_recovery, "pause-recovery", "gain of force over a pause", "1"},

@@ -23,6 +23,7 @@ enum class ContrastKind {
   stiffness_cubic,
   stroke_end,
   middle_loss,
+  side_loss,
   energy_fade,
   carried_fade,
   pause_recovery,

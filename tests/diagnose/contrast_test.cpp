@@ -199,6 +199,19 @@ TEST(Contrast, DirectionsAndEndsOfTheStrokeHaveTheirOwnValues) {
                  return -0.15 * f[n] * std::exp(-std::pow(r.displacement[n] / (0.35 * 0.015), 2.0));
                }).found(),
                ContrastKind::middle_loss, 0.15, 0.1);
+  expect_value(scene_of([](const Recording& r, const std::vector<double>& f, std::size_t n) {
+                 return -0.1 * f[n] * std::tanh(r.displacement[n] / (0.2 * 0.015));
+               }).found(),
+               ContrastKind::side_loss, 0.1, 0.1);
+}
+
+// A force of the place alone, whatever its shape, takes nothing off a force.
+TEST(Contrast, AStepOfTheForceAtAPlaceIsNoLossOnOneSide) {
+  const auto found = scene_of([](const Recording& r, const auto&, std::size_t n) {
+                       return 60.0 * std::tanh(r.displacement[n] / (0.2 * 0.015));
+                     }).found();
+  const Contrast* side = find(found, ContrastKind::side_loss);
+  EXPECT_TRUE(side == nullptr || std::fabs(side->z) < 2.0);
 }
 
 // A dashpot on a spring with free travel, for which the model has a linear spring.
