@@ -59,6 +59,10 @@ struct Contender {
   bool as_channels = false;    // a lag of the velocity channel, and the one that the channels show
 };
 
+// What takes off no more than this part of the candidate's gain was never near, whatever recordings left out say. What
+// takes off more is refitted and compared.
+inline constexpr double may_do_as_well = 0.5;
+
 // A signature contrast (residual/contrast.hpp) of what a fit leaves.
 struct Signature {
   std::string id;

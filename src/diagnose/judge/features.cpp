@@ -8,8 +8,6 @@
 namespace hysteron {
 namespace {
 
-// A contender of less than this share of the gain was never near, whatever its score.
-constexpr double near = 0.5;
 // Where no contrast can be taken, nothing is known: half.
 constexpr double unknown_contrast = 0.5;
 // Standard errors of a contrast that is noise.
@@ -58,7 +56,7 @@ std::vector<const Contender*> equally_good(const Candidate& candidate) {
     const bool limit = row.held_by_the_candidate && !row.apart;
     // What holds the candidate as a limit always explains as much: it counts only where it is surely not at the limit.
     const bool idle = row.holds_the_candidate && !row.apart;
-    if (row.ended_as || (!idle && row.share > near && (!told || limit))) {
+    if (row.ended_as || (!idle && row.share > may_do_as_well && (!told || limit))) {
       result.push_back(&row);
     }
   }

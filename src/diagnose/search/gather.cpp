@@ -13,7 +13,8 @@
 namespace hysteron {
 namespace {
 
-// Contenders of a candidate that are compared on the same samples as it; the others keep the share the search saw.
+// Contenders of a candidate that are compared on the same samples as it, beside those that may do as well; the others
+// keep the share the search saw.
 constexpr std::size_t compared_closely = 4;
 constexpr double least_share_compared = 0.3;
 // A fitted lag of the velocity channel and the one between the channels agree within this share, or within the interval
@@ -118,7 +119,8 @@ std::vector<const Rival*> close_rivals(const Found& found) {
   std::vector<const Rival*> result;
   for (const Rival& rival : found.rivals) {
     const bool kin = !rival.part.is_law() && is_kin(found.part.effect, rival.part.effect);
-    if (rival.fit && rival.share > least_share_compared && (result.size() < compared_closely || kin)) {
+    const bool near = !rival.part.is_law() && rival.share > may_do_as_well;
+    if (rival.fit && rival.share > least_share_compared && (result.size() < compared_closely || kin || near)) {
       result.push_back(&rival);
     }
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "diagnose/judge/evidence.hpp"
 #include "diagnose/search/left_out.hpp"
 #include "diagnose/search/of_fit.hpp"
 #include "diagnose/search/relatives.hpp"
@@ -106,6 +107,17 @@ std::vector<Tried> rivals_of(const Course& course, const Found& found, const std
     }
   }
   std::erase_if(rivals, [&](const Tried& rival) { return rival.part == found.part; });
+  // What may do as well is refitted: the first order promises more than many a shape holds.
+  std::vector<Extension> promising;
+  for (const Tried& rival : rivals) {
+    if (!rival.fit && !rival.part.is_law() && rival.gain > may_do_as_well * found.gain) {
+      promising.push_back(rival.part);
+    }
+  }
+  std::erase_if(rivals,
+                [&](const Tried& rival) { return std::ranges::find(promising, rival.part) != promising.end(); });
+  std::ranges::move(stage(course.bench, found.without, promising, course.independent, &course.current, promising, {}),
+                    std::back_inserter(rivals));
   return rivals;
 }
 

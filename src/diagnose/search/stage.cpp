@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "diagnose/residual/misfit.hpp"
 #include "diagnose/search/counting.hpp"
 #include "diagnose/search/relatives.hpp"
+#include "diagnose/search/signs.hpp"
 #include "fit/parallel.hpp"
 
 namespace hysteron {
@@ -156,8 +159,11 @@ std::vector<Tried> stage(const Workbench& bench, const Fit& before, const std::v
   parallel_for(refitted.size(), bench.options().threads, [&](std::size_t task) {
     const std::size_t k = refitted[task];
     const Starts& starts = scores[k].starts;
-    const Fit fit = each.from_starts(with(before.what, scores[k].part), starts, screening_rounds,
-                                     Workbench::starts_of_a_pack(starts.layout->dimension()));
+    Fit fit = each.from_starts(with(before.what, scores[k].part), starts, screening_rounds,
+                               Workbench::starts_of_a_pack(starts.layout->dimension()));
+    if (std::optional<Fit> possible = turned_round(each, fit)) {
+      fit = std::move(*possible);
+    }
     const std::optional<Fit> neutral = each.beside(before, scores[k].part);
     const double squares = squared(std::min(before.cost, neutral ? neutral->cost : before.cost));
     result[k] = weighed(scores[k].part, fit, squares, before.dimension(), independent);
