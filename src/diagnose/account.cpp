@@ -108,8 +108,12 @@ std::string experiment_for(const Diagnosis& diagnosis, const Named& named) {
 }
 
 std::string sizes_text(const std::vector<ParameterInterval>& parameters, std::size_t most) {
+  // Those first that the recordings tell.
+  std::vector<ParameterInterval> told_first = parameters;
+  std::stable_partition(told_first.begin(), told_first.end(),
+                        [](const ParameterInterval& p) { return p.ci95.has_value(); });
   std::vector<std::string> values;
-  for (const ParameterInterval& p : parameters) {
+  for (const ParameterInterval& p : told_first) {
     if (values.size() < most) {
       values.push_back(fmt::format("{} = {}", p.name, size_text(p.value, p.unit, 2)));
     }
@@ -156,7 +160,9 @@ std::string sentence_of(const Diagnosis& diagnosis, const Named& named,
   }
   const Fit& with = fit_of(diagnosis, named);
   const Fit& without = without_of(diagnosis, named);
-  if (with.heldout < shown_by_judges * without.heldout) {
+  if (!has_fit(diagnosis, named)) {
+    text += ", which was not refitted";
+  } else if (with.heldout < shown_by_judges * without.heldout) {
     text += fmt::format(", which takes the held-out NRMSE from {:.3g} to {:.3g} (noise floor {:.2g})", without.heldout,
                         with.heldout, diagnosis.noise_floor_heldout);
   } else {
@@ -169,7 +175,8 @@ std::string sentence_of(const Diagnosis& diagnosis, const Named& named,
     text += "; these recordings cannot tell it from " + joined(titles_of(named.indistinguishable_from), " or ");
   }
   if (!named.less_likely.empty()) {
-    text += "; " + joined(titles_of(named.less_likely), " or ") + " would do as well, and is less likely";
+    text +=
+        "; " + joined(titles_of(named.less_likely), " or ") + " cannot be ruled out in its place, and is less likely";
   }
   const Contender* rival = named.in_place_of ? nullptr : nearest_rival(named, diagnosis.evidence);
   if (rival != nullptr) {

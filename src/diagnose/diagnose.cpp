@@ -44,6 +44,10 @@ const Fit& fit_of(const Diagnosis& diagnosis, const Named& named) {
   return rival == found->rivals.end() ? search.augmented : *rival->fit;
 }
 
+bool has_fit(const Diagnosis& diagnosis, const Named& named) {
+  return !named.in_place_of || contains(fit_of(diagnosis, named).what, effect_extension(named.id));
+}
+
 std::string law_instead(const Search& search) {
   return search.augmented.what.model == search.base.what.model ? std::string{} : search.augmented.what.model;
 }
@@ -248,8 +252,12 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const Split& split
     diagnosis.sentences.push_back(sentence_of(diagnosis, named, diagnosis.parameters.back()));
   }
   for (const Named& named : names) {
-    diagnosis.views.push_back(
-        view_of(contrast_of(diagnosis, named), fine.split().fit, fine.plain_residuals(without_of(diagnosis, named))));
+    const Contrast* contrast = contrast_of(diagnosis, named);
+    diagnosis.views.push_back(view_of(contrast, fine.split().fit, fine.plain_residuals(without_of(diagnosis, named))));
+    diagnosis.seen.push_back(
+        contrast == nullptr || contrast->of_all
+            ? std::nullopt
+            : std::optional(seen_in(*contrast, acting_in(fine, fit_of(diagnosis, named), named.id))));
   }
   for (const Named& shape : diagnosis.verdict.doubtful) {
     const Fit& fit = diagnosis.search.augmented;

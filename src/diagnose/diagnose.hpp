@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 
+#include "diagnose/acting.hpp"
 #include "diagnose/column.hpp"
 #include "diagnose/groups.hpp"
 #include "diagnose/judge/verdict.hpp"
@@ -48,6 +49,7 @@ struct Diagnosis {
   // Of the verdict's effects, then of its suggestions.
   std::vector<std::vector<ParameterInterval>> parameters;
   std::vector<std::string> sentences;
+  std::vector<std::optional<Seen>> seen;           // recordings that show each, where its contrast can be taken
   std::vector<std::optional<ContrastView>> views;  // of the fitted recordings, where each can be looked at
   // Of the shapes that the augmented model holds without a name, the verdict's doubtful ones.
   std::vector<std::vector<ParameterInterval>> shapes;
@@ -67,6 +69,8 @@ std::vector<Named> listed(const Verdict& verdict);
 const Search& search_of(const Diagnosis& diagnosis, const Named& named);
 // The hypothesis that holds what is listed, and the same less it. References into the search that it comes from.
 const Fit& fit_of(const Diagnosis& diagnosis, const Named& named);
+// Whether that holds the name itself: what does as well in its place may not have been refitted.
+bool has_fit(const Diagnosis& diagnosis, const Named& named);
 const Fit& without_of(const Diagnosis& diagnosis, const Named& named);
 
 // The law of the augmented model where that is not the one asked for; empty where it is.

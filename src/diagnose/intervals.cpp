@@ -1,17 +1,48 @@
 #include "diagnose/intervals.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "diagnose/search/relatives.hpp"
 
 namespace hysteron {
 namespace {
 
+// The largest of `sense` times the displacement.
+double farthest(const std::vector<Recording>& recordings, double sense) {
+  double result = -std::numeric_limits<double>::infinity();
+  for (const Recording& recording : recordings) {
+    for (const double x : recording.displacement) result = std::max(result, sense * x);
+  }
+  return result;
+}
+
 std::vector<Estimate> estimates_of(const Workbench& bench, const Fit& fit) {
   const Objective objective(*fit.layout, bench.split().fit, bench.options());
   Identification identification{*fit.layout, fit.terms, {}, {}, 0, fit.cost, {}, {}, {}, false, {}};
   estimate(identification, objective, fit.point, bench.split().fit.front().drive_kind);
   return identification.estimates;
+}
+
+// A stop at the end of the motion stops nothing: any place beyond does as well, whatever the slope on the near side
+// says.
+void forget_places_not_reached(std::vector<ParameterInterval>& rows, const std::string& effect,
+                               const std::vector<Recording>& recordings) {
+  const Part* part = find_effect(effect);
+  if (part == nullptr || knowledge_of(effect).acts != Acts::at_ends) {
+    return;
+  }
+  for (ParameterInterval& row : rows) {
+    const auto card = std::ranges::find(part->parameters, row.name, &Parameter::name);
+    if (card == part->parameters.end() || card->place == 0.0 || !row.half_width) {
+      continue;
+    }
+    const double reached = farthest(recordings, card->place);
+    if (row.value + *row.half_width >= reached) {
+      row.half_width.reset();
+      row.ci95.reset();
+    }
+  }
 }
 
 }  // namespace
@@ -38,6 +69,7 @@ std::vector<ParameterInterval> Estimates::intervals(const Fit& fit, const std::s
                         row.ci95, row.at_bound, row.lower});
     }
   }
+  forget_places_not_reached(result, effect, bench_->split().fit);
   return result;
 }
 

@@ -136,7 +136,7 @@ json named_json(const Diagnosis& diagnosis, const Named& named, std::size_t inde
           {"behind_other_laws", laws_json(diagnosis, named)},
           {"parameters", parameters_json(diagnosis.parameters[index])},
           {"nrmse_heldout_before", without_of(diagnosis, named).heldout},
-          {"nrmse_heldout_after", fit_of(diagnosis, named).heldout},
+          {"nrmse_heldout_after", has_fit(diagnosis, named) ? json(fit_of(diagnosis, named).heldout) : json(nullptr)},
           {"share_of_misfit", named.share_of_misfit}};
 }
 

@@ -35,8 +35,10 @@ std::string phrase_of(const Diagnosis& diagnosis, const Named& named, std::size_
   std::string shown = worded(knowledge_of(named.id).shows, diagnosis.drive);
   const std::optional<Speaking> speaking = speaking_for(named, diagnosis.evidence);
   if (speaking && shows(*speaking)) {
-    const Signature& row = *speaking->signature;
-    shown += fmt::format("{}seen in {}", shown.empty() ? "" : "; ", recordings_text(row));
+    const std::optional<Seen>& seen = diagnosis.seen[index];
+    shown += (shown.empty() ? "" : "; ") +
+             (seen ? fmt::format("seen in {} of {} recordings", seen->seen, seen->of)
+                   : fmt::format("seen in {} recordings taken together", speaking->signature->recordings));
   }
   if (!shown.empty()) {
     text += " (" + shown + ")";
@@ -49,14 +51,14 @@ std::string phrase_of(const Diagnosis& diagnosis, const Named& named, std::size_
     for (const std::string& id : named.indistinguishable_from) {
       others.push_back(title_of(id));
     }
-    text += "; " + joined(others, " or ") + " would do as well";
+    text += "; " + joined(others, " or ") + " cannot be ruled out in its place";
   }
   if (!named.less_likely.empty()) {
     std::vector<std::string> others;
     for (const std::string& id : named.less_likely) {
       others.push_back(title_of(id));
     }
-    text += "; " + joined(others, " or ") + " would do as well, and is less likely";
+    text += "; " + joined(others, " or ") + " cannot be ruled out in its place, and is less likely";
   }
   return text;
 }

@@ -138,14 +138,25 @@ Layout Workbench::layout(const Hypothesis& what) const {
   return Layout(model, scale_, options);
 }
 
-Fit Workbench::with_neutral(const Fit& fit, const std::string& effect) const {
-  Fit result = fit;
-  result.what.effects.push_back(effect);
+Fit Workbench::carried_over(const Fit& fit, Hypothesis what) const {
+  Fit result;
+  result.what = std::move(what);
   result.layout = std::make_shared<const Layout>(layout(result.what));
   result.point = result.layout->initial();
   carry_over(*fit.layout, fit.terms, *result.layout, result.point);
   result.terms = result.layout->terms(result.point);
   return result;
+}
+
+Fit Workbench::with_neutral(const Fit& fit, const std::string& effect) const {
+  Fit result = carried_over(fit, with(fit.what, effect_extension(effect)));
+  result.cost = fit.cost;
+  result.heldout = fit.heldout;
+  return result;
+}
+
+Fit Workbench::less(const Fit& fit, const std::string& effect) const {
+  return carried_over(fit, without(fit.what, effect_extension(effect)));
 }
 
 std::optional<Fit> Workbench::beside(const Fit& fit, const Extension& part) const {

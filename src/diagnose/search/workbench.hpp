@@ -69,6 +69,8 @@ class Workbench {
   // The fit with one effect more, which stands at its initial values: mostly where it does nothing. Nothing is refitted
   // and the costs are those of `fit`.
   [[nodiscard]] Fit with_neutral(const Fit& fit, const std::string& effect) const;
+  // The fit less one of its effects, all else as it is, without costs.
+  [[nodiscard]] Fit less(const Fit& fit, const std::string& effect) const;
   // For a part in series and a fit without any: the fit with the part at its neutral size, with its costs. Where a
   // force balance is solved in every step, coarse motions are marched in another way; what that is worth is no gain of
   // the part. Nothing for any other part.
@@ -104,6 +106,8 @@ class Workbench {
   [[nodiscard]] bool has_piece(const ByteWriter& key) const;
 
  private:
+  // The values that the fit has for what both hypotheses have; what else there is stands at its initial values.
+  [[nodiscard]] Fit carried_over(const Fit& fit, Hypothesis what) const;
   [[nodiscard]] Fit finished(const Hypothesis& what, const Layout& layout, std::vector<double> point,
                              double cost) const;
   [[nodiscard]] Fit searched(const Hypothesis& what, const Layout& layout, std::size_t budget) const;
