@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <memory>
 
 #include "app/command.hpp"
@@ -13,6 +14,7 @@
 #include "core/error.hpp"
 #include "core/unit_text.hpp"
 #include "datasets/dataset.hpp"
+#include "io/text.hpp"
 #include "presets/preset.hpp"
 #include "report/terminal.hpp"
 #include "task/effect_card.hpp"
@@ -97,6 +99,13 @@ void describe_solver(const SolverEntry& entry) {
   }
 }
 
+// Another ending would promise another kind of picture.
+void refuse_other_picture(const std::string& out) {
+  const std::string ending = std::filesystem::path(out).extension().string();
+  if (ending.empty() || lower_case(ending) == ".svg") return;
+  throw InputError("--figure " + out + ": an SVG is written, and no " + ending + ", expected a name that ends in .svg");
+}
+
 std::string figure_of(const std::string& id) {
   if (const Part* model = find_model(id)) {
     return loop_figure(*model);
@@ -147,15 +156,18 @@ void add_catalogue(CLI::App& program) {
   CLI::App* describe = program.add_subcommand(
       "describe", "one model, effect, solver, dataset or parameter set: equations, parameters, source");
   describe->add_option("NAME", describe_options->word, "an id of `hysteron list`")->required();
-  describe->add_flag("--json", describe_options->json, "JSON on standard output");
-  describe->add_option("--figure", describe_options->figure,
-                       "instead, an SVG file: loops of a model, or convergence of a solver on the simulated damper; -: "
-                       "standard output");
+  CLI::Option* as_json = describe->add_flag("--json", describe_options->json, "JSON on standard output");
+  describe
+      ->add_option("--figure", describe_options->figure,
+                   "instead, an SVG file: loops of a model, or convergence of a solver on the simulated damper; -: "
+                   "standard output")
+      ->excludes(as_json);
   describe->footer("Example:\n  hysteron describe bouc-wen\n  hysteron describe bouc-wen --figure bouc-wen.svg");
   take_common_options(*describe);
   describe->callback([describe_options] {
     const std::string& id = describe_options->word;
     if (!describe_options->figure.empty()) {
+      refuse_other_picture(describe_options->figure);
       write_result(describe_options->figure, figure_of(id));
       return;
     }

@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -14,6 +15,7 @@
 #include <optional>
 
 #include "app/command.hpp"
+#include "app/result.hpp"
 #include "app/values.hpp"
 #include "challenge/effects.hpp"
 #include "challenge/hide.hpp"
@@ -54,10 +56,26 @@ struct Options {
   bool as_json = false;
 };
 
+// At the level `none` nothing is hidden that could be chosen.
+void refuse_choice_of_nothing(const Options& options, const std::vector<challenge::Level>& levels) {
+  const bool hidden =
+      std::ranges::any_of(levels, [](challenge::Level level) { return level != challenge::Level::none; });
+  if (levels.empty() || hidden) return;
+  for (const auto& [option, ids] : {std::pair{"--effect", &options.effects},
+                                    {"--forms", &options.choice.only},
+                                    {"--without-forms", &options.choice.without},
+                                    {"--foreign", &options.choice.foreign}}) {
+    if (ids->empty()) continue;
+    throw InputError(fmt::format("{} {}: at --level none nothing is hidden, expected another level, or no {}", option,
+                                 fmt::join(*ids, ","), option));
+  }
+}
+
 std::vector<challenge::Task> tasks_of(const Options& options) {
   std::vector<challenge::Level> levels;
   for (const std::string& name : options.levels) levels.push_back(challenge::level_of(name));
   for (const std::string& id : options.effects) static_cast<void>(challenge::hidden_effect(id));
+  refuse_choice_of_nothing(options, levels);
   std::vector<challenge::Task> tasks =
       challenge::plan(options.campaigns, levels, options.effects, options.seed, options.choice);
   for (challenge::Task& task : tasks) {
@@ -206,6 +224,8 @@ void run(const Options& options) {
   } else if (!hidden && !options.score_only) {
     tasks = tasks_of(options);
   }
+  // What is hidden in recordings of a real damper has no report.html.
+  if (!hidden) refuse_other_results(out, "seal.sha256");
   make_output_folder(options.out);
   std::string hash;
   {

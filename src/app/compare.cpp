@@ -36,6 +36,9 @@ void run(const Options& options) {
     throw InputError("compare: no model among what is given, expected files that end in .json, as " +
                      (std::filesystem::exists(inside) ? inside.string() : "out/model.json"));
   }
+  if (options.mat && is_standard_output(options.out)) {
+    throw InputError("--mat: with --out - no tables are written, expected a folder for them, or no --mat");
+  }
   if (data.data.empty()) {
     throw InputError("compare: models alone are given, expected a recording or a folder of them besides");
   }

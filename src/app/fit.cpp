@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <memory>
@@ -43,9 +44,19 @@ struct FitOptions {
   std::string excitation = "auto";
 };
 
+// A program that is never started would be taken for the one that found the result.
+void refuse_unused_commands(const std::vector<std::string>& commands, const std::vector<std::string>& solvers) {
+  for (const std::string& text : commands) {
+    const std::string name = text.substr(0, text.find('='));
+    if (std::ranges::find(solvers, name) != solvers.end()) continue;
+    throw InputError("--solver-command: '" + name + "' is not among the solvers asked for, expected --solver " + name);
+  }
+}
+
 FitRequest request_of(const FitOptions& options) {
   FitRequest request;
   request.model = options.model;
+  request.data = options.data.data;
   request.two_stages = options.stages == "two";
   if (options.response) {
     request.rig = options.rig;
@@ -54,6 +65,7 @@ FitRequest request_of(const FitOptions& options) {
   }
   IdentifyOptions& result = request.identify;
   add_solver_commands(options.solver_commands);
+  refuse_unused_commands(options.solver_commands, options.solvers);
   if (!options.solvers.empty()) {
     result.solvers = options.solvers;
   }

@@ -1,8 +1,10 @@
 // hysteron minimise: the solvers on an objective of the user's own, a program that is told points and answers with
 // their costs, by lines of JSON (docs/own-solver.md).
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <iterator>
 #include <memory>
 #include <optional>
 
@@ -54,6 +56,47 @@ std::vector<Coordinate> box_of(const std::vector<std::string>& words) {
   return result;
 }
 
+// A solver tells by what it asks, once it knows the cost of its first points, that it follows recordings in time. No
+// more than so many points are asked for.
+bool follows_recordings(const SolverEntry& entry) {
+  constexpr std::size_t first_answers = 2;
+  Problem problem;
+  problem.dimension = 2;
+  problem.budget = 1000;
+  problem.linear.assign(problem.dimension, false);
+  const std::unique_ptr<Solver> solver = entry.make(problem);
+  for (std::size_t k = 0; k < first_answers; ++k) {
+    const Request request = solver->ask();
+    if (request.window) return true;
+    if (request.points.empty()) return false;
+    Response response;
+    response.cost.assign(request.points.size() / problem.dimension, 1.0);
+    solver->tell(request, response);
+  }
+  return false;
+}
+
+bool works_on_costs(const SolverEntry& entry) { return !entry.uses_derivatives && !follows_recordings(entry); }
+
+// "cma-es, de, ... or nlopt:* without derivatives": a family is named as one.
+std::string solvers_on_costs() {
+  std::vector<std::string> names;
+  std::vector<std::string> families;
+  std::vector<const SolverEntry*> members;
+  for (const SolverEntry* file : solver_files()) {
+    if (file->members == nullptr) continue;
+    families.push_back(std::string(file->id) + " without derivatives");
+    std::ranges::copy(file->members(), std::back_inserter(members));
+  }
+  for (const SolverEntry* entry : solver_catalogue()) {
+    if (std::ranges::find(members, entry) == members.end() && works_on_costs(*entry)) names.emplace_back(entry->id);
+  }
+  names.insert(names.end(), families.begin(), families.end());
+  const std::string last = names.back();
+  names.pop_back();
+  return fmt::format("{} or {}", fmt::join(names, ", "), last);
+}
+
 const SolverEntry& solver_of(const std::string& id) {
   const SolverEntry* entry = find_solver(id);
   if (entry == nullptr) {
@@ -62,7 +105,12 @@ const SolverEntry& solver_of(const std::string& id) {
     throw InputError("--solver: unknown solver '" + id + "'" + suggestion(id, known) + ", see `hysteron list solvers`");
   }
   if (entry->uses_derivatives) {
-    throw InputError("--solver: '" + id + "' asks for derivatives, which a program does not give, expected another");
+    throw InputError("--solver: '" + id + "' asks for derivatives, which a program does not give, expected " +
+                     solvers_on_costs());
+  }
+  if (follows_recordings(*entry)) {
+    throw InputError("--solver: '" + id + "' follows recordings in time, which an objective has none of, expected " +
+                     solvers_on_costs());
   }
   return *entry;
 }
@@ -80,8 +128,9 @@ class Objective {
   }
 
   Response evaluate(const Request& request) {
+    // Of an added solver that shows it late.
     if (request.derivatives || request.window) {
-      throw InputError("--solver: this one follows recordings, which there are none of, expected another");
+      throw InputError("--solver: this one asks for more than costs, expected " + solvers_on_costs());
     }
     const std::size_t d = box_.size();
     json points = json::array();

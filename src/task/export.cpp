@@ -74,9 +74,11 @@ void refuse_other_file(const std::filesystem::path& out, const ExportTarget& tar
                     (target.extension.empty() ? "" : " or a file that ends in " + std::string(target.extension)));
 }
 
-}  // namespace
-
-namespace {
+void refuse_more_than_most(const ExportRequest& request) {
+  if (request.substeps <= request.most_substeps) return;
+  throw OptionError(Option::substeps + fmt::format(" {}: more than ", request.substeps) + Option::most_substeps +
+                    fmt::format(" {} allows, expected no more, or one of the two alone", request.most_substeps));
+}
 
 // "pressure = 2e5 Pa, valve = 30 %": what the conditions that laws follow are held at.
 std::string held_at(const StoredModel& stored, const std::map<std::string, ConditionNumber>& at) {
@@ -96,6 +98,7 @@ ModelExport export_model(StoredModel stored, const std::string& path, const std:
                          const std::optional<Recording>& motion, const ExportRequest& request,
                          std::vector<std::string>& remarks) {
   const ExportTarget& target = export_target(request.to);
+  refuse_more_than_most(request);
   const std::string conditions = held_at(stored, at);
   const std::vector<std::string> guessed = held_beyond_fitted(stored, path, at);
   hold_conditions(stored, at, "export");

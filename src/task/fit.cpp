@@ -365,6 +365,19 @@ Message drive_hint(const Identification& result, const std::vector<Recording>& r
 
 }  // namespace
 
+namespace {
+
+// What is held has no bounds to move in.
+void refuse_held_with_bounds(const LayoutOptions& layout) {
+  for (const auto& [name, value] : layout.fix) {
+    if (!layout.bounds.contains(name)) continue;
+    throw OptionError(Option::fix + " " + name + ": a parameter that is held has no bounds, expected it in " +
+                      Option::fix + " or in " + Option::bounds + " alone");
+  }
+}
+
+}  // namespace
+
 FitData fit_data(Campaign campaign, FitRequest& request) {
   require_usable(campaign.recordings, request.rig ? ForceOf::excitation : ForceOf::damper);
   FitData data{std::move(campaign), {}, {}, {}};
@@ -389,11 +402,13 @@ FitData fit_data(Campaign campaign, FitRequest& request) {
   refuse_repeats(Option::solver, identify_with.solvers);
   refuse_repeats(Option::effects, identify_with.effects);
   LayoutOptions& layout = identify_with.layout;
+  refuse_held_with_bounds(layout);
+  const CompositeModel model = make_model(data.model, identify_with.effects);
+  refuse_laws_of_other_model(data.campaign, layout, model, request.data);
   add_laws_of(data.campaign, layout);
   if (!layout.by_current.empty()) {
     require_one_drive(request.rig ? data.responses : data.campaign.recordings);
   }
-  const CompositeModel model = make_model(data.model, identify_with.effects);
   if (request.rig) append(data.remarks, told_once(places_of_rest(data.responses, *request.rig, model)));
   normaliser(data.campaign.recordings.front(), identify_with.objective.normalisation);
   if (request.two_stages && layout.by_current.empty() && layout.by_frequency.empty()) {

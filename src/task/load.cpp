@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <string_view>
 
 #include "check/campaign.hpp"
 #include "core/error.hpp"
 #include "core/message.hpp"
 #include "core/printable.hpp"
 #include "io/campaign.hpp"
+#include "io/format.hpp"
 #include "task/respond.hpp"
 
 namespace hysteron {
@@ -25,6 +27,37 @@ void refuse_excitation_as_force(const Recording& recording) {
                     " force=\"" + own->name + "\", or an identification from the motion of the mass");
 }
 
+// Where a recording of `data` is; nothing where folders were put before its name to tell it from another.
+std::filesystem::path path_of(const Recording& recording, const std::vector<std::string>& data) {
+  std::error_code code;
+  for (const std::string& named : data) {
+    std::filesystem::path path(named);
+    if (std::filesystem::is_directory(path, code)) {
+      std::filesystem::path inside = path / recording.file;
+      if (std::filesystem::is_regular_file(inside, code)) return inside;
+    } else if (path.filename() == recording.file) {
+      return path;
+    }
+  }
+  return {};
+}
+
+// A group that no file can have would change nothing without a word; beside files that have it, one may be without.
+void refuse_group_of_none(const std::string& group, const std::vector<Recording>& recordings,
+                          const std::vector<std::string>& data) {
+  if (group.empty()) return;
+  constexpr std::string_view without_groups[] = {"CSV", "MAT"};
+  std::string_view first;
+  for (const Recording& recording : recordings) {
+    const std::filesystem::path path = path_of(recording, data);
+    const InputFormat* format = path.empty() ? nullptr : find_format(path);
+    if (format == nullptr || std::ranges::find(without_groups, format->name) == std::end(without_groups)) return;
+    if (first.empty()) first = format->name;
+  }
+  throw OptionError(recordings.front().file + ": " + std::string(first) + " files have no groups, expected no " +
+                    Option::group + ", or a TDMS or MDF file or a workbook");
+}
+
 }  // namespace
 
 Loaded load_with_remarks(const std::vector<std::string>& data, ReadOptions options, Required required) {
@@ -33,6 +66,7 @@ Loaded load_with_remarks(const std::vector<std::string>& data, ReadOptions optio
   std::vector<Remark> remarks;
   options.remark = [&](const Remark& remark) { remarks.push_back(remark); };
   Campaign campaign = load_campaign(data, options);
+  refuse_group_of_none(options.group, campaign.recordings, data);
   if (required == Required::motion_and_force) std::ranges::for_each(campaign.recordings, refuse_excitation_as_force);
   const std::vector<Remark> of_campaign =
       remarks_on(campaign.recordings, required == Required::nothing ? Moving::excitation : Moving::damper);

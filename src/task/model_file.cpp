@@ -481,6 +481,10 @@ StoredModel parse_model(std::string_view text, const std::string& path) {
   return result;
 }
 
+bool StoredModel::follows_frequency() const {
+  return std::ranges::any_of(terms, [](const Term& term) { return term.frequency_power > 0; });
+}
+
 std::vector<std::string> conditions_of(const std::vector<const StoredModel*>& models) {
   std::set<std::string> result;
   for (const StoredModel* model : models) {
@@ -503,6 +507,13 @@ void refuse_others(const std::map<std::string, ConditionNumber>& values, const s
                       ", expected " +
                       (expected.empty() ? "no " + Option::at + ", since they follow nothing that it gives" : expected));
   }
+}
+
+// What the motion and its drive give all along is no number, though parameters follow it.
+void refuse_number_for(const std::string& name, bool followed, const std::map<std::string, ConditionNumber>& values,
+                       const std::string& why) {
+  if (!followed || !values.contains(name)) return;
+  throw OptionError(Option::at + ": the " + name + " " + why + ", expected no number for it");
 }
 
 // Terms that followed `from` and now follow `to`, which holds them all.
@@ -560,6 +571,8 @@ void refuse_other_unit(const ConditionRange& condition, const std::string& unit,
 void refuse_unfollowed(const std::vector<const StoredModel*>& models,
                        const std::map<std::string, ConditionNumber>& values) {
   std::vector<std::string> followed = conditions_of(models);
+  refuse_number_for("frequency", std::ranges::any_of(models, &StoredModel::follows_frequency), values,
+                    "that parameters follow is the motion's own");
   for (const auto& [drive, name] : {std::pair{DriveKind::current, "current"}, {DriveKind::voltage, "voltage"}}) {
     if (std::ranges::find(models, drive, &StoredModel::drive) != models.end()) followed.emplace_back(name);
   }
@@ -610,7 +623,12 @@ void hold_conditions(StoredModel& stored, const std::map<std::string, ConditionN
     refuse_other_unit(condition, found->second.unit, Option::at);
     at.push_back(found->second.value);
   }
-  refuse_others(values, conditions_of({&stored}));  // drive and frequency stay inputs
+  for (const auto& [name, followed] : {std::pair{"current", stored.drive == DriveKind::current},
+                                       {"voltage", stored.drive == DriveKind::voltage},
+                                       {"frequency", stored.follows_frequency()}}) {
+    refuse_number_for(name, followed, values, "stays an input of the exported model");
+  }
+  refuse_others(values, conditions_of({&stored}));
   if (stored.conditions.empty()) return;
   std::vector<Term> held;
   for (Term& term : stored.terms) {
@@ -637,12 +655,10 @@ bool was_fitted_on(const StoredModel& stored, const Recording& recording) {
 
 void check_rate(const StoredModel& stored, const std::vector<Recording>& recordings) {
   std::vector<bool> may_act(stored.held.size(), false);
-  bool follows_frequency = false;
   for (const Term& term : stored.terms) {
     may_act[term.parameter] = may_act[term.parameter] || term.value != 0.0;
-    follows_frequency = follows_frequency || term.frequency_power > 0;
   }
-  require_no_rate(stored.model, may_act, follows_frequency, recordings, "a recording with time");
+  require_no_rate(stored.model, may_act, stored.follows_frequency(), recordings, "a recording with time");
 }
 
 void check_drive(const StoredModel& stored, const std::string& path, const Recording& recording) {

@@ -43,6 +43,8 @@ struct StoredModel {
   // Identified from the motion of a mass under a force, which the recordings hold in place of the damper's own.
   bool from_response = false;
   std::set<std::string> excited;  // sha256 of these recordings
+
+  [[nodiscard]] bool follows_frequency() const;
 };
 
 // `command` is what made it, for its provenance.

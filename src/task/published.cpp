@@ -68,9 +68,10 @@ std::vector<double> force_of_preset(const Preset& preset, const std::map<std::st
     recording.drive.assign(recording.size(), drive);
   } else if (preset.drive != PresetDrive::none && !recording.drive.empty() &&
              (recording.drive_kind == DriveKind::voltage) != (preset.drive == PresetDrive::voltage)) {
-    throw OptionError(recording.file + ": records a " +
-                      (recording.drive_kind == DriveKind::voltage ? std::string("voltage") : std::string("current")) +
-                      ", preset " + std::string(preset.id) + " needs the other; give its value with " + Option::drive);
+    const bool voltage = preset.drive == PresetDrive::voltage;
+    throw OptionError(recording.file + ": records a " + (voltage ? "current" : "voltage") + ", expected a " +
+                      (voltage ? "voltage" : "current") + " for preset " + std::string(preset.id) +
+                      " or its value with " + Option::drive);
   }
   if (preset.drive != PresetDrive::none && recording.drive.empty()) {
     throw OptionError(recording.file + ": has no current or voltage, expected one for preset " +

@@ -103,6 +103,19 @@ std::optional<std::string> unsteady(const MassMotion& motion, int periods, std::
                      percent(*settling.left), about(static_cast<double>(periods) + more));
 }
 
+// A drive or a frequency is given that no parameter follows.
+std::vector<std::string> given_for_nothing(const StoredModel& stored, const std::string& path,
+                                           const ResponseRequest& request) {
+  std::vector<std::string> remarks;
+  const auto tell = [&](const std::string& what) {
+    remarks.push_back(path + ": a " + what +
+                      " is given, and no parameter of the model follows one: it changes nothing");
+  };
+  if (!std::isnan(request.drive) && stored.drive == DriveKind::none) tell("drive");
+  if (!std::isnan(request.frequency) && !stored.follows_frequency()) tell("frequency");
+  return remarks;
+}
+
 // Of the last period, or of everything where none is repeated.
 MassResponse table_of(const Recording& recording, const Excitation& excitation, const MassMotion& motion) {
   MassResponse result;
@@ -173,9 +186,7 @@ MassResponse response_to(StoredModel stored, const std::string& path, Recording 
   if (request.periods > 0) close_period(recording, base, remarks);
   Recording as_motion = recording;
   as_motion.displacement = base ? ground_of(recording) : recording.force;
-  if (!std::isnan(request.drive) && stored.drive == DriveKind::none) {
-    remarks.push_back(path + ": a drive is given, and no parameter of the model follows one: it changes nothing");
-  }
+  append(remarks, given_for_nothing(stored, path, request));
   if (!std::isnan(request.drive)) {
     as_motion.drive.assign(recording.size(), request.drive);
     as_motion.drive_kind = stored.drive;

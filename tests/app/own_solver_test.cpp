@@ -149,7 +149,55 @@ TEST_F(OwnSolver, OctaveSpeaksTheSameProtocol) {
   EXPECT_EQ(json::parse(read(folder_ / "out/fit.json")).at("solvers").at(0).at("evaluations"), 100);
 }
 
+TEST_F(OwnSolver, IsRefusedWhereNoSolverIsAskedForByItsName) {
+  for (const std::vector<std::string>& more : {std::vector<std::string>{}, {"--solver", "pso"}}) {
+    std::vector<std::string> words{"fit",      "data", "--model", "viscous", "--solver-command", "mine=sh mine.sh",
+                                   "--budget", "50",   "--out",   "out"};
+    words.insert(words.end(), more.begin(), more.end());
+    const Outcome outcome = run(words);
+    EXPECT_EQ(outcome.status, 2);
+    EXPECT_EQ(outcome.err,
+              "error: --solver-command: 'mine' is not among the solvers asked for, expected --solver mine\n");
+    EXPECT_FALSE(fs::exists(folder_ / "out"));
+  }
+}
+
 using Minimise = OwnSolver;
+
+// Of the Kalman filter a small budget would leave one evaluation, in the middle of the box.
+TEST_F(Minimise, ASolverThatNeedsMoreThanCostsIsRefusedWithThoseThatDoNot) {
+  const std::string those = ", expected aco-r, adaptive-css, cma-es, ";
+  for (const auto& [solver, why] :
+       {std::pair{"ukf", "error: --solver: 'ukf' follows recordings in time, which an objective has none of"},
+        {"lm", "error: --solver: 'lm' asks for derivatives, which a program does not give"}}) {
+    for (const char* budget : {"5", "500"}) {
+      const Outcome outcome =
+          run({"minimise", "--objective", "python3 " + examples + "objective.py", "--box", "x=-2:2,y=-1:3", "--solver",
+               std::string("pso,") + solver, "--budget", budget, "--quiet", "--out", "found.json"});
+      EXPECT_EQ(outcome.status, 2);
+      EXPECT_TRUE(outcome.err.starts_with(why + those)) << outcome.err;
+      EXPECT_TRUE(outcome.err.ends_with(" or nlopt:* without derivatives\n")) << outcome.err;
+      EXPECT_EQ(std::ranges::count(outcome.err, '\n'), 1) << outcome.err;
+      EXPECT_FALSE(fs::exists(folder_ / "found.json"));
+    }
+  }
+}
+
+// All that the message lists do work.
+TEST_F(Minimise, EverySolverThatNeedsCostsAloneIsTaken) {
+  const std::string said = run({"minimise", "--objective", "true", "--box", "x=0:1", "--solver", "ukf"}).err;
+  const std::string expected = ", expected ";
+  const std::size_t from = said.find(expected) + expected.size();
+  std::string solvers = said.substr(from, said.find(" or nlopt") - from);
+  std::erase(solvers, ' ');
+  const Outcome outcome =
+      run({"minimise", "--objective", "python3 " + examples + "objective.py", "--box", "x=-2:2,y=-1:3", "--solver",
+           solvers + ",nlopt:LN_COBYLA", "--budget", "100", "--quiet", "--out", "found.json"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const json runs = json::parse(read(folder_ / "found.json")).at("runs");
+  EXPECT_GE(runs.size(), 16U);
+  for (const json& one : runs) EXPECT_GT(one.at("evaluations"), 10) << one.at("solver");
+}
 
 TEST_F(Minimise, FindsTheMinimumOfAnObjectiveInPython) {
   const Outcome outcome =
