@@ -128,7 +128,27 @@ std::string nearest_beside(const fs::path& folder, const std::string& file) {
   return suggestion(file, names);
 }
 
-void add_folder(const fs::path& folder, Campaign& campaign, std::vector<Item>& items) {
+// A file that was meant to be campaign.toml: of another case, or with an ending that the desktop hid.
+bool is_misnamed_toml(const fs::path& path) {
+  const std::string name = lower_case(path.filename().string());
+  return name.starts_with("campaign") && (name.ends_with(".toml") || name.ends_with(".toml.txt")) && !is_folder(path);
+}
+
+// In a folder without campaign.toml.
+void tell_misnamed_toml(const fs::path& folder, const ReadOptions& options) {
+  if (!options.remark) return;
+  std::vector<std::string> names;
+  std::error_code code;
+  for (fs::directory_iterator at(folder, code), end; !code && at != end; at.increment(code)) {
+    if (is_misnamed_toml(at->path())) names.push_back(at->path().filename().string());
+  }
+  if (names.empty()) return;
+  const std::string name = *std::ranges::min_element(names);
+  options.remark({valid_utf8((folder / name).string()), Remark::Kind::dialect, "misnamed campaign.toml",
+                  "it is not read, and its roles and laws are not taken: expected the name campaign.toml"});
+}
+
+void add_folder(const fs::path& folder, const ReadOptions& options, Campaign& campaign, std::vector<Item>& items) {
   const fs::path base = absolute_folder(folder);
   const fs::path toml = folder / "campaign.toml";
   std::error_code code;
@@ -136,6 +156,8 @@ void add_folder(const fs::path& folder, Campaign& campaign, std::vector<Item>& i
   if (fs::exists(toml, code)) {
     declared = read_campaign_file(toml);
     merge(campaign, declared, toml.string());
+  } else {
+    tell_misnamed_toml(folder, options);
   }
   for (const auto& entry : declared.entries) {
     const fs::path path = folder / entry.file;
@@ -324,7 +346,7 @@ Campaign load_campaign(const std::vector<std::string>& data, const ReadOptions& 
   for (const auto& argument : data) {
     const fs::path path(argument);
     if (is_folder(path)) {
-      add_folder(path, campaign, items);
+      add_folder(path, options, campaign, items);
     } else {
       // What is not there is told before anything is read.
       std::error_code code;

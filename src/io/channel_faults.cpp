@@ -6,6 +6,7 @@
 
 #include "core/extent.hpp"
 #include "core/squared.hpp"
+#include "io/saturation.hpp"
 
 namespace hysteron {
 namespace {
@@ -163,18 +164,32 @@ std::optional<FlatEnd> flat_end(const std::vector<double>& values, double span, 
   return FlatEnd{sign * end, share};
 }
 
+// Both ends, by how few samples come near them.
+std::vector<FlatEnd> ends_left_alone(const std::vector<double>& values) {
+  std::vector<double> some = thinned(values);
+  std::ranges::sort(some);
+  some.erase(std::unique(some.begin(), some.end()), some.end());
+  const double span = span_of(values);
+  if (!(span > 0.0) || (some.size() < least_values && !is_noisy_inside(values, some))) return {};
+  std::vector<FlatEnd> ends;
+  for (const double sign : {1.0, -1.0}) {
+    if (const auto end = flat_end(values, span, sign)) ends.push_back(*end);
+  }
+  return ends;
+}
+
 }  // namespace
 
 std::optional<FlatEnd> flat_end_of(const std::vector<double>& values) {
   if (values.empty()) return std::nullopt;
-  std::vector<double> some = thinned(values);
-  std::ranges::sort(some);
-  some.erase(std::unique(some.begin(), some.end()), some.end());
-  const auto [low, high] = std::ranges::minmax(values);
-  if (!(high > low) || (some.size() < least_values && !is_noisy_inside(values, some))) return std::nullopt;
-  const std::optional<FlatEnd> above = flat_end(values, high - low, 1.0);
-  const std::optional<FlatEnd> below = flat_end(values, high - low, -1.0);
-  return above && (!below || above->share >= below->share) ? above : below;
+  std::vector<FlatEnd> ends = ends_left_alone(values);
+  if (ends.empty()) {
+    for (const double sign : {1.0, -1.0}) {
+      if (const auto end = saturated_end_of(values, sign)) ends.push_back(*end);
+    }
+  }
+  const auto longest = std::ranges::max_element(ends, {}, &FlatEnd::share);
+  return longest == ends.end() ? std::nullopt : std::optional(*longest);
 }
 
 std::optional<Stretch> frozen_stretch_of(const std::vector<double>& values, const std::vector<double>& other) {

@@ -20,10 +20,12 @@ void for_each_run(const std::vector<double>& values, Visit visit) {
 }
 
 // The largest or smallest value of the channel, taken by several samples running, again and again, while next to none
-// come near it: the channel ends there. `share` is that of the samples at it.
+// come near it, or while the channel has noise everywhere else (io/saturation.hpp): the channel ends there. `share` is
+// that of the samples at it.
 struct FlatEnd {
   double value = 0.0;
   double share = 0.0;
+  bool in_noise = false;  // told by the noise elsewhere
 };
 std::optional<FlatEnd> flat_end_of(const std::vector<double>& values);
 

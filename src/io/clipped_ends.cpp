@@ -10,6 +10,7 @@
 
 #include "core/extent.hpp"
 #include "core/robust.hpp"
+#include "io/saturation.hpp"
 #include "io/velocity.hpp"
 
 namespace hysteron {
@@ -239,9 +240,24 @@ bool force_turns(const std::vector<Recording>& recordings, const std::vector<Res
   return 2 * turned > all;
 }
 
+// Those behind the noise, which one recording tells by itself: exactly one value each.
+std::vector<ClippedEnd> exact_ends_of_force(const std::vector<Recording>& recordings) {
+  std::vector<ClippedEnd> ends;
+  for (std::size_t k = 0; k < recordings.size(); ++k) {
+    for (const FlatEnd& one : saturated_ends_of_force(recordings[k])) {
+      auto at = std::ranges::find(ends, one.value, &ClippedEnd::level);
+      if (at == ends.end()) at = ends.insert(at, {one.value, {}, 0.0});
+      at->recordings.push_back(k);
+      at->share = std::max(at->share, one.share);
+    }
+  }
+  return ends;
+}
+
 std::vector<ClippedEnd> ends_of_force(const std::vector<Recording>& recordings) {
   if (std::ranges::any_of(recordings, [](const Recording& one) { return one.force.empty(); })) return {};
-  std::vector<ClippedEnd> ends;
+  std::vector<ClippedEnd> ends = exact_ends_of_force(recordings);
+  if (!ends.empty()) return ends;
   std::vector<Resting> alone;
   for (const double sign : {1.0, -1.0}) {
     std::vector<Resting> resting = resting_at_one_end(recordings, {&Recording::force, sign});
@@ -291,12 +307,15 @@ std::string sentence_of(const Clipping& clipping, std::size_t recordings) {
     share = std::max(share, end.share);
     levels += fmt::format("{}{:.3g}", levels.empty() ? "" : " and ", force ? end.level : 1e3 * end.level);
   }
+  const std::string where = recordings == 1 ? "" : fmt::format(", in {} of {} recordings", at.size(), recordings);
+  const std::string meanwhile = !force            ? ", while the force turns round"
+                                : recordings == 1 ? ""
+                                                  : ", whatever the motion and the drive";
   return fmt::format(
-      "the {} rests at {} {}, {} of its range, in {} of {} recordings, for up to {:.0f} % of the samples, {}: a "
-      "channel that saturates looks so; record with a wider range, or leave these recordings out",
+      "the {} rests at {} {}, {} of its range{}, for up to {:.0f} % of the samples{}: a channel that "
+      "saturates looks so; record with a wider range{}",
       force ? "force" : "displacement", levels, force ? "N" : "mm", clipping.ends.size() > 1 ? "the ends" : "an end",
-      at.size(), recordings, 100.0 * share,
-      force ? "whatever the motion and the drive" : "while the force turns round");
+      where, 100.0 * share, meanwhile, recordings == 1 ? "" : ", or leave these recordings out");
 }
 
 }  // namespace hysteron

@@ -19,7 +19,8 @@ struct ClippedEnd {
 
 // The ends of one channel. A damper that yields rests at a level too, which differs with its drive, or is the same in
 // all recordings and left where the rod turns round; a force that cavitation limits in one direction is followed by
-// travel without force. At an end of the displacement the force turns round meanwhile, which it does not over a rod
+// travel without force. Where the noise of the force ends with it (io/saturation.hpp) one recording tells by itself. At
+// an end of the displacement the force turns round meanwhile, which it does not over a rod
 // that rests.
 struct Clipping {
   std::vector<double> Recording::*channel = nullptr;

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "core/extent.hpp"
+#include "core/mean.hpp"
 #include "core/robust.hpp"
 #include "core/squared.hpp"
 #include "io/channel_faults.hpp"
@@ -303,16 +304,40 @@ std::optional<double> held_samples_of(const std::vector<double>& values) {
   return same >= alike * static_cast<double>(lengths.size()) && mean >= least_hold ? std::optional(mean) : std::nullopt;
 }
 
+namespace {
+
+// By how much the recorded velocity misses the displacement on average, between two samples.
+double velocity_beyond_slope(const Recording& recording, std::size_t first, std::size_t last) {
+  const std::vector<double>& time = recording.time;
+  const std::vector<double>& v = recording.velocity;
+  double way = 0.0;
+  for (std::size_t n = first + 1; n <= last; ++n) way += 0.5 * (v[n] + v[n - 1]) * (time[n] - time[n - 1]);
+  return (way - (recording.displacement[last] - recording.displacement[first])) / (time[last] - time[first]);
+}
+
+// Of its mean over so many parts: noise, a lag and a gain differ from part to part, an offset does not.
+double error_of_offset(const Recording& recording) {
+  constexpr std::size_t parts = 8;
+  std::vector<double> offsets;
+  for (std::size_t k = 0; k < parts; ++k) {
+    const std::size_t last = recording.size() - 1;
+    offsets.push_back(velocity_beyond_slope(recording, k * last / parts, (k + 1) * last / parts));
+  }
+  const double mean = mean_of(offsets);
+  double squares = 0.0;
+  for (const double offset : offsets) squares += squared(offset - mean);
+  return std::sqrt(squares / static_cast<double>(parts * (parts - 1)));
+}
+
+}  // namespace
+
 VelocityFault velocity_fault_of(const Recording& recording) {
   VelocityFault result;
   const std::optional<ChannelLag> lag = velocity_channel_lag(std::span(&recording, 1));
   if (!lag) return result;
-  const std::vector<double>& time = recording.time;
   const std::vector<double>& v = recording.velocity;
-  double way = 0.0;
-  for (std::size_t n = 1; n < v.size(); ++n) way += 0.5 * (v[n] + v[n - 1]) * (time[n] - time[n - 1]);
-  const double net = recording.displacement.back() - recording.displacement.front();
-  result.offset = (way - net) / (time.back() - time.front());
+  result.offset = velocity_beyond_slope(recording, 0, recording.size() - 1);
+  result.offset_error = error_of_offset(recording);
   double largest = 0.0;
   double speeds = 0.0;
   double accelerations = 0.0;

@@ -70,6 +70,7 @@ std::optional<double> held_samples_of(const std::vector<double>& values);
 struct VelocityFault {
   double offset = 0.0;        // m/s, by which its mean misses the net displacement over the time
   double offset_share = 0.0;  // of the largest speed without it
+  double offset_error = 0.0;  // its standard error, by how far parts of the recording agree
   double lag = 0.0;           // s, behind the slope (io/channel_lag.hpp); negative: ahead
   double phase = 0.0;         // rad, that the lag is at the frequency of the motion, as acceleration over speed tell it
 };

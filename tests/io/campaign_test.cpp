@@ -55,6 +55,29 @@ TEST(Campaign, TomlNamesRecordingsRolesAndLaws) {
   EXPECT_EQ(campaign.by_frequency, (std::map<std::string, int>{{"k", 1}}));
 }
 
+TEST(Campaign, ATomlOfAnotherNameIsTold) {
+  const auto said_beside = [](const std::vector<std::string>& names) {
+    const TemporaryFolder folder;
+    folder.write("r1.csv", good);
+    for (const std::string& name : names) folder.write(name, schema);
+    std::vector<std::string> said;
+    ReadOptions options;
+    options.remark = [&](const Remark& remark) {
+      EXPECT_TRUE(remark.file.starts_with(folder.path().string())) << remark.file;
+      said.push_back(remark.file.substr(folder.path().string().size() + 1) + ": " + remark.text.plain());
+    };
+    EXPECT_EQ(load_campaign({folder.path().string()}, options).recordings.size(), 1U);
+    return said;
+  };
+  const std::string rest = ": it is not read, and its roles and laws are not taken: expected the name campaign.toml";
+  for (const std::string name : {"Campaign.toml", "campaign.toml.txt", "CAMPAIGN.TOML", "campaign (1).toml"}) {
+    EXPECT_EQ(said_beside({name}), std::vector<std::string>{name + rest});
+  }
+  EXPECT_EQ(said_beside({"campaign.toml.txt", "Campaign.toml"}), std::vector<std::string>{"Campaign.toml" + rest});
+  EXPECT_TRUE(said_beside({"campaign.toml", "campaign.toml.txt"}).empty()) << "a copy";
+  EXPECT_TRUE(said_beside({"campaign.txt", "settings.toml", "campaign.csv.txt"}).empty());
+}
+
 TEST(Campaign, EqualNamesAreToldApartByFolder) {
   const TemporaryFolder folder;
   const auto a = folder.write("one/a/r.csv", good).string();

@@ -79,6 +79,21 @@ TEST(MotionFaults, AVelocityThatIsOff) {
   expect_one(remarks(
                  true_x, [](double t, int) { return speed(t) + 0.04; }, true_f),
              "the velocity is 0.04 m/s off what displacement and time tell on average, 32 % of its largest");
+  const Stream noise(4);
+  const auto noisy = [&](double off) {
+    return
+        [&noise, off](double t, int n) { return speed(t) + off + 2e-3 * noise.normal(static_cast<std::uint64_t>(n)); };
+  };
+  // A hundredth is 1.26 mm/s, and the noise of the mean 0.05 mm/s.
+  expect_one(remarks(true_x, noisy(-0.004), true_f), "the velocity is -0.00");
+  EXPECT_TRUE(remarks(true_x, noisy(0.001), true_f).empty());
+  // Of one that is late, or of a gain that is not told either, nothing is.
+  EXPECT_TRUE(remarks(
+                  true_x, [](double t, int) { return 1.1 * speed(t - 0.004); }, true_f)
+                  .empty());
+  const Channel ramp = [](double t, int) { return 0.02 * t + 0.001 * std::sin(omega * t); };
+  const Channel of_ramp = [](double t, int) { return 1.08 * (0.02 + 0.001 * omega * std::cos(omega * t)); };
+  EXPECT_TRUE(remarks(ramp, of_ramp, true_f).empty());
 }
 
 TEST(MotionFaults, AVelocityThatIsZero) {
