@@ -19,6 +19,26 @@ constexpr double settling_factor = 3.0;
 constexpr double settling_share = 0.05;
 constexpr std::size_t neighbours = 2;
 
+// Where the first sample alone tells, it is between the two forces that the loop has at its displacement, nearer to the
+// one it goes on with: out of nothing what follows the velocity is there and what lags behind is not. The other one is
+// looked for within this part of the stroke. Exactly zero is a channel that was not ready.
+constexpr double nearest_back = 0.1;
+bool first_is_within_the_loop(const Recording& recording, std::size_t period, double slack) {
+  std::size_t back = 0;
+  double least = nearest_back * span_of(recording.displacement);
+  for (std::size_t n = 1; n < period; ++n) {
+    const double away = std::fabs(recording.displacement[n] - recording.displacement[0]);
+    if (recording.velocity[n] * recording.velocity[0] >= 0.0 || away >= least) continue;
+    least = away;
+    back = n;
+  }
+  const double first = recording.force[0];
+  if (back == 0 || first == 0.0) return false;
+  const double there = recording.force[period];
+  const double middle = 0.5 * (there + recording.force[back]);
+  return first > std::min(there, middle) - slack && first < std::max(there, middle) + slack;
+}
+
 // Whether the force of a recording in mid-motion comes out of nothing, as that of a damper that was at rest in the
 // position of the first sample: it differs from the force one period later at the start, and then no more.
 bool force_settles(const Recording& recording, std::size_t period) {
@@ -38,7 +58,7 @@ bool force_settles(const Recording& recording, std::size_t period) {
     }
     return least;
   };
-  // The second largest: one outlier tells nothing.
+  // The second largest: one outlier tells nothing, unless it is the first sample and where it would be.
   std::array<double, 2> early = {0.0, 0.0};
   double late = 0.0;
   for (std::size_t n = 0; n < period; ++n) {
@@ -57,7 +77,8 @@ bool force_settles(const Recording& recording, std::size_t period) {
     }
     late = std::min(late, next);
   }
-  return early[1] > settling_factor * late && early[1] > settling_share * peak;
+  const auto is_more = [&](double size) { return size > settling_factor * late && size > settling_share * peak; };
+  return is_more(early[1]) || (is_more(change(0)) && first_is_within_the_loop(recording, period, late));
 }
 
 // Share of its standard deviation by which a motion of this period may miss itself one period later, and the part of a

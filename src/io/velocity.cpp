@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <numeric>
 
 namespace hysteron {
@@ -227,6 +228,7 @@ Line line_through(std::span<const double> t, std::span<const double> x, std::siz
 struct Corner {
   std::size_t last;  // sample before it
   double time;       // s
+  double doubt;      // s, that its time is not known better than
   double speed;      // m/s, mean of before and after
 };
 
@@ -238,6 +240,10 @@ std::vector<Corner> corners_of(std::span<const double> t, std::span<const double
                                double median_step) {
   constexpr double least_bend = 0.2;  // of the peak speed
   constexpr double straight = 0.006;  // residual over bend times reach
+  // Noise shifts the ends of lines through eight samples and more, and with them where they meet, by a residual over
+  // the bend (standard deviation), an arc by three. Times in digits are not known better than a part of a step.
+  constexpr double residuals = 3.0;
+  constexpr double digits = 1e-3;
   constexpr std::size_t most_reach = 200;
   const std::size_t n = x.size();
   const std::size_t reach = std::clamp<std::size_t>(2 * side, 8, most_reach);
@@ -265,7 +271,8 @@ std::vector<Corner> corners_of(std::span<const double> t, std::span<const double
     const double meet = (left.value - right.value - left.slope * left.middle + right.slope * right.middle) / bend;
     const double slack = 0.5 * (t[i + 1] - t[i]);
     if (meet < t[i] - slack || meet > t[i + 1] + slack) continue;
-    const Corner corner{i, meet, 0.5 * (left.slope + right.slope)};
+    const double doubt = std::max(residuals * std::max(left.residual, right.residual) / std::abs(bend), digits * slack);
+    const Corner corner{i, meet, doubt, 0.5 * (left.slope + right.slope)};
     if (!result.empty() && i - result.back().last < reach) {
       if (missed < best) result.back() = corner, best = missed;
     } else {
@@ -408,11 +415,12 @@ std::vector<double> slopes_between(const std::vector<Corner>& corners, std::span
   return slopes;
 }
 
-// Samples on a corner, where neither side's slope holds.
-std::vector<std::size_t> samples_on(const Corner& corner, std::span<const double> time) {
+// Samples within `near` of a corner, s, and a quarter of a step: on it neither side's slope holds.
+std::vector<std::size_t> samples_on(const Corner& corner, std::span<const double> time, double near) {
+  const double most = std::min(near, 0.25 * (time[corner.last + 1] - time[corner.last]));
   std::vector<std::size_t> result;
   for (const std::size_t i : {corner.last, corner.last + 1}) {
-    if (std::abs(corner.time - time[i]) < 0.25 * (time[corner.last + 1] - time[corner.last])) result.push_back(i);
+    if (std::abs(corner.time - time[i]) < most) result.push_back(i);
   }
   return result;
 }
@@ -442,8 +450,9 @@ std::vector<double> derive_velocity(std::span<const double> time, std::span<cons
   std::vector<double> velocity =
       slopes_between(corners, time, displacement, side, median_step, channel_noise(time, displacement));
   // A sample on the corner has the speed of neither side: with the mean, the motion between samples does not overshoot.
+  // One beside it, as far as can be told, has that of its own side.
   for (const Corner& corner : corners) {
-    for (const std::size_t i : samples_on(corner, time)) velocity[i] = corner.speed;
+    for (const std::size_t i : samples_on(corner, time, corner.doubt)) velocity[i] = corner.speed;
   }
   return velocity;
 }
@@ -466,10 +475,11 @@ std::vector<double> derive_acceleration(std::span<const double> time, std::span<
   const double step = median_step_of(time);
   const double of_velocity = n > 7 ? samples_on_a_side(time, displacement, step) : 2.0;
   const std::vector<Corner> corners = corners_of(time, displacement, static_cast<std::size_t>(of_velocity), step);
-  // For the windows beside a corner the sample on it belongs to neither line.
+  // For the windows beside a corner the sample on it belongs to neither line. A sensor of the velocity rounds it.
   std::vector<double> beside(velocity.begin(), velocity.end());
   for (const Corner& corner : corners) {
-    for (const std::size_t i : samples_on(corner, time)) {
+    const double near = measured ? std::numeric_limits<double>::infinity() : corner.doubt;
+    for (const std::size_t i : samples_on(corner, time, near)) {
       const bool before = i == corner.last;
       if (before ? i > 0 : i + 1 < n) beside[i] = velocity[before ? i - 1 : i + 1];
     }

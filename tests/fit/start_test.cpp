@@ -48,6 +48,17 @@ TEST(Start, IsSeenInTheForce) {
   Recording outlier = moving(0.0);
   outlier.force[5] = 0.0;
   EXPECT_EQ(start_of(outlier), Start::in_cycle);
+  // Built up between the first sample and the second one, as of few samples a period.
+  const auto first_at = [](double share) {
+    Recording one = moving(0.0);
+    one.force[0] *= share;
+    return start_of(one);
+  };
+  EXPECT_EQ(first_at(0.1), Start::from_nothing);
+  EXPECT_EQ(first_at(0.6), Start::from_nothing);
+  EXPECT_EQ(first_at(0.0), Start::in_cycle) << "a channel that was not ready";
+  EXPECT_EQ(first_at(-0.5), Start::in_cycle) << "an outlier";
+  EXPECT_EQ(first_at(1.5), Start::in_cycle) << "an outlier";
   Recording motion_only = moving(0.008);
   motion_only.force.clear();
   EXPECT_EQ(start_of(motion_only), Start::in_cycle);

@@ -174,6 +174,35 @@ TEST(Velocity, ASampleOnACornerHasTheMeanOfBothSides) {
   }
 }
 
+// A sample an eighth of a step from a corner has the speed of its side, where noise lets that be told.
+TEST(Velocity, ASampleBesideACornerHasTheSpeedOfItsSide) {
+  const auto t = uniform(500, 4.0);
+  for (const double off : {-0.2, -0.125, 0.02, 0.125, 0.2}) {
+    const auto place_of = [&](double at) { return std::fmod(at - 0.002 * off + 2.0, 2.0); };
+    for (const double size : {0.0, 1e-7}) {
+      std::vector<double> x;
+      for (std::size_t i = 0; i < t.size(); ++i) {
+        x.push_back(0.042 * std::abs(place_of(t[i]) - 1.0) + size * noise(i));
+      }
+      const auto v = derive_velocity(t, x);
+      for (std::size_t i = 4; i + 4 < t.size(); ++i) {
+        EXPECT_NEAR(v[i], place_of(t[i]) < 1.0 ? -0.042 : 0.042, 0.01 * 0.042) << i << " " << off << " " << size;
+      }
+    }
+  }
+}
+
+TEST(Velocity, ASampleThatNoiseLeavesOnACornerHasTheMean) {
+  const auto t = uniform(500, 4.0);
+  for (const double off : {-0.125, 0.02, 0.125}) {
+    std::vector<double> x;
+    for (std::size_t i = 0; i < t.size(); ++i) {
+      x.push_back(0.042 * std::abs(std::fmod(t[i] - 0.002 * off + 2.0, 2.0) - 1.0) + 2e-5 * noise(i));
+    }
+    EXPECT_NEAR(derive_velocity(t, x)[500], 0.0, 0.01 * 0.042) << off;
+  }
+}
+
 TEST(Velocity, ArcsAreNotTakenForCorners) {
   // Constant acceleration of alternating sign: straight velocity, the sharpest turn of the displacement but a corner.
   const auto t = uniform(500, 4.0);
