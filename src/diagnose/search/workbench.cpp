@@ -441,6 +441,7 @@ std::vector<std::vector<double>> Workbench::eased(const Starts& starts) const {
   }
   std::ranges::stable_sort(sorted, {}, &std::pair<double, std::vector<double>>::first);
   std::vector<std::vector<double>> result;
+  result.reserve(sorted.size());
   for (auto& [cost, point] : sorted) {
     result.push_back(std::move(point));
   }
