@@ -175,6 +175,8 @@ double frequency_of_sine(const Recording& recording, std::size_t turns) {
 
 }  // namespace
 
+bool turns_once(const Recording& recording) { return turns_of(recording).size() == 1; }
+
 double dominant_frequency(const Recording& recording) {
   const std::vector<double> turns = turns_of(recording);
   if (turns.size() < 2) {

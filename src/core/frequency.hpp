@@ -11,4 +11,7 @@ namespace hysteron {
 // when it never turns.
 double dominant_frequency(const Recording& recording);
 
+// Whether the motion turns a single time, so that no half period tells its frequency: 0 is not it.
+bool turns_once(const Recording& recording);
+
 }  // namespace hysteron

@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "core/extent.hpp"
+#include "core/frequency.hpp"
 #include "core/message.hpp"
 #include "diagnose/options.hpp"
 #include "fit/predict.hpp"
@@ -363,16 +364,22 @@ Message drive_hint(const Identification& result, const std::vector<Recording>& r
          likely_laws(std::string(result.layout.model().law->id), recordings);
 }
 
-}  // namespace
-
-namespace {
-
 // What is held has no bounds to move in.
 void refuse_held_with_bounds(const LayoutOptions& layout) {
   for (const auto& [name, value] : layout.fix) {
     if (!layout.bounds.contains(name)) continue;
     throw OptionError(Option::fix + " " + name + ": a parameter that is held has no bounds, expected it in " +
                       Option::fix + " or in " + Option::bounds + " alone");
+  }
+}
+
+// A law in the frequency would take it for a motion at rest.
+void refuse_unknown_frequency(const LayoutOptions& layout, const std::vector<Recording>& recordings) {
+  if (layout.by_frequency.empty()) return;
+  for (const Recording& recording : recordings) {
+    if (!turns_once(recording)) continue;
+    throw OptionError(recording.file + ": the motion turns once, so that its frequency is not known, expected two " +
+                      "turning points or more with " + Option::by_frequency);
   }
 }
 
@@ -406,6 +413,7 @@ FitData fit_data(Campaign campaign, FitRequest& request) {
   const CompositeModel model = make_model(data.model, identify_with.effects);
   refuse_laws_of_other_model(data.campaign, layout, model, request.data);
   add_laws_of(data.campaign, layout);
+  refuse_unknown_frequency(layout, data.campaign.recordings);
   if (!layout.by_current.empty()) {
     require_one_drive(request.rig ? data.responses : data.campaign.recordings);
   }

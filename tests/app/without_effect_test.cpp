@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -49,6 +50,21 @@ TEST_F(WithoutEffect, AHeldParameterHasNoBounds) {
   refused(fit_of("data", {"--fix", "k0=2", "--bounds", "k0=3:4"}),
           "--fix k0: a parameter that is held has no bounds, expected it in --fix or in --bounds alone");
   told(fit_of("data", {"--fix", "k0=2", "--bounds", "f0=-4:4"}));
+}
+
+// Half a sine turns once: as one at 0 Hz it would bend every law in the frequency.
+TEST_F(WithoutEffect, AFrequencyThatOneTurnDoesNotTell) {
+  std::string rows = "time [s],displacement [mm],force [N]\n";
+  for (int n = 0; n <= 80; ++n) {
+    const double phase = 3.141592653589793 * n / 80.0;
+    rows += std::to_string(0.02 * n) + "," + std::to_string(10.0 * std::sin(phase)) + "," +
+            std::to_string(40.0 * std::cos(phase)) + "\n";
+  }
+  write(folder_ / "data/half.csv", rows);
+  refused(
+      fit_of("data", {"--by-frequency", "c0:1"}),
+      "half.csv: the motion turns once, so that its frequency is not known, expected two turning points or more with "
+      "--by-frequency");
 }
 
 TEST_F(WithoutEffect, AGroupOfFilesThatHaveNone) {

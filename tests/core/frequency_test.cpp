@@ -25,6 +25,15 @@ TEST(Frequency, IsNotRoundedToSamples) {
   }
 }
 
+// Half a period turns once, nine tenths of one turn twice.
+TEST(Frequency, IsNotToldByOneTurn) {
+  const Recording half = sine(0.3, 100.0, 0.5 / 0.3);
+  EXPECT_EQ(dominant_frequency(half), 0.0);
+  EXPECT_TRUE(turns_once(half));
+  EXPECT_FALSE(turns_once(sine(0.3, 100.0, 0.9 / 0.3)));
+  EXPECT_FALSE(turns_once(sine(0.3, 100.0, 0.2 / 0.3))) << "a motion that does not turn is slow";
+}
+
 TEST(Frequency, OfARampedSineIsThatOfItsSteadyPart) {
   Recording recording = sine(1.4, 80.0, 3.0);
   for (std::size_t n = 0; n < recording.size(); ++n) {
