@@ -205,6 +205,15 @@ TEST(Contrast, DirectionsAndEndsOfTheStrokeHaveTheirOwnValues) {
                ContrastKind::side_loss, 0.1, 0.1);
 }
 
+// A bore that is wide beyond a place is one thing, a lever whose arm changes with the place another.
+TEST(Contrast, AGainThatChangesEvenlyWithThePlaceIsNoLossOnOneSide) {
+  const auto found = scene_of([](const Recording& r, const std::vector<double>& f, std::size_t n) {
+                       return -0.1 * f[n] * r.displacement[n] / 0.015;
+                     }).found();
+  const Contrast* side = find(found, ContrastKind::side_loss);
+  EXPECT_TRUE(side == nullptr || std::fabs(side->z) < 2.0);
+}
+
 // A force of the place alone, whatever its shape, takes nothing off a force.
 TEST(Contrast, AStepOfTheForceAtAPlaceIsNoLossOnOneSide) {
   const auto found = scene_of([](const Recording& r, const auto&, std::size_t n) {

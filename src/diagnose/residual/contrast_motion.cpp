@@ -16,11 +16,12 @@ using Columns = std::vector<Panel::Column>;
 
 constexpr double film = 0.02;      // of a recording's largest speed: where the sign of the velocity is rounded
 constexpr double low_speed = 0.1;  // of the largest of all: where friction at low speed has fallen off
-// Of the half stroke: where the ends begin, half widths of the weak middle, half widths of the border of a weak side,
-// yield travel of a second hysteresis.
+// Of the half stroke: where the ends begin, half widths of the weak middle, places and half width of the border of a
+// weak side, yield travel of a second hysteresis.
 constexpr std::array<double, 3> ends = {0.6, 0.75, 0.9};
 constexpr std::array<double, 2> middles = {0.15, 0.35};
-constexpr std::array<double, 2> borders = {0.2, 1.0};
+constexpr std::array<double, 3> borders = {-0.4, 0.0, 0.4};
+constexpr double border_width = 0.2;
 constexpr std::array<double, 2> yields = {0.1, 0.3};
 // Of the largest force of all: beyond them the limit of one side is looked for.
 constexpr std::array<double, 3> large_forces = {0.3, 0.5, 0.7};
@@ -173,13 +174,16 @@ void add_motion_contrasts(std::span<const Track> tracks, std::size_t placebos, s
   }
   contrast(Kind::middle_loss, in_middle, base + Columns{vv, a, sign, stretch} + of_place);
 
-  // Likewise on one side, from place to place or all at once; as a force of the place alone it would be a spring.
+  // Likewise on one side of a place. A gain that changes evenly with the place is that of a lever.
   Columns on_one_side;
   for (const double border : borders) {
-    const auto beyond = [=](const Track& t, std::size_t n) { return std::tanh((t.x[n] - centre) / (border * half)); };
+    const auto beyond = [=](const Track& t, std::size_t n) {
+      return std::tanh((t.x[n] - centre - border * half) / (border_width * half));
+    };
     on_one_side.push_back(add([=](const Track& t, std::size_t n) { return -t.simulated[n] * beyond(t, n); }));
     of_place.push_back(add(beyond));
   }
+  of_place.push_back(add([=](const Track& t, std::size_t n) { return t.simulated[n] * (t.x[n] - centre); }));
   contrast(Kind::side_loss, on_one_side, base + Columns{vv, a, sign, stretch} + of_place);
 
   Columns second;
