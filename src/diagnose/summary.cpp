@@ -162,8 +162,13 @@ std::string sentence_of_unknown(const Diagnosis& diagnosis) {
   const std::string instead = law_instead(diagnosis.search);
   constexpr double printed = 0.005;  // less is printed as 0 %
   if (verdict.unknown_share < printed) {
-    if (!verdict.effects.empty()) return "All of the misfit above the noise has a name.";
-    const std::string by = !verdict.suggestions.empty() ? "what is suggested" : !instead.empty() ? instead : richer;
+    const std::string effects = !verdict.effects.empty()       ? "what is named"
+                                : !verdict.suggestions.empty() ? "what is suggested"
+                                                               : "";
+    if (instead.empty() && !verdict.effects.empty()) return "All of the misfit above the noise has a name.";
+    const std::string by = instead.empty()   ? (effects.empty() ? richer : effects)
+                           : effects.empty() ? instead
+                                             : instead + " and " + effects;
     return by.empty() ? by : "All of the misfit above the noise is explained by " + by + ".";
   }
   std::string rest;
@@ -248,8 +253,11 @@ std::vector<std::string> summary_of(const Diagnosis& diagnosis) {
   } else if (verdict.effects.empty()) {
     const bool may_be_noise = diagnosis.too_few_values && diagnosis.evidence.doubt_of_data.empty();
     const bool faulty = !diagnosis.evidence.doubt_of_data.empty();
+    // A tone whatever the motion is more often the rig's than the damper's.
+    const bool tone_alone = diagnosis.tone_doubts && verdict.suggestions.empty() && verdict.doubtful.empty();
     add(summary, (may_be_noise ? "Whether physics is missing cannot be told: "
                   : faulty     ? "The recordings have a fault, and no effect can be named: "
+                  : tone_alone ? "More than noise is left, of the damper or of the rig: "
                                : "Physics is missing, but no effect is certain enough to name: ") +
                      verdict.reason + ".");
   }

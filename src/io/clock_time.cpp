@@ -147,12 +147,29 @@ bool announces_start(std::string_view word) {
   return std::ranges::find(words, lower_case(trimmed(word))) != words.end();
 }
 
-std::optional<double> clock_time_in(std::string_view comment) {
+namespace {
+
+// What a comment line says after a word that announces a start.
+std::optional<std::string_view> announced_in(std::string_view comment) {
   comment = trimmed(comment);
   if (!take(comment, "#")) return std::nullopt;
   const std::size_t colon = comment.find(':');
-  if (colon == std::string_view::npos) return std::nullopt;
-  return announces_start(comment.substr(0, colon)) ? clock_time(comment.substr(colon + 1)) : std::nullopt;
+  if (colon == std::string_view::npos || !announces_start(comment.substr(0, colon))) return std::nullopt;
+  return trimmed(comment.substr(colon + 1));
+}
+
+}  // namespace
+
+std::optional<double> clock_time_in(std::string_view comment) {
+  const auto said = announced_in(comment);
+  return said ? clock_time(*said) : std::nullopt;
+}
+
+std::optional<std::string_view> unread_start_in(std::string_view comment) {
+  const auto said = announced_in(comment);
+  const bool time_of_day =
+      said && said->find(':') != std::string_view::npos && said->find_first_of("0123456789") != std::string_view::npos;
+  return time_of_day && !clock_time(*said) ? said : std::nullopt;
 }
 
 }  // namespace hysteron

@@ -33,4 +33,8 @@ namespace hysteron {
 // word that announces it.
 [[nodiscard]] std::optional<double> clock_time_in(std::string_view comment);
 
+// What such a line says that is a time of a day and is not read, as one whose day and month may be either: "24.11.2026
+// 14:50:58"; nothing for any other line.
+[[nodiscard]] std::optional<std::string_view> unread_start_in(std::string_view comment);
+
 }  // namespace hysteron

@@ -12,6 +12,7 @@
 
 #include "core/error.hpp"
 #include "core/message.hpp"
+#include "core/printable.hpp"
 #include "io/block_means.hpp"
 #include "io/clock_time.hpp"
 #include "io/conditions.hpp"
@@ -235,6 +236,11 @@ class CsvReader {
   void read_start(std::string_view comment) {
     started_ = clock_time_in(comment);
     if (started_ && options_.start_zone) options_.start_zone(has_zone(comment));
+    if (const auto said = unread_start_in(comment); said && options_.remark) {
+      options_.remark({file_, Remark::Kind::dialect, "start",
+                       "the start '" + valid_utf8(std::string(*said)) +
+                           "' is not read, expected one as 2026-11-24T14:50:58 or 24-Nov-2026 14:50:58"});
+    }
   }
 
   static char delimiter_of(std::string_view line) {

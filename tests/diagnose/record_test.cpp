@@ -307,6 +307,10 @@ TEST(Record, OfACauseThatIsNotAmongTheCandidates) {
   of_few_values.too_few_values = true;
   of_few_values.summary = summary_of(of_few_values);
   EXPECT_TRUE(paragraph(of_few_values).starts_with("Whether physics is missing cannot be told: "));
+  Diagnosis of_a_tone = *diagnosis;
+  of_a_tone.tone_doubts = true;
+  of_a_tone.summary = summary_of(of_a_tone);
+  EXPECT_TRUE(paragraph(of_a_tone).starts_with("More than noise is left, of the damper or of the rig: "));
   EXPECT_EQ(text.find("current"), std::string::npos) << "these recordings have no drive: " << text;
   Diagnosis of_shapes = *diagnosis;
   for (const auto& [id, confidence] : {std::pair("inertia", 0.31), {"force-drift", 0.2}}) {

@@ -44,6 +44,11 @@ std::string remarks_of(const std::string& text, ReadOptions options = {}) {
 TEST(Csv, ExportsOfRigsAreReadAsTheyAre) {
   const std::string ten = ten_rows();
   EXPECT_EQ(remarks_of(header + ten), "");
+  EXPECT_EQ(remarks_of("# start: 2026-11-24T14:50:58\n" + header + ten), "");
+  EXPECT_EQ(remarks_of("# date: 24.11.2026\n" + header + ten), "") << "a date starts nothing";
+  EXPECT_NE(
+      remarks_of("# start: 24.11.2026 14:50:58\n" + header + ten).find("the start '24.11.2026 14:50:58' is not read"),
+      std::string::npos);
   EXPECT_EQ(remarks_of("Total Time (s),Axial_Position (mm),Load (pounds)\n" + ten),
             "'Total Time (s)' is taken for the time\n'Axial_Position (mm)' is taken for the displacement\n");
   EXPECT_EQ(remarks_of("Time (Sec),Crosshead (Inches),Load Cell (LBF)\n" + ten), "");
