@@ -28,7 +28,7 @@ struct Asymmetry {
       .in_words = "an asymmetry of compression and rebound",
       .shows = "the force of one direction is that of the other times a factor, at any place",
       .experiment = "the same sine around two mid-positions: an asymmetry is the same at both, a gas spring is not",
-      .rig_cause = "a load cell that reads tension and compression with different gains",
+      .rig_cause = "a load cell that reads tension and compression with different gains, or whose gain changes with the force",
       .kin = kin,
       .contrasts = contrasts,
   };

@@ -11,7 +11,7 @@ namespace {
 
 struct Pinching {
   static constexpr std::string_view id = "pinching";
-  static constexpr std::string_view title = "Pinching around mid-stroke";
+  static constexpr std::string_view title = "Pinching (a weak range of the stroke)";
   static constexpr std::string_view reference =
       "after Baber, Noori, J. Vib. Acoust. 108 (1986) 411-420; written in the displacement";
   static constexpr std::string_view equations[] = {"F <- F (1 - p exp(-|(x - x_p) / w|^q))"};
@@ -27,10 +27,10 @@ struct Pinching {
   static constexpr ContrastSense contrasts[] = {{ContrastKind::middle_loss, Sense::either}, {ContrastKind::side_loss, Sense::either}};
   static constexpr Knowledge knowledge = {
       .family = families::place,
-      .in_words = "pinching around mid-stroke",
+      .in_words = "pinching (a weak range of the stroke)",
       .shows = "the force of both directions is smaller around one place of the stroke",
       .experiment = "small strokes inside a large one, at two amplitudes",
-      .rig_cause = "a joint that is loose and rubs",
+      .rig_cause = "a lever whose arm changes along the stroke, or a joint that is loose and rubs",
       .acts = Acts::by_place,
       .kin = kin,
       .part_of = part_of,
