@@ -11,11 +11,15 @@ namespace hysteron {
 void throw_without_candidate(const std::string& stage, const RunResult& run, const Layout& layout,
                              const LayoutOptions& options, std::size_t before) {
   const std::string solver = (stage.empty() ? "" : stage + ": ") + "solver " + run.solver;
+  const std::size_t with_derivatives = layout.dimension() + 1;
+  if (run.evaluations == before && run.budget >= before + with_derivatives) {
+    throw WorkError(solver + " stopped before its first evaluation" + (run.reason.empty() ? "" : ": " + run.reason));
+  }
   if (run.evaluations == before) {
-    throw OptionError(
-        Message(solver + " cannot evaluate anything in a budget of " + std::to_string(run.budget) +
-                (before > 0 ? ", " + std::to_string(before) + " of which are spent" : "") + ", expected a larger ") +
-        Option::budget + (": an evaluation with derivatives counts " + std::to_string(layout.dimension() + 1)));
+    throw OptionError(Message(solver + " cannot evaluate anything in a budget of " + std::to_string(run.budget) +
+                              (before > 0 ? ", " + std::to_string(before) + " of which are spent" : "") +
+                              ", expected a larger ") +
+                      Option::budget + (": an evaluation with derivatives counts " + std::to_string(with_derivatives)));
   }
   // An objective is a sum of squares, and one of diverged_cost is none (fit/solver.hpp).
   const std::string text = solver +

@@ -73,6 +73,13 @@ TEST_F(OwnSolver, MayEndByItself) {
   EXPECT_EQ(json::parse(read(folder_ / "out/fit.json")).at("solvers").at(0).at("stopped"), "near enough");
 }
 
+TEST_F(OwnSolver, ThatAsksForNothingNeedsNoLargerBudget) {
+  const Outcome outcome = fitted(script("read first; echo '{\"stop\": \"nothing\"}'\n"));
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_EQ(outcome.err, "error: solver mine stopped before its first evaluation: nothing\n");
+  EXPECT_FALSE(fs::exists(folder_ / "out"));
+}
+
 TEST_F(OwnSolver, WhatItSaysWronglyIsOneLine) {
   struct Case {
     std::string says;
