@@ -6,8 +6,6 @@
 namespace hysteron {
 namespace {
 
-constexpr double least_change = 1e-3;  // of the largest force of the recording
-
 double largest(const std::vector<double>& values) {
   double result = 0.0;
   for (const double value : values) result = std::max(result, std::fabs(value));
@@ -27,7 +25,7 @@ std::vector<bool> acting_in(const Workbench& bench, const Fit& fit, const std::s
   for (std::size_t k = 0; k < recordings.size(); ++k) {
     std::vector<double> change = with[k].force;
     for (std::size_t n = 0; n < change.size(); ++n) change[n] -= without[k].force[n];
-    result[k] = largest(change) > least_change * largest(recordings[k].force);
+    result[k] = largest(change) > 2.0 * bench.options().tolerance * largest(recordings[k].force);
   }
   return result;
 }

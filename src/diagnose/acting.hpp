@@ -12,8 +12,8 @@
 namespace hysteron {
 
 // Of the fitted recordings, in their order: whether the force of the fit changes there where the effect is taken out
-// and all else stays, by a thousandth of the largest force at one sample at least. All where the fit has it as a part
-// of its law.
+// and all else stays, at one sample at least by more than what two simulations may be apart: twice the error that the
+// integration is allowed. All where the fit has it as a part of its law.
 std::vector<bool> acting_in(const Workbench& bench, const Fit& fit, const std::string& effect);
 
 // Recordings that show an effect.

@@ -35,6 +35,8 @@ struct InputFormat {
   Recording (*read)(const std::filesystem::path& path, const ReadOptions& options) = nullptr;
   // How many samples the file may hold, for sharing --keep-samples out before it is read.
   std::size_t (*samples)(const std::filesystem::path& path);
+  // Whether a file has groups of channels, or sheets, of which one is read (--group).
+  bool groups = false;
 };
 
 inline constexpr std::size_t bytes_of_head = 1024;

@@ -46,12 +46,11 @@ std::filesystem::path path_of(const Recording& recording, const std::vector<std:
 void refuse_group_of_none(const std::string& group, const std::vector<Recording>& recordings,
                           const std::vector<std::string>& data) {
   if (group.empty()) return;
-  constexpr std::string_view without_groups[] = {"CSV", "MAT"};
   std::string_view first;
   for (const Recording& recording : recordings) {
     const std::filesystem::path path = path_of(recording, data);
     const InputFormat* format = path.empty() ? nullptr : find_format(path);
-    if (format == nullptr || std::ranges::find(without_groups, format->name) == std::end(without_groups)) return;
+    if (format == nullptr || format->groups) return;
     if (first.empty()) first = format->name;
   }
   throw OptionError(recordings.front().file + ": " + std::string(first) + " files have no groups, expected no " +

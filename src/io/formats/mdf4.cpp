@@ -552,6 +552,6 @@ Recording parse(std::string_view bytes, const std::string& file, const ReadOptio
 
 extern const InputFormat format_mdf4;
 const InputFormat format_mdf4 = {
-    .name = "MDF 4", .endings = endings, .begins = begins, .parse = parse, .samples = samples_by_size};
+    .name = "MDF 4", .endings = endings, .begins = begins, .parse = parse, .samples = samples_by_size, .groups = true};
 
 }  // namespace hysteron

@@ -560,6 +560,6 @@ Recording parse(std::string_view bytes, const std::string& file, const ReadOptio
 
 extern const InputFormat format_tdms;
 const InputFormat format_tdms = {
-    .name = "TDMS", .endings = endings, .begins = begins, .parse = parse, .samples = samples_by_size};
+    .name = "TDMS", .endings = endings, .begins = begins, .parse = parse, .samples = samples_by_size, .groups = true};
 
 }  // namespace hysteron

@@ -1053,6 +1053,6 @@ Recording parse(std::string_view bytes, const std::string& file, const ReadOptio
 
 extern const InputFormat format_xlsx;
 const InputFormat format_xlsx = {
-    .name = "xlsx", .endings = endings, .begins = begins, .parse = parse, .samples = samples_by_size};
+    .name = "xlsx", .endings = endings, .begins = begins, .parse = parse, .samples = samples_by_size, .groups = true};
 
 }  // namespace hysteron
