@@ -56,7 +56,6 @@ void refuse_unused_commands(const std::vector<std::string>& commands, const std:
 FitRequest request_of(const FitOptions& options) {
   FitRequest request;
   request.model = options.model;
-  request.data = options.data.data;
   request.two_stages = options.stages == "two";
   if (options.response) {
     request.rig = options.rig;

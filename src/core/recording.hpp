@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/earlier_work.hpp"
@@ -82,6 +83,12 @@ std::size_t drive_levels(const std::vector<Recording>& recordings);
 
 enum class Role { unassigned, fit, validate };
 
+// A line of a file, for messages; 0 where none is known.
+struct LineOfFile {
+  std::string file;
+  int line = 0;
+};
+
 // Recordings that belong together, with what campaign.toml says of them.
 struct Campaign {
   std::vector<Recording> recordings;
@@ -90,6 +97,8 @@ struct Campaign {
   LawOrders by_current;                 // in the drive
   LawOrders by_frequency;               // in the frequency of the motion
   std::map<std::string, LawOrders> by;  // in a condition, by its name
+  // Of these laws, by what each follows ("current", "frequency" or a condition) and its parameter.
+  std::map<std::pair<std::string, std::string>, LineOfFile> lines_of_laws;
 };
 
 }  // namespace hysteron

@@ -107,6 +107,9 @@ void merge(Campaign& campaign, const CampaignFile& declared, const std::string& 
   for (const auto& [condition, orders] : declared.by) {
     merge_orders(campaign.by[condition], orders, file, "by." + condition);
   }
+  for (const auto& [law, line] : declared.lines_of_laws) {
+    campaign.lines_of_laws.try_emplace(law, LineOfFile{file, line});
+  }
 }
 
 // The file beside one that is not there whose name is nearest, to be offered.

@@ -33,18 +33,22 @@ class CampaignParser : private TomlReader {
       result.model = text_of(*node, "model");
       if (result.model.empty()) fail(*node, "'model' is empty, expected the name of a model");
     }
-    if (const auto* node = root.get("by_current")) result.by_current = orders_of(*node, "by_current");
-    if (const auto* node = root.get("by_frequency")) result.by_frequency = orders_of(*node, "by_frequency");
+    if (const auto* node = root.get("by_current"))
+      result.by_current = orders_of(*node, "by_current", "current", result);
+    if (const auto* node = root.get("by_frequency"))
+      result.by_frequency = orders_of(*node, "by_frequency", "frequency", result);
     if (const auto* node = root.get("by")) add_laws(*node, result);
     if (const auto* node = root.get("recording")) result.entries = entries_of(*node);
     return result;
   }
 
  private:
-  [[nodiscard]] std::map<std::string, int> orders_of(const toml::node& node, const std::string& name) const {
+  // Of the table `name`, whose laws follow `what`.
+  [[nodiscard]] LawOrders orders_of(const toml::node& node, const std::string& name, const std::string& what,
+                                    CampaignFile& result) const {
     const auto* table = node.as_table();
     if (table == nullptr) fail(node, "'" + name + "' is not a table, expected [" + name + "] with PARAMETER = ORDER");
-    std::map<std::string, int> orders;
+    LawOrders orders;
     for (const auto& [key, value] : *table) {
       const auto* order = value.as_integer();
       if (order == nullptr || order->get() < 0 || order->get() > highest_order) {
@@ -52,6 +56,7 @@ class CampaignParser : private TomlReader {
                         std::to_string(highest_order) + ", expected for example 1");
       }
       orders[std::string(key.str())] = static_cast<int>(order->get());
+      result.lines_of_laws[{what, std::string(key.str())}] = line_of(value);
     }
     return orders;
   }
@@ -67,7 +72,7 @@ class CampaignParser : private TomlReader {
                         : name == "frequency" ? result.by_frequency
                                               : result.by[name];
       if (!into.empty()) fail(orders, "two tables of laws in the " + name + ", expected one");
-      into = orders_of(orders, "by." + text);
+      into = orders_of(orders, "by." + text, name, result);
     }
   }
 

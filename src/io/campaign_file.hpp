@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/recording.hpp"
@@ -29,8 +30,9 @@ struct CampaignFile {
   std::string model;  // may be empty
   LawOrders by_current;
   LawOrders by_frequency;
-  std::map<std::string, LawOrders> by;  // in conditions, by their names
-  std::vector<CampaignEntry> entries;   // empty: all recordings of the folder
+  std::map<std::string, LawOrders> by;                               // in conditions, by their names
+  std::map<std::pair<std::string, std::string>, int> lines_of_laws;  // as in Campaign
+  std::vector<CampaignEntry> entries;                                // empty: all recordings of the folder
 };
 
 // Unknown keys, wrong types and values are InputErrors at file:line. Whether the files exist is not looked at.

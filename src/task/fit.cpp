@@ -411,7 +411,7 @@ FitData fit_data(Campaign campaign, FitRequest& request) {
   LayoutOptions& layout = identify_with.layout;
   refuse_held_with_bounds(layout);
   const CompositeModel model = make_model(data.model, identify_with.effects);
-  refuse_laws_of_other_model(data.campaign, layout, model, request.data);
+  refuse_laws_of_other_model(data.campaign, layout, model);
   add_laws_of(data.campaign, layout);
   refuse_unknown_frequency(layout, data.campaign.recordings);
   if (!layout.by_current.empty()) {

@@ -22,7 +22,6 @@ struct FitRequest {
   bool two_stages = false;   // also the laws through the values of conditions fitted freely
   std::optional<Rig> rig;    // given: the recordings are of a mass on the damper; whether on a base is found out
   Excites excitation = Excites::what_is_recorded;  // of that mass
-  std::vector<std::string> data;  // files and folders of the campaign, for messages on a campaign.toml; may be empty
 };
 
 // A campaign that can be fitted as asked.

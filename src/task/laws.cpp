@@ -4,13 +4,9 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <filesystem>
 
 #include "core/message.hpp"
 #include "core/suggest.hpp"
-#include "io/file.hpp"
-#include "io/text.hpp"
-#include "io/toml_reader.hpp"
 
 namespace hysteron {
 namespace {
@@ -33,42 +29,6 @@ std::vector<LawsIn> added_laws(const Campaign& campaign, const LayoutOptions& as
   return result;
 }
 
-// Of a law in [by_current] or [by.current]; 0 where the file has none.
-int line_of_law(const std::filesystem::path& file, const std::string& what, const std::string& parameter) {
-  const auto line_in = [&](const toml::node& laws) {
-    const toml::table* table = laws.as_table();
-    const toml::node* law = table == nullptr ? nullptr : table->get(parameter);
-    return law == nullptr ? 0 : TomlReader::line_of(*law);
-  };
-  const toml::table root = TomlReader(file).parse(read_file(file), "hysteron.campaign/1");
-  if (const toml::node* laws = root.get("by_" + what)) {
-    if (const int line = line_in(*laws); line > 0) return line;
-  }
-  const toml::node* by = root.get("by");
-  if (by == nullptr || !by->is_table()) return 0;
-  for (const auto& [name, laws] : *by->as_table()) {
-    if (lower_case(trimmed(name.str())) != what) continue;
-    if (const int line = line_in(laws); line > 0) return line;
-  }
-  return 0;
-}
-
-struct Place {
-  std::string file = "campaign.toml";
-  int line = 0;
-};
-
-// Where the campaign.toml of a folder among `data` gives a law.
-Place place_of_law(const std::vector<std::string>& data, const std::string& what, const std::string& parameter) {
-  for (const std::string& folder : data) {
-    const std::filesystem::path file = std::filesystem::path(folder) / "campaign.toml";
-    std::error_code code;
-    if (!std::filesystem::exists(file, code)) continue;
-    if (const int line = line_of_law(file, what, parameter); line > 0) return {file.string(), line};
-  }
-  return {};
-}
-
 }  // namespace
 
 void add_laws_of(const Campaign& campaign, LayoutOptions& asked) {
@@ -77,13 +37,13 @@ void add_laws_of(const Campaign& campaign, LayoutOptions& asked) {
   asked.by.insert(campaign.by.begin(), campaign.by.end());
 }
 
-void refuse_laws_of_other_model(const Campaign& campaign, const LayoutOptions& asked, const CompositeModel& model,
-                                const std::vector<std::string>& data) {
+void refuse_laws_of_other_model(const Campaign& campaign, const LayoutOptions& asked, const CompositeModel& model) {
   const std::vector<std::string> names = model.parameter_names();
   for (const LawsIn& laws : added_laws(campaign, asked)) {
     for (const auto& [parameter, order] : laws.orders) {
       if (std::ranges::find(names, parameter) != names.end()) continue;
-      const Place place = place_of_law(data, laws.what, parameter);
+      const auto found = campaign.lines_of_laws.find({laws.what, parameter});
+      const LineOfFile place = found == campaign.lines_of_laws.end() ? LineOfFile{"campaign.toml"} : found->second;
       throw OptionError(
           place.file, place.line,
           fmt::format("a law in the {} of '{}', which {} does not have{}, expected one of {}, or ", laws.what,
