@@ -85,8 +85,10 @@ std::string solvers_on_costs() {
   std::vector<const SolverEntry*> members;
   for (const SolverEntry* file : solver_files()) {
     if (file->members == nullptr) continue;
-    families.push_back(std::string(file->id) + " without derivatives");
-    std::ranges::copy(file->members(), std::back_inserter(members));
+    const std::span<const SolverEntry* const> family = file->members();
+    std::ranges::copy(family, std::back_inserter(members));
+    const auto suits = [](const SolverEntry* member) { return works_on_costs(*member); };
+    if (std::ranges::any_of(family, suits)) families.push_back(std::string(file->id) + " without derivatives");
   }
   for (const SolverEntry* entry : solver_catalogue()) {
     if (std::ranges::find(members, entry) == members.end() && works_on_costs(*entry)) names.emplace_back(entry->id);

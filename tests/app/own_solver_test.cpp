@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -183,23 +184,29 @@ TEST_F(Minimise, ASolverThatNeedsMoreThanCostsIsRefusedWithThoseThatDoNot) {
                std::string("pso,") + solver, "--budget", budget, "--quiet", "--out", "found.json"});
       EXPECT_EQ(outcome.status, 2);
       EXPECT_TRUE(outcome.err.starts_with(why + those)) << outcome.err;
-      EXPECT_TRUE(outcome.err.ends_with(" or nlopt:* without derivatives\n")) << outcome.err;
+      EXPECT_NE(outcome.err.find("nlopt:* without derivatives"), std::string::npos) << outcome.err;
+      EXPECT_EQ(outcome.err.find("minpack:*"), std::string::npos) << outcome.err;
       EXPECT_EQ(std::ranges::count(outcome.err, '\n'), 1) << outcome.err;
       EXPECT_FALSE(fs::exists(folder_ / "found.json"));
     }
   }
 }
 
-// All that the message lists do work.
+// All that the message lists do work, and a member of a family where there is one for costs alone.
 TEST_F(Minimise, EverySolverThatNeedsCostsAloneIsTaken) {
   const std::string said = run({"minimise", "--objective", "true", "--box", "x=0:1", "--solver", "ukf"}).err;
   const std::string expected = ", expected ";
-  const std::size_t from = said.find(expected) + expected.size();
-  std::string solvers = said.substr(from, said.find(" or nlopt") - from);
-  std::erase(solvers, ' ');
+  ASSERT_NE(said.find(expected), std::string::npos) << said;
+  std::string list = said.substr(said.find(expected) + expected.size());
+  list.replace(list.rfind(" or "), 4, ", ");
+  std::istringstream words(list);
+  std::string solvers = "nlopt:LN_COBYLA";
+  for (std::string word; std::getline(words, word, ',');) {
+    if (word.find('*') == std::string::npos) solvers += "," + word.substr(word.find_first_not_of(' '));
+  }
   const Outcome outcome =
       run({"minimise", "--objective", "python3 " + examples + "objective.py", "--box", "x=-2:2,y=-1:3", "--solver",
-           solvers + ",nlopt:LN_COBYLA", "--budget", "100", "--quiet", "--out", "found.json"});
+           solvers, "--budget", "100", "--quiet", "--out", "found.json"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   const json runs = json::parse(read(folder_ / "found.json")).at("runs");
   EXPECT_GE(runs.size(), 16U);
