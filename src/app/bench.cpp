@@ -127,6 +127,11 @@ void add_bench(CLI::App& program) {
     refuse_standard_output(options->out, "the records of a study");
     if (!options->dry) refuse_other_results(options->out, "store.sqlite");
     add_solver_commands(options->solver_commands);
+    if (!options->solver_commands.empty()) {
+      std::vector<std::string> solvers;
+      for (const SolverSpec& solver : read_study_file(options->study).solvers) solvers.push_back(solver.id);
+      refuse_unused_commands(options->solver_commands, solvers, "in the study a solver ");
+    }
     RunOptions run;
     run.threads = options->threads;
     if (!options->shard.empty()) {

@@ -158,6 +158,8 @@ Hidden hidden_of(const Options& options) {
   Campaign& campaign = result.campaign;
   DataOptions data;
   data.data = options.data;
+  data.taken.model = options.model.empty();
+  if (!options.by_current.empty()) data.taken.other_laws = {"current"};
   campaign = load(data);
   if (!options.model.empty()) campaign.model = options.model;
   if (campaign.model.empty()) campaign.model = "bouc-wen";
@@ -207,6 +209,35 @@ void print_list(bool as_json) {
   fmt::print("{}", as_json ? json_text(list) : markdown_table({"effect", "form", "what it is"}, rows));
 }
 
+// What shapes campaigns that are made would change nothing in a score of those that are there, nor in the list. A seed
+// and threads are taken by every command, and jobs go with them.
+void refuse_making(const CLI::App& command, const Options& options) {
+  const auto refuse = [&](std::initializer_list<const char*> names, const char* beside) {
+    for (const char* name : names) {
+      if (command.get_option(name)->count() > 0) throw CLI::ExcludesError(name, beside);
+    }
+  };
+  if (options.list) refuse({"--forms", "--without-forms", "--foreign", "--generate-only", "--score-only"}, "--list");
+  if (!options.list && !options.score_only) return;
+  refuse({"--in", "--model", "--by-current", "--sizes", "--placebos", "--campaigns", "--level", "--recordings",
+          "--stops", "--effect"},
+         options.list ? "--list" : "--score-only");
+}
+
+// What is hidden in recordings of a real damper has no forms to choose from.
+void refuse_forms_of_hidden(const Options& options, bool hidden) {
+  if (!hidden) return;
+  for (const auto& [option, ids] : {std::pair{"--forms", &options.choice.only},
+                                    {"--without-forms", &options.choice.without},
+                                    {"--foreign", &options.choice.foreign}}) {
+    if (ids->empty()) continue;
+    throw InputError(
+        fmt::format("{} {}: {} holds effects hidden in recordings, which are scored together, expected no "
+                    "{}",
+                    option, fmt::join(*ids, ","), options.out, option));
+  }
+}
+
 void run(const Options& options) {
   if (options.list) return print_list(options.as_json);
   if (options.out.empty()) throw InputError("--out is required");
@@ -217,6 +248,7 @@ void run(const Options& options) {
   for (const auto* list : {&options.choice.only, &options.choice.without, &options.choice.foreign}) {
     for (const std::string& id : *list) static_cast<void>(challenge::hidden_form(id));
   }
+  refuse_forms_of_hidden(options, hidden);
   std::optional<Hidden> hiding;
   std::vector<challenge::Task> tasks;
   if (hidden && !options.score_only) {
@@ -283,7 +315,8 @@ void add_challenge(CLI::App& program) {
       ->needs(data);
   command->add_option("--campaigns", options->campaigns, "number of campaigns")
       ->transform(whole_number(1, 9999))
-      ->capture_default_str();
+      ->capture_default_str()
+      ->excludes(data);
   command
       ->add_option("--level", options->levels,
                    "only these levels: plain, buried, absorbed, pairs, wrong-base, foreign, beside, none, unexcited")
@@ -292,7 +325,8 @@ void add_challenge(CLI::App& program) {
   command
       ->add_option("--recordings", options->most_recordings,
                    "each campaign keeps one to so many of its recordings; default all")
-      ->transform(whole_number(1, 100));
+      ->transform(whole_number(1, 100))
+      ->excludes(data);
   command->add_flag("--stops", options->stops, "each recording ends at rest; not in the levels absorbed and unexcited")
       ->excludes(data);
   command->add_option("--effect", options->effects, "only these effects; with --in several at once as A+B")
@@ -333,7 +367,10 @@ void add_challenge(CLI::App& program) {
       "  hysteron challenge --in recordings/ --model bouc-wen --by-current alpha:1,c0:1 --out hidden\n"
       "  hysteron challenge --in recordings/ --effect inertia,asymmetry+compliance --sizes 1,3 --placebos 20 --out "
       "hidden");
-  command->callback([options] { run(*options); });
+  command->callback([options, command] {
+    refuse_making(*command, *options);
+    run(*options);
+  });
 }
 
 }  // namespace hysteron::app

@@ -78,6 +78,12 @@ void add_reading_options(CLI::App& command, DataOptions& options) {
       ->transform(whole_number(0, 100000));
 }
 
+void refuse_reading_options(const CLI::App& command, const std::string& beside) {
+  for (const char* name : {"--column", "--group", "--skip"}) {
+    if (command.get_option(name)->count() > 0) throw CLI::RequiresError(name, beside);
+  }
+}
+
 void add_keep_option(CLI::App& command, DataOptions& options) {
   options.keep_samples = default_keep_samples;
   command
@@ -177,7 +183,7 @@ void tell(const std::vector<Remark>& remarks, std::vector<std::string>* warnings
 }
 
 Campaign load(const DataOptions& options, Required required, std::vector<std::string>* warnings) {
-  Loaded loaded = load_with_remarks(options.data, read_options(options), required);
+  Loaded loaded = load_with_remarks(options.data, read_options(options), required, options.taken);
   tell(loaded.remarks, warnings);
   return std::move(loaded.campaign);
 }
@@ -273,6 +279,16 @@ void add_solver_commands(const std::vector<std::string>& commands) {
       if (std::filesystem::is_regular_file(word)) program.files[word] = sha256_hex(read_file(word));
     }
     add_external_solver(name, std::move(program));
+  }
+}
+
+void refuse_unused_commands(const std::vector<std::string>& commands, const std::vector<std::string>& solvers,
+                            const std::string& expected) {
+  for (const std::string& text : commands) {
+    const std::string name = text.substr(0, text.find('='));
+    if (std::ranges::find(solvers, name) != solvers.end()) continue;
+    throw InputError("--solver-command: '" + name + "' is not among the solvers asked for, expected " + expected +
+                     name);
   }
 }
 

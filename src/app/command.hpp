@@ -27,10 +27,13 @@ struct DataOptions {
   std::vector<std::string> conditions;  // columns that laws follow, beside those of campaign.toml
   bool without_time = false;            // where a file has none
   std::vector<std::string> at;          // NAME=NUMBER [UNIT], of every recording
+  TakenOfCampaign taken;                // of a campaign.toml
 };
 void add_data_options(CLI::App& command, DataOptions& options);
 // --column, --group and --skip, for commands that name their recordings in another way.
 void add_reading_options(CLI::App& command, DataOptions& options);
+// Refuses them where no recording is read, as they would change nothing: expected `beside` beside them.
+void refuse_reading_options(const CLI::App& command, const std::string& beside);
 // For commands that identify; the others take every sample.
 void add_keep_option(CLI::App& command, DataOptions& options);
 // --at, for commands that take a model whose laws may follow what the recordings do not hold.
@@ -60,8 +63,8 @@ struct CommonOptions {
   double tolerance = 1e-4;
 };
 void add_common_options(CLI::App& command, CommonOptions& options);
-// For commands that draw nothing, share no work and measure no error: the options that scripts give to every command are
-// taken, their values checked, and change nothing.
+// For commands that draw nothing, share no work and measure no error: the options that scripts give to every command
+// are taken, their values checked, and change nothing.
 void take_common_options(CLI::App& command);
 ObjectiveOptions objective_options(const CommonOptions& options);
 
@@ -72,6 +75,9 @@ std::map<std::string, int> parse_orders(const std::string& option, const std::st
 // added before their names are looked for.
 void add_solver_option(CLI::App& command, std::vector<std::string>& commands);
 void add_solver_commands(const std::vector<std::string>& commands);
+// A program that is never started would be taken for the one that found the result. `expected` goes before its name.
+void refuse_unused_commands(const std::vector<std::string>& commands, const std::vector<std::string>& solvers,
+                            const std::string& expected);
 
 // Ends the program with a status, when all has been said: by another process where several work together.
 struct Ended {

@@ -52,6 +52,7 @@ void run(const Options& options) {
     stored.push_back(&model.stored);
   }
   data.conditions = conditions_of(stored);
+  data.taken = recordings_alone;
   refuse_unfollowed(stored, numbers_at(data));
   const Campaign campaign = load(data);
   if (!is_standard_output(options.out)) {

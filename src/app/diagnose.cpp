@@ -116,6 +116,7 @@ void run(const Options& options) {
   std::vector<std::string> remarks;
   DataOptions from = options.data;
   ask_conditions(options.follow, from);
+  from.taken.model = options.model.empty();
   const Campaign campaign = load(from, Required::motion_and_force, &remarks);
   DiagnoseOptions diagnose_with;
   diagnose_with.model = options.model;

@@ -29,6 +29,7 @@ std::optional<Recording> motion_of(const Options& options) {
   DataOptions data = options.data;
   data.data = {options.motion};
   data.at.clear();  // of the model
+  data.taken = recordings_alone;
   const Campaign campaign = load(data, Required::motion);
   if (campaign.recordings.size() != 1) {
     throw InputError(options.motion + ": holds " + std::to_string(campaign.recordings.size()) +
@@ -108,7 +109,10 @@ void add_export(CLI::App& program) {
       "  hysteron export out/model.json --to c --out damper/ --motion recordings/r1.csv\n"
       "  hysteron export out/model.json --to fmu --out damper.fmu");
   take_common_options(*command);
-  command->callback([options] { run(*options); });
+  command->callback([options, command] {
+    if (options->motion.empty()) refuse_reading_options(*command, "--motion");
+    run(*options);
+  });
 }
 
 }  // namespace hysteron::app

@@ -44,15 +44,6 @@ struct FitOptions {
   std::string excitation = "auto";
 };
 
-// A program that is never started would be taken for the one that found the result.
-void refuse_unused_commands(const std::vector<std::string>& commands, const std::vector<std::string>& solvers) {
-  for (const std::string& text : commands) {
-    const std::string name = text.substr(0, text.find('='));
-    if (std::ranges::find(solvers, name) != solvers.end()) continue;
-    throw InputError("--solver-command: '" + name + "' is not among the solvers asked for, expected --solver " + name);
-  }
-}
-
 FitRequest request_of(const FitOptions& options) {
   FitRequest request;
   request.model = options.model;
@@ -64,7 +55,7 @@ FitRequest request_of(const FitOptions& options) {
   }
   IdentifyOptions& result = request.identify;
   add_solver_commands(options.solver_commands);
-  refuse_unused_commands(options.solver_commands, options.solvers);
+  refuse_unused_commands(options.solver_commands, options.solvers, "--solver ");
   if (!options.solvers.empty()) {
     result.solvers = options.solvers;
   }
@@ -171,6 +162,7 @@ void run(const FitOptions& options) {
   std::vector<std::string> remarks;
   DataOptions from = options.data;
   ask_conditions(options.laws, from);
+  from.taken.model = options.model.empty();
   Campaign campaign = load(from, options.response ? Required::motion : Required::motion_and_force, &remarks);
   FitRequest request = request_of(options);
   // Wrong names are told before a folder is made.

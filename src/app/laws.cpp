@@ -46,7 +46,9 @@ void add_law_options(CLI::App& command, LawOptions& options) {
 
 void ask_conditions(const LawOptions& options, DataOptions& data) {
   data.conditions.clear();
+  data.taken.other_laws.clear();
   for (const auto& [name, orders] : parsed(options)) {
+    data.taken.other_laws.insert(name);
     if (name != "current" && name != "frequency") data.conditions.push_back(name);
   }
   for (const std::string& text : options.by) {

@@ -18,7 +18,7 @@ struct LawOptions {
 void add_law_options(CLI::App& command, LawOptions& options);
 
 // The conditions that --by asks for are read with the recordings: their names, and the columns of those that are named
-// with a unit. InputError for words that are wrong.
+// with a unit. Of campaign.toml other laws are taken. InputError for words that are wrong.
 void ask_conditions(const LawOptions& options, DataOptions& data);
 
 // The laws of the command line.

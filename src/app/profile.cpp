@@ -105,9 +105,11 @@ std::string words_of(const std::string& model, const std::string& solver, const 
 }
 
 void run(const Options& options) {
-  const Campaign campaign = options.data.data.empty()
-                                ? find_dataset("rd8040-twin")->generate(Stream(1).child("rd8040-twin"))
-                                : load(options.data);
+  DataOptions data = options.data;
+  data.taken = recordings_alone;
+  data.taken.model = options.models.empty();
+  const Campaign campaign =
+      data.data.empty() ? find_dataset("rd8040-twin")->generate(Stream(1).child("rd8040-twin")) : load(data);
   std::vector<std::string> models = options.models;
   if (models.empty()) {
     models.push_back(campaign.model.empty() ? "bouc-wen" : campaign.model);
@@ -197,7 +199,10 @@ void add_profile(CLI::App& program) {
       "Examples:\n"
       "  hysteron profile\n"
       "  hysteron profile recordings/ --model bouc-wen,lugre --solver pso,multistart-lm --budget 5000");
-  command->callback([options] { run(*options); });
+  command->callback([options, command] {
+    if (options->data.data.empty()) refuse_reading_options(*command, "DATA");
+    run(*options);
+  });
 }
 
 }  // namespace hysteron::app

@@ -25,6 +25,7 @@ struct Options {
 Recording read_excitation(const Options& options, const StoredModel& stored) {
   DataOptions data = options.data;
   data.conditions = conditions_of({&stored});
+  data.taken = recordings_alone;
   refuse_unfollowed({&stored}, numbers_at(data));
   const Campaign campaign = load(data, Required::nothing);
   if (campaign.recordings.size() != 1) {

@@ -41,6 +41,7 @@ void add_score(CLI::App& program) {
     const ObjectiveOptions objective = objective_options(options->common);
     StoredModel stored = read_model(options->model);
     options->data.conditions = conditions_of({&stored});
+    options->data.taken = recordings_alone;
     refuse_unfollowed({&stored}, numbers_at(options->data));
     const Campaign campaign = load(options->data);
     std::vector<std::string> remarks;

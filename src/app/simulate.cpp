@@ -90,6 +90,7 @@ void add_simulate(CLI::App& program) {
       stored = read_model(options->words[0]);
     }
     options->data.data = {options->words.back()};
+    options->data.taken = recordings_alone;
     if (!preset) {
       options->data.conditions = conditions_of({&stored});
       refuse_unfollowed({&stored}, numbers_at(options->data));

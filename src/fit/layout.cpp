@@ -9,6 +9,7 @@
 #include "core/number_text.hpp"
 #include "core/suggest.hpp"
 #include "core/unit_text.hpp"
+#include "fit/one_level.hpp"
 
 namespace hysteron {
 namespace {
@@ -61,6 +62,13 @@ void check_known(const std::vector<std::string>& names, const std::string& name,
     throw OptionError(option + ": the model has no parameter '" + name + "'" + suggestion(name, names) +
                       ", expected one of " + list);
   }
+}
+
+// `law` is the option with the parameter.
+void refuse_one_level(const DataScale& scale, const std::string& what, const Message& law, int order) {
+  if (order == 0) return;
+  const std::string lack = lack_of_levels(scale, what);
+  if (!lack.empty()) throw OptionError(law + ":" + std::to_string(order) + ": " + lack);
 }
 
 // Of the recordings' scale, where a card is written for 1 kN, 25 mm and 0.3 m/s.
@@ -277,25 +285,15 @@ Layout::Layout(CompositeModel model, const DataScale& scale, const LayoutOptions
     const auto frequency_law = options.by_frequency.find(names_[j]);
     const int drive_order = drive_law == options.by_current.end() ? 0 : drive_law->second;
     const int frequency_order = frequency_law == options.by_frequency.end() ? 0 : frequency_law->second;
-    if (drive_order > 0 && !(scale.drive_high > scale.drive_low)) {
-      throw OptionError(
-          Option::by_current + " " + names_[j] + ":" + std::to_string(drive_order) +
-          ": the recordings hold no current or voltage, or only one level of it, expected at least two levels");
-    }
-    if (frequency_order > 0 && !(scale.frequency_high > scale.frequency_low)) {
-      throw OptionError(Option::by_frequency + " " + names_[j] + ":" + std::to_string(frequency_order) +
-                        ": the recordings hold only one frequency, expected at least two");
-    }
+    refuse_one_level(scale, "current", Option::by_current + " " + names_[j], drive_order);
+    refuse_one_level(scale, "frequency", Option::by_frequency + " " + names_[j], frequency_order);
     std::vector<std::vector<double>> condition_nodes;
     bool follows_condition = false;
     for (const ConditionRange& condition : conditions_) {
       const auto orders = options.by.find(condition.name);
       const auto own = orders == options.by.end() ? LawOrders::const_iterator{} : orders->second.find(names_[j]);
       const int order = orders == options.by.end() || own == orders->second.end() ? 0 : own->second;
-      if (order > 0 && !(condition.high > condition.low)) {
-        throw OptionError(Option::by + " " + condition.name + "=" + names_[j] + ":" + std::to_string(order) +
-                          ": the recordings hold only one " + condition.name + ", expected at least two");
-      }
+      refuse_one_level(scale, condition.name, Option::by + " " + condition.name + "=" + names_[j], order);
       follows_condition = follows_condition || order > 0;
       condition_nodes.push_back(nodes(condition.low, condition.high, order));
     }

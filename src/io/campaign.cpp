@@ -10,6 +10,8 @@
 
 #include "core/earlier_work.hpp"
 #include "core/error.hpp"
+#include "core/message.hpp"
+#include "core/number_text.hpp"
 #include "core/printable.hpp"
 #include "core/suggest.hpp"
 #include "io/block_means.hpp"
@@ -93,8 +95,8 @@ void merge_orders(std::map<std::string, int>& into, const std::map<std::string, 
   }
 }
 
-void merge(Campaign& campaign, const CampaignFile& declared, const std::string& file) {
-  if (!declared.model.empty()) {
+void merge(Campaign& campaign, const CampaignFile& declared, const TakenOfCampaign& taken, const std::string& file) {
+  if (taken.model && !declared.model.empty()) {
     if (!campaign.model.empty() && campaign.model != declared.model) {
       throw InputError(file, 0,
                        "model " + in_quotes(declared.model) + " contradicts " + in_quotes(campaign.model) +
@@ -102,13 +104,13 @@ void merge(Campaign& campaign, const CampaignFile& declared, const std::string& 
     }
     campaign.model = declared.model;
   }
-  merge_orders(campaign.by_current, declared.by_current, file, "by_current");
-  merge_orders(campaign.by_frequency, declared.by_frequency, file, "by_frequency");
+  if (taken.laws_in("current")) merge_orders(campaign.by_current, declared.by_current, file, "by_current");
+  if (taken.laws_in("frequency")) merge_orders(campaign.by_frequency, declared.by_frequency, file, "by_frequency");
   for (const auto& [condition, orders] : declared.by) {
-    merge_orders(campaign.by[condition], orders, file, "by." + condition);
+    if (taken.laws_in(condition)) merge_orders(campaign.by[condition], orders, file, "by." + condition);
   }
   for (const auto& [law, line] : declared.lines_of_laws) {
-    campaign.lines_of_laws.try_emplace(law, LineOfFile{file, line});
+    if (taken.laws_in(law.first)) campaign.lines_of_laws.try_emplace(law, LineOfFile{file, line});
   }
 }
 
@@ -151,14 +153,87 @@ void tell_misnamed_toml(const fs::path& folder, const ReadOptions& options) {
                   "it is not read, and its roles and laws are not taken: expected the name campaign.toml"});
 }
 
-void add_folder(const fs::path& folder, const ReadOptions& options, Campaign& campaign, std::vector<Item>& items) {
+// What of a campaign.toml would be taken were its folder given and not these files of it; empty where nothing would.
+std::vector<std::string> not_taken_of(const CampaignFile& declared, const std::vector<std::string>& files, bool alone,
+                                      const ReadOptions& options, const TakenOfCampaign& taken) {
+  std::vector<const CampaignEntry*> entries;
+  for (const CampaignEntry& entry : declared.entries) {
+    if (std::ranges::find(files, entry.file) != files.end()) entries.push_back(&entry);
+  }
+  // With their folder such files are not read at all.
+  if (entries.empty() && !declared.entries.empty()) return {};
+  const auto of_entries = [&](const auto& has) {
+    return std::ranges::any_of(entries, [&](const CampaignEntry* entry) { return has(*entry); });
+  };
+  const bool laws =
+      std::ranges::any_of(declared.lines_of_laws, [&](const auto& law) { return taken.laws_in(law.first.first); });
+  // A model that is identified needs of the numbers those that its laws follow, without which it is refused, and what
+  // a recording without a column of it is taken to be without.
+  const auto is_missed = [&](const auto& number) {
+    const std::string& name = number.first;
+    const bool channel = name == "current" || name == "voltage" || name == "temperature";
+    return !options.numbers.contains(name) && (taken.laws || channel);
+  };
+  std::vector<std::string> result;
+  if (taken.model && !declared.model.empty()) result.emplace_back("model");
+  if (laws) result.emplace_back("laws");
+  if (taken.roles && of_entries([](const CampaignEntry& entry) { return entry.role == Role::validate; })) {
+    result.emplace_back("roles");
+  }
+  // One start tells nothing of what was before it.
+  if (!alone && of_entries([](const CampaignEntry& entry) { return entry.start.has_value(); })) {
+    result.emplace_back("starts");
+  }
+  if (of_entries([&](const CampaignEntry& entry) { return std::ranges::any_of(entry.numbers, is_missed); })) {
+    result.emplace_back("numbers");
+  }
+  return result;
+}
+
+// The campaign.toml beside recordings that are given without their folder.
+void tell_unread_toml(const std::vector<std::string>& data, const ReadOptions& options, const TakenOfCampaign& taken) {
+  if (!options.remark) return;
+  std::set<fs::path> read;
+  std::map<fs::path, std::vector<std::string>> files;  // by folder
+  for (const std::string& argument : data) {
+    const fs::path path(argument);
+    if (is_folder(path)) {
+      read.insert(absolute_folder(path));
+    } else {
+      files[path.parent_path()].push_back(path.filename().generic_string());
+    }
+  }
+  for (const auto& [folder, names] : files) {
+    const fs::path toml = folder / "campaign.toml";
+    std::error_code code;
+    if (read.contains(absolute_folder(folder)) || !fs::is_regular_file(toml, code)) continue;
+    std::string what;
+    try {
+      const std::vector<std::string> parts =
+          not_taken_of(read_campaign_file(toml), names, data.size() == 1, options, taken);
+      if (parts.empty()) continue;
+      for (const std::string& part : parts) {
+        what += (what.empty() ? ", and its " : &part == &parts.back() ? " and " : ", ") + part;
+      }
+      what += parts == std::vector<std::string>{"model"} ? " is not taken" : " are not taken";
+    } catch (const InputError&) {  // nor could it be
+    }
+    const std::string file = valid_utf8(toml.string());
+    options.remark({file, Remark::Kind::dialect, "unread " + file,
+                    "it is not read, as recordings beside it are given one by one" + what +
+                        ": expected the folder in their place, for what it says of them"});
+  }
+}
+
+void add_folder(const fs::path& folder, const ReadOptions& options, const TakenOfCampaign& taken, Campaign& campaign,
+                std::vector<Item>& items) {
   const fs::path base = absolute_folder(folder);
   const fs::path toml = folder / "campaign.toml";
   std::error_code code;
   CampaignFile declared;
   if (fs::exists(toml, code)) {
     declared = read_campaign_file(toml);
-    merge(campaign, declared, toml.string());
+    merge(campaign, declared, taken, toml.string());
   } else {
     tell_misnamed_toml(folder, options);
   }
@@ -300,6 +375,34 @@ void tell_two_starts(const Recording& recording, const ZonedStart& own, const Zo
                       " by the file itself, expected one start: that of campaign.toml is taken"});
 }
 
+// A number that is given for all recordings goes before those of campaign.toml.
+void tell_two_numbers(const Item& item, const ReadOptions& options) {
+  if (!options.remark) return;
+  for (const auto& [name, number] : options.numbers) {
+    const auto declared = item.numbers.find(name);
+    if (declared == item.numbers.end() || declared->second.value == number.value) continue;
+    const auto text = [](const ConditionNumber& one) {
+      return number_text(one.value) + (one.unit.empty() ? "" : " " + one.unit);
+    };
+    options.remark({valid_utf8(item.name), Remark::Kind::implausible, "two numbers " + name,
+                    "its " + name + " is " + text(declared->second) + " by line " +
+                        std::to_string(declared->second.line) + " of campaign.toml and " + text(number) + " by " +
+                        Option::at + ", expected one number: that of " + Option::at + " is taken"});
+  }
+}
+
+// A number of the clock takes the place of the start, and what was before the recording is no longer known.
+void tell_start_not_taken(const Recording& recording, bool has_zone, const Item& item, const ReadOptions& options) {
+  if (!options.remark || !recording.started) return;
+  const std::string clock(clock_condition);
+  const Message by = options.numbers.contains(clock)
+                         ? Message(Option::at)
+                         : Message("line " + std::to_string(item.numbers.at(clock).line) + " of campaign.toml");
+  options.remark({recording.file, Remark::Kind::implausible, "start beside a clock",
+                  "its start, " + ZonedStart{*recording.started, has_zone}.text() + ", is not taken, since " + by +
+                      " gives its clock as a number; expected one of the two"});
+}
+
 // Starts with a zone are in UTC, those without are by the clock of a place: between the two hours may be missing.
 void tell_zones(const std::vector<Recording>& recordings, const std::vector<bool>& has_zone,
                 const ReadOptions& options) {
@@ -342,14 +445,14 @@ void follow_clock(std::vector<Recording>& recordings) {
 
 }  // namespace
 
-Campaign load_campaign(const std::vector<std::string>& data, const ReadOptions& options) {
+Campaign load_campaign(const std::vector<std::string>& data, const ReadOptions& options, const TakenOfCampaign& taken) {
   if (data.empty()) throw InputError("no recordings given, expected files or folders of them");
   Campaign campaign;
   std::vector<Item> items;
   for (const auto& argument : data) {
     const fs::path path(argument);
     if (is_folder(path)) {
-      add_folder(path, options, campaign, items);
+      add_folder(path, options, taken, campaign, items);
     } else {
       // What is not there is told before anything is read.
       std::error_code code;
@@ -358,6 +461,7 @@ Campaign load_campaign(const std::vector<std::string>& data, const ReadOptions& 
     }
   }
   refuse_repeats(items);
+  tell_unread_toml(data, options, taken);
   tell_apart(items);
   ReadOptions of_each = options;
   of_each.keep_samples = limit_of_each(items, options.keep_samples);
@@ -367,6 +471,7 @@ Campaign load_campaign(const std::vector<std::string>& data, const ReadOptions& 
   }
   std::vector<bool> zones;  // whether the starts have one
   for (const auto& item : items) {
+    tell_two_numbers(item, options);
     of_each.numbers = item.numbers;
     for (const auto& [name, number] : options.numbers) of_each.numbers.insert_or_assign(name, number);
     bool has_zone = false;
@@ -386,7 +491,10 @@ Campaign load_campaign(const std::vector<std::string>& data, const ReadOptions& 
     }
     zones.push_back(has_zone);
     // A number for the clock is meant, wherever the starts lie.
-    if (of_each.numbers.contains(std::string(clock_condition))) campaign.recordings.back().started.reset();
+    if (of_each.numbers.contains(std::string(clock_condition))) {
+      tell_start_not_taken(campaign.recordings.back(), has_zone, item, options);
+      campaign.recordings.back().started.reset();
+    }
     campaign.roles.push_back(item.role);
   }
   tell_zones(campaign.recordings, zones, options);

@@ -37,6 +37,8 @@ struct InputFormat {
   std::size_t (*samples)(const std::filesystem::path& path);
   // Whether a file has groups of channels, or sheets, of which one is read (--group).
   bool groups = false;
+  // Whether it is made of lines, or rows of a sheet, of which the first may be left out (--skip).
+  bool lines = false;
 };
 
 inline constexpr std::size_t bytes_of_head = 1024;

@@ -27,7 +27,8 @@ std::string hash_of(const Recording& recording) {
 // What is wrong with a path that a study names, rather than with a file in it, is said with the study's line.
 Campaign load_paths(const DataSpec& spec, const std::string& file, const ReadOptions& read) {
   try {
-    return load_campaign(spec.paths, read);
+    return load_campaign(spec.paths, read,
+                         {.model = false, .laws = false, .roles = spec.validate.empty() && !spec.each});
   } catch (const InputError& error) {
     const std::string message = error.what();
     if (spec.paths_line > 0 &&

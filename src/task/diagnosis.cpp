@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <atomic>
 #include <functional>
+#include <set>
+#include <string>
 #include <vector>
 
 #include "diagnose/record.hpp"
@@ -133,13 +135,42 @@ json curves_json(const Diagnosis& diagnosis, const Campaign& campaign, const Obj
   return curves;
 }
 
+// Parameters that the laws and effects which are tried have, beside those of the base law.
+std::set<std::string> parameters_elsewhere(const DiagnoseOptions& options) {
+  std::set<std::string> result;
+  const auto add = [&](const CompositeModel& model) {
+    for (const std::string& name : model.parameter_names()) result.insert(name);
+  };
+  for (const std::string& law : options.laws) add(make_model(law, {}));
+  for (const Part* effect : effect_catalogue()) add(make_model(options.model, {std::string(effect->id)}));
+  for (const std::string& name : make_model(options.model, {}).parameter_names()) result.erase(name);
+  return result;
+}
+
+// Laws of parameters that no model has would be left out without a word.
+void check_laws(const Campaign& campaign, DiagnoseOptions& options) {
+  const CompositeModel base = make_model(options.model, {});
+  const std::set<std::string> elsewhere = parameters_elsewhere(options);
+  const DataScale scale = scale_of(campaign.recordings);
+  refuse_laws_of_other_model(campaign, options.layout, base, elsewhere);
+  refuse_laws_of_one_level(campaign, options.layout, scale);
+  add_laws_of(campaign, options.layout);
+  LayoutOptions of_base = options.layout;
+  const auto leave_out = [&](LawOrders& orders) {
+    std::erase_if(orders, [&](const auto& law) { return elsewhere.contains(law.first); });
+  };
+  leave_out(of_base.by_current);
+  leave_out(of_base.by_frequency);
+  for (auto& [condition, orders] : of_base.by) leave_out(orders);
+  static_cast<void>(Layout(base, scale, of_base));
+}
+
 }  // namespace
 
 void check_diagnosis(const Campaign& campaign, DiagnoseOptions& options) {
   require_usable(campaign.recordings);
   require_one_drive(campaign.recordings);  // effects of the drive are looked for in every campaign
   if (options.model.empty()) options.model = campaign.model.empty() ? "bouc-wen" : campaign.model;
-  add_laws_of(campaign, options.layout);
   refuse_repeats(Option::laws, options.laws);
   for (const std::string& law : options.laws) {
     make_model(law, {});
@@ -149,6 +180,7 @@ void check_diagnosis(const Campaign& campaign, DiagnoseOptions& options) {
   for (const std::string& effect : options.candidates) {
     make_model(options.model, {effect});
   }
+  check_laws(campaign, options);
   for (const Recording& recording : campaign.recordings) {
     normaliser(recording, options.objective.normalisation);
   }

@@ -373,14 +373,34 @@ void refuse_held_with_bounds(const LayoutOptions& layout) {
   }
 }
 
-// A law in the frequency would take it for a motion at rest.
-void refuse_unknown_frequency(const LayoutOptions& layout, const std::vector<Recording>& recordings) {
+// What gives laws in the frequency: the option, or a line of campaign.toml.
+Message giver_of_frequency_laws(const LayoutOptions& asked, const Campaign& campaign) {
+  if (!asked.by_frequency.empty()) return Option::by_frequency;
+  for (const auto& [law, line] : campaign.lines_of_laws) {
+    if (law.first == "frequency") return fmt::format("the law in it of {}:{}", line.file, line.line);
+  }
+  return "the laws in it of campaign.toml";
+}
+
+// A law in the frequency would take it for a motion at rest. `given` is what gives the laws.
+void refuse_unknown_frequency(const LayoutOptions& layout, const Message& given,
+                              const std::vector<Recording>& recordings) {
   if (layout.by_frequency.empty()) return;
   for (const Recording& recording : recordings) {
     if (!turns_once(recording)) continue;
     throw OptionError(recording.file + ": the motion turns once, so that its frequency is not known, expected two " +
-                      "turning points or more with " + Option::by_frequency);
+                      "turning points or more with " + given);
   }
+}
+
+// Of the recordings that laws are spanned over.
+DataScale scale_of_fitted(const Campaign& campaign) {
+  std::vector<std::size_t> fitted;
+  for (std::size_t k = 0; k < campaign.recordings.size(); ++k) {
+    if (campaign.roles[k] != Role::validate) fitted.push_back(k);
+  }
+  const bool all = fitted.empty() || fitted.size() == campaign.recordings.size();
+  return all ? scale_of(campaign.recordings) : scale_of(pick(campaign.recordings, fitted));
 }
 
 }  // namespace
@@ -412,8 +432,10 @@ FitData fit_data(Campaign campaign, FitRequest& request) {
   refuse_held_with_bounds(layout);
   const CompositeModel model = make_model(data.model, identify_with.effects);
   refuse_laws_of_other_model(data.campaign, layout, model);
+  refuse_laws_of_one_level(data.campaign, layout, scale_of_fitted(data.campaign));
+  const Message giver = giver_of_frequency_laws(layout, data.campaign);
   add_laws_of(data.campaign, layout);
-  refuse_unknown_frequency(layout, data.campaign.recordings);
+  refuse_unknown_frequency(layout, giver, data.campaign.recordings);
   if (!layout.by_current.empty()) {
     require_one_drive(request.rig ? data.responses : data.campaign.recordings);
   }

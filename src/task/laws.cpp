@@ -7,6 +7,7 @@
 
 #include "core/message.hpp"
 #include "core/suggest.hpp"
+#include "fit/one_level.hpp"
 
 namespace hysteron {
 namespace {
@@ -16,6 +17,11 @@ struct LawsIn {
   std::string what;
   LawOrders orders;
   Option option;  // that gives others
+
+  // The option that gives a parameter no law: "--by pressure=alpha:0".
+  [[nodiscard]] Message without(const std::string& parameter) const {
+    return option + (option == Option::by ? " " + what + "=" : " ") + parameter + ":0";
+  }
 };
 
 // Those that add_laws_of would add.
@@ -29,6 +35,11 @@ std::vector<LawsIn> added_laws(const Campaign& campaign, const LayoutOptions& as
   return result;
 }
 
+LineOfFile place_of(const Campaign& campaign, const std::string& what, const std::string& parameter) {
+  const auto found = campaign.lines_of_laws.find({what, parameter});
+  return found == campaign.lines_of_laws.end() ? LineOfFile{"campaign.toml"} : found->second;
+}
+
 }  // namespace
 
 void add_laws_of(const Campaign& campaign, LayoutOptions& asked) {
@@ -37,18 +48,32 @@ void add_laws_of(const Campaign& campaign, LayoutOptions& asked) {
   asked.by.insert(campaign.by.begin(), campaign.by.end());
 }
 
-void refuse_laws_of_other_model(const Campaign& campaign, const LayoutOptions& asked, const CompositeModel& model) {
+void refuse_laws_of_other_model(const Campaign& campaign, const LayoutOptions& asked, const CompositeModel& model,
+                                const std::set<std::string>& others) {
   const std::vector<std::string> names = model.parameter_names();
   for (const LawsIn& laws : added_laws(campaign, asked)) {
     for (const auto& [parameter, order] : laws.orders) {
-      if (std::ranges::find(names, parameter) != names.end()) continue;
-      const auto found = campaign.lines_of_laws.find({laws.what, parameter});
-      const LineOfFile place = found == campaign.lines_of_laws.end() ? LineOfFile{"campaign.toml"} : found->second;
+      if (std::ranges::find(names, parameter) != names.end() || others.contains(parameter)) continue;
+      const LineOfFile place = place_of(campaign, laws.what, parameter);
       throw OptionError(
           place.file, place.line,
           fmt::format("a law in the {} of '{}', which {} does not have{}, expected one of {}, or ", laws.what,
                       parameter, model.law->id, suggestion(parameter, names), fmt::join(names, ", ")) +
               laws.option + " with other laws");
+    }
+  }
+}
+
+void refuse_laws_of_one_level(const Campaign& campaign, const LayoutOptions& asked, const DataScale& scale) {
+  for (const LawsIn& laws : added_laws(campaign, asked)) {
+    const std::string lack = lack_of_levels(scale, laws.what);
+    if (lack.empty()) continue;
+    for (const auto& [parameter, order] : laws.orders) {
+      if (order == 0) continue;
+      const LineOfFile place = place_of(campaign, laws.what, parameter);
+      throw OptionError(
+          place.file, place.line,
+          fmt::format("a law in the {} of '{}', and {}, or ", laws.what, parameter, lack) + laws.without(parameter));
     }
   }
 }

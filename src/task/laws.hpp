@@ -1,6 +1,9 @@
 // Laws of parameters that campaign.toml gives.
 #pragma once
 
+#include <set>
+#include <string>
+
 #include "core/recording.hpp"
 #include "fit/layout.hpp"
 
@@ -9,7 +12,13 @@ namespace hysteron {
 // Laws in the drive, the frequency and every condition for which none are asked are the campaign's.
 void add_laws_of(const Campaign& campaign, LayoutOptions& asked);
 
-// Throws InputError where add_laws_of would add a law of a parameter that the model does not have, with its line.
-void refuse_laws_of_other_model(const Campaign& campaign, const LayoutOptions& asked, const CompositeModel& model);
+// Throws InputError where add_laws_of would add a law of a parameter that the model does not have, nor is one of
+// `others`, with its line.
+void refuse_laws_of_other_model(const Campaign& campaign, const LayoutOptions& asked, const CompositeModel& model,
+                                const std::set<std::string>& others = {});
+
+// Throws InputError where add_laws_of would add a law in what the recordings of a scale hold one value of, with its
+// line.
+void refuse_laws_of_one_level(const Campaign& campaign, const LayoutOptions& asked, const DataScale& scale);
 
 }  // namespace hysteron

@@ -10,7 +10,6 @@
 #include "core/error.hpp"
 #include "core/message.hpp"
 #include "core/printable.hpp"
-#include "io/campaign.hpp"
 #include "io/format.hpp"
 #include "task/respond.hpp"
 
@@ -42,30 +41,37 @@ std::filesystem::path path_of(const Recording& recording, const std::vector<std:
   return {};
 }
 
-// A group that no file can have would change nothing without a word; beside files that have it, one may be without.
-void refuse_group_of_none(const std::string& group, const std::vector<Recording>& recordings,
-                          const std::vector<std::string>& data) {
-  if (group.empty()) return;
+// What no file can have would change nothing without a word; beside files that have it, one may be without. `files`
+// are those that do.
+void refuse_of_none(Option option, bool InputFormat::*has, std::string_view what, std::string_view files,
+                    const std::vector<Recording>& recordings, const std::vector<std::string>& data) {
   std::string_view first;
   for (const Recording& recording : recordings) {
     const std::filesystem::path path = path_of(recording, data);
     const InputFormat* format = path.empty() ? nullptr : find_format(path);
-    if (format == nullptr || format->groups) return;
+    if (format == nullptr || format->*has) return;
     if (first.empty()) first = format->name;
   }
-  throw OptionError(recordings.front().file + ": " + std::string(first) + " files have no groups, expected no " +
-                    Option::group + ", or a TDMS or MDF file or a workbook");
+  throw OptionError(fmt::format("{}: {} files have no {}, expected no ", recordings.front().file, first, what) +
+                    option + fmt::format(", or {}", files));
 }
 
 }  // namespace
 
-Loaded load_with_remarks(const std::vector<std::string>& data, ReadOptions options, Required required) {
+Loaded load_with_remarks(const std::vector<std::string>& data, ReadOptions options, Required required,
+                         const TakenOfCampaign& taken) {
   options.force_required = required == Required::motion_and_force;
   options.displacement_required = required != Required::nothing;
   std::vector<Remark> remarks;
   options.remark = [&](const Remark& remark) { remarks.push_back(remark); };
-  Campaign campaign = load_campaign(data, options);
-  refuse_group_of_none(options.group, campaign.recordings, data);
+  Campaign campaign = load_campaign(data, options, taken);
+  if (!options.group.empty()) {
+    refuse_of_none(Option::group, &InputFormat::groups, "groups", "a TDMS or MDF file or a workbook",
+                   campaign.recordings, data);
+  }
+  if (options.skip > 0) {
+    refuse_of_none(Option::skip, &InputFormat::lines, "lines", "a text file or a workbook", campaign.recordings, data);
+  }
   if (required == Required::motion_and_force) std::ranges::for_each(campaign.recordings, refuse_excitation_as_force);
   const std::vector<Remark> of_campaign =
       remarks_on(campaign.recordings, required == Required::nothing ? Moving::excitation : Moving::damper);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/recording.hpp"
+#include "io/campaign.hpp"
 #include "io/channels.hpp"
 
 namespace hysteron {
@@ -18,7 +19,8 @@ struct Loaded {
 };
 // As load_campaign, with the channels required; `options.remark` is not called. Recordings of too few samples a period,
 // of another unit than the others, and copies are remarked too.
-Loaded load_with_remarks(const std::vector<std::string>& data, ReadOptions options, Required required);
+Loaded load_with_remarks(const std::vector<std::string>& data, ReadOptions options, Required required,
+                         const TakenOfCampaign& taken = {});
 
 // Of recordings alike the first remark, whose text counts the others.
 std::vector<Remark> once_each(const std::vector<Remark>& remarks);

@@ -12,7 +12,12 @@ constexpr Ending endings[] = {
 }  // namespace
 
 extern const InputFormat format_csv;
-const InputFormat format_csv = {
-    .name = "CSV", .endings = endings, .begins = nullptr, .parse = parse_csv, .read = read_csv, .samples = count_rows};
+const InputFormat format_csv = {.name = "CSV",
+                                .endings = endings,
+                                .begins = nullptr,
+                                .parse = parse_csv,
+                                .read = read_csv,
+                                .samples = count_rows,
+                                .lines = true};
 
 }  // namespace hysteron

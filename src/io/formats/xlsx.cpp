@@ -1052,7 +1052,12 @@ Recording parse(std::string_view bytes, const std::string& file, const ReadOptio
 }  // namespace
 
 extern const InputFormat format_xlsx;
-const InputFormat format_xlsx = {
-    .name = "xlsx", .endings = endings, .begins = begins, .parse = parse, .samples = samples_by_size, .groups = true};
+const InputFormat format_xlsx = {.name = "xlsx",
+                                 .endings = endings,
+                                 .begins = begins,
+                                 .parse = parse,
+                                 .samples = samples_by_size,
+                                 .groups = true,
+                                 .lines = true};
 
 }  // namespace hysteron
