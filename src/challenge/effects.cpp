@@ -313,7 +313,10 @@ void add_fluid(Effects& list) {
   static const auto sense = [](Draws& shape) { return shape.chance(0.5) ? 1.0 : -1.0; };
   list.push_back({.id = "asymmetry", .group = Group::even, .needs = anything, .laws = all_laws, .most = 0.9});
   list.back().forms = {form("asymmetry/damping", "of the viscous damping only",
-                            [](const D&, double s, Draws shape) { return part<DampingAsymmetry>(sense(shape) * s); }),
+                            [](const D& d, double s, Draws shape) {
+                              const double e = sense(shape) * s;
+                              return part<DampingAsymmetry>(e, d.speed * shape.log_uniform(0.01, 0.1));
+                            }),
                        form("asymmetry/yield", "of the yield force only, without a jump",
                             [](const D&, double s, Draws shape) { return part<YieldAsymmetry>(sense(shape) * s); }),
                        form("asymmetry/unequal", "of yield force and damping, by different shares",

@@ -120,12 +120,12 @@ struct EyringThinning final : Thinning {
   [[nodiscard]] double shape(double r) const override { return r < 1e-8 ? 1.0 : std::asinh(r) / r; }
 };
 
-// asymmetry/damping: c (1 + e sgn v). Source: separate valves, standard.
+// asymmetry/damping: c (1 + e tanh(v / v_s)), v_s a few percent of the speed. Source: separate valves that take turns.
 struct DampingAsymmetry final : Part {
-  double difference = 0.0;
-  explicit DampingAsymmetry(double e) : difference(e) {}
+  double difference = 0.0, film = 1e-2;
+  DampingAsymmetry(double e, double v_s) : difference(e), film(v_s) {}
   [[nodiscard]] double damping(const Moment&, const double*, double v) const override {
-    return 1.0 + (v < 0.0 ? -difference : difference);
+    return 1.0 + difference * std::tanh(v / film);
   }
 };
 

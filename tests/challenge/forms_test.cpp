@@ -293,8 +293,9 @@ TEST(Forms, ThinningRunsFromANewtonianPlateauToItsPowerLaw) {
 }
 
 TEST(Forms, AsymmetryIsTheDifferenceOfBothSenses) {
-  const DampingAsymmetry damping(0.3);
+  const DampingAsymmetry damping(0.3, 1e-3);
   EXPECT_NEAR(damping.damping({}, nullptr, 0.1) - damping.damping({}, nullptr, -0.1), 0.6, 1e-12);
+  EXPECT_NEAR(damping.damping({}, nullptr, 1e-5), 1.003, 1e-6);
   const YieldAsymmetry yield(0.3);
   EXPECT_NEAR(yield.yield(at(0.0, 1.0), nullptr) - yield.yield(at(0.0, -1.0), nullptr), 0.6, 1e-12);
   const UnequalAsymmetry both(0.3, 0.5);

@@ -372,7 +372,7 @@ TEST(Truth, MechanismsOfEveryKindRunTogether) {
   add<AeratedOil>(p, 3e6, 1e-3);
   add<CheckedLeak>(p, 5e4, 1.5);
   add<DampingHeat>(p, 100.0, 60.0, 0.5);
-  add<DampingAsymmetry>(p, 0.2);
+  add<DampingAsymmetry>(p, 0.2, 5e-3);
   add<SealLugre>(p, 20.0, 40.0, 5e-3, 4e-5);
   add<EddyCoil>(p, 0.02, 0.1, 0.3);
   add<RigRinging>(p, 0.3, 150.0, 0.05);
