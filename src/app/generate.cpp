@@ -152,7 +152,7 @@ void add_generate(CLI::App& program) {
     const auto written = std::ranges::count_if(campaign.recordings, [&](const Recording& recording) {
       return recording.file.find(options->only) != std::string::npos;
     });
-    fmt::print("{} recordings in {}\n", written, printable(options->out));
+    fmt::print("{} recording{} written to {}\n", written, written == 1 ? "" : "s", printable(options->out));
   });
 }
 
