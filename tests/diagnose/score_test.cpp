@@ -235,19 +235,5 @@ TEST(Hypothesis, PartsComeAndGo) {
   EXPECT_EQ(parts[2], law_extension({"alpha", "alpha"}));
 }
 
-// The inverse of a limiting force: half of it, which larger forces meet, is half as much of an effect in no sense.
-TEST(Starts, AThresholdIsNoSizeToBeScaled) {
-  const std::vector<Recording> all = recordings_with({"cavitation"}, {{"cavitation.kappa", 1.0 / 130.0}}, 0.01);
-  const Workbench bench = bench_of(all, all);
-  const Fit base = bench.from_anywhere({"viscous", {}, {}}, 2000);
-  const Hypothesis what{"viscous", {"cavitation"}, {}};
-  EXPECT_TRUE(bench.starts(what, base).sizes.empty());
-  const Fit found = bench.from_fit(what, base, 30);
-  EXPECT_LT(squared(found.cost), 0.5 * squared(base.cost));
-  const auto kappa = static_cast<std::size_t>(std::ranges::find(found.layout->names(), "cavitation.kappa") -
-                                              found.layout->names().begin());
-  EXPECT_NEAR(std::ranges::find(found.terms, kappa, &Term::parameter)->value, 1.0 / 130.0, 0.05 / 130.0);
-}
-
 }  // namespace
 }  // namespace hysteron

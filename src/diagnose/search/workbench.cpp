@@ -320,12 +320,9 @@ Starts Workbench::starts(const Hypothesis& what, const Fit& warm, const Fit* als
   std::size_t shapes = 0;
   for (std::size_t c = 0, part = 0; c < known.size(); ++c) {
     if (fresh[c]) {
-      const bool first = part++ == 0;
-      const bool size = first || layout.coordinates()[c].linear;
+      const bool size = part++ == 0 || layout.coordinates()[c].linear;
       shapes += size ? 0 : 1;
-      // A threshold is no size: a smaller one does not do less in proportion.
-      const bool threshold = first && added_effect != nullptr && !added_effect->starts.empty();
-      if (size && !threshold) {
+      if (size) {
         sizes.push_back(c);
       }
     }
@@ -395,7 +392,7 @@ std::vector<double> Workbench::under_measured_force(const Starts& starts, int ro
 }
 
 // The size of what is new is known to first order at best, and far too large a one is no place to descend from: it is
-// halved until the start is no worse than nothing new, a few times. The best start comes first.
+// halved until the start is no worse than nothing new, a few times.
 std::vector<std::vector<double>> Workbench::eased(const Starts& starts) const {
   ByteWriter key;
   key.text("eased starts");
@@ -428,7 +425,6 @@ std::vector<std::vector<double>> Workbench::eased(const Starts& starts) const {
       for (std::size_t i = 0; i < asked.size(); ++i) {
         costs[asked[i]] = answer.cost[i];
       }
-      if (starts.sizes.empty()) break;
     }
     ByteWriter result;
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -454,9 +450,7 @@ std::vector<std::vector<double>> Workbench::eased(const Starts& starts) const {
 
 Fit Workbench::from_starts(const Hypothesis& what, const Starts& given, int rounds, std::size_t most) const {
   Starts starts = given;
-  // Of an effect with a threshold too, of whose starts most do nothing.
-  const Part* added = what.effects.empty() ? nullptr : find_effect(what.effects.back());
-  if (!starts.sizes.empty() || (added != nullptr && !added->starts.empty())) {
+  if (!starts.sizes.empty()) {
     starts.points = eased(given);
   }
   starts.points.resize(std::min(starts.points.size(), most));
