@@ -221,31 +221,6 @@ TEST_F(Program, ScoreOfTheFittedDataIsThatOfTheFitAndOfTheSimulation) {
   EXPECT_NEAR(scored["overall"]["nrmse"].get<double>(), std::sqrt(mean_square), 1e-12);
 }
 
-TEST_F(Program, ListsAndDescribesEverythingItHas) {
-  for (const std::string kind : {"models", "solvers", "effects", "datasets", "tables"}) {
-    const Outcome outcome = run({"list", kind, "--json"});
-    ASSERT_EQ(outcome.status, 0) << outcome.err;
-    const json rows = json::parse(outcome.out);
-    ASSERT_TRUE(rows.is_array());
-    if (kind != "tables") {
-      EXPECT_FALSE(rows.empty()) << kind;
-    }
-    std::set<std::string> ids;
-    for (const json& row : rows) {
-      const auto id = row.at("id").get<std::string>();
-      EXPECT_TRUE(ids.insert(id).second) << id << " twice";
-      EXPECT_FALSE(row.at("title").get<std::string>().empty()) << id;
-      if (kind == "tables") continue;
-      const Outcome page = run({"describe", id});
-      EXPECT_EQ(page.status, 0) << id << page.err;
-      EXPECT_NE(page.out.find(id), std::string::npos);
-      const Outcome card = run({"describe", id, "--json"});
-      ASSERT_EQ(card.status, 0) << id;
-      EXPECT_EQ(json::parse(card.out).at("id"), id);
-    }
-  }
-}
-
 TEST_F(Program, HelpOfEveryCommandHasAnExample) {
   const Outcome help = run({"--help"});
   EXPECT_EQ(help.status, 0);
