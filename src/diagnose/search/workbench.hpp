@@ -19,6 +19,8 @@
 
 namespace hysteron {
 
+inline constexpr std::size_t start_count = 8;  // sizes that a refit starts from
+
 // A hypothesis with its best parameters.
 struct Fit {
   Hypothesis what;
