@@ -32,6 +32,7 @@ target_compile_definitions(fmt::fmt INTERFACE FMT_HEADER_ONLY)
 
 # Stems of the files whose work needs a library or a process that a page has not, and of the solvers that the page does
 # not offer: fit and diagnose do with the default one and lm.
-set(HYSTERON_LEFT_OUT checkpoint fence mat mat5 mat73 mat_pipe mdf4 xlsx xml catalogue study export published
+set(HYSTERON_LEFT_OUT checkpoint fence mat mat5 mat73 mat_pipe mdf4 xlsx workbook_archive workbook_sheet workbook_styles
+  workbook_table xml catalogue study export published
   aco_r adaptive_css cma_es crow_search css de ga ga_pattern_search grasshopper nelder_mead nlopt pattern_search pso
   pso_lm random_search shrinking_box_lm shuffled_frog_leaping spso_2011 ukf)
