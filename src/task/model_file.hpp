@@ -23,6 +23,9 @@ struct FittedOver {
   DriveKind drive_kind = DriveKind::none;                 // of `drive`
 };
 
+// Member of fitted_over in model.json.
+constexpr const char* drive_key(DriveKind kind) { return kind == DriveKind::voltage ? "voltage_v" : "current_a"; }
+
 struct StoredModel {
   CompositeModel model;
   std::vector<double> held;
@@ -56,6 +59,10 @@ nlohmann::json model_json(const Identification& result, const Campaign& campaign
 StoredModel read_model(const std::string& path);
 // The same of the text of a file; `path` opens the messages.
 StoredModel parse_model(std::string_view text, const std::string& path);
+
+// Where the clock of recordings counts from, s since 1970, if it is that of their starts: of the first of them, unless
+// a number was given in its place.
+std::optional<double> clock_since(const std::vector<Recording>& recordings);
 
 // Names of the conditions that the laws of models follow, to be read with recordings.
 std::vector<std::string> conditions_of(const std::vector<const StoredModel*>& models);
