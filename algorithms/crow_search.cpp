@@ -6,8 +6,15 @@
 // Source: A. Askarzadeh, Computers & Structures 169:1-12, 2016, doi 10.1016/j.compstruc.2016.03.001 (AP = 0.1, fl = 2,
 //   20 to 50 crows).
 // Deviations and choices:
-// - `bounds` 0, as in the source: a crow whose move would leave the box stays where it is; nothing is evaluated for it
-//   (the source evaluates the old point again). 1: the move is cut at the bound, coordinate by coordinate.
+// - A move out of the box is cut at the bound, coordinate by coordinate. In the source such a crow stays where it is
+//   (`bounds` 0). Only moves beyond the memory, l = r fl > 1, can leave the box, and only they keep the flock apart:
+//   with x_i and m_j independent and of one variance the next x_i has (1 - l)^2 + l^2 times that, in the mean 2/3 for
+//   l < 1 and 8/3 for 1 < l < 2. Where they are refused the flock draws together around the middle of the box, and
+//   with a small budget it ends above random search if the optimum is near an end of some ranges.
+// - A crow that stays is not evaluated (the source evaluates the old point again).
+// - 20 crows where the budget holds 20 generations of them, else fewer: a crow learns once a generation.
+// - AP = 0.2: with 0.1 so few crows have too rarely one at a random place. From 1000 evaluations on it hardly matters.
+// - `population` 20 or more, `awareness` 0.1 and `bounds` 0 are the source's method.
 // - If no crow of a generation moves, further generations are drawn without evaluations; after 1000 of them one crow
 //   is sent to a random point.
 #include <cstddef>
@@ -28,12 +35,12 @@ namespace {
 using support::Draws;
 using support::Point;
 
-constexpr support::PopulationRule population{.usual = 20};
+constexpr support::PopulationRule population{.usual = 20, .generations = 20};
 constexpr Setting settings[] = {
-    {"population", 0.0, 0.0, 100000.0, "crows; 0: 20, at most budget / 10"},
-    {"awareness", 0.1, 0.0, 1.0, "AP: probability that the followed crow notices and leads to a random place"},
+    {"population", 0.0, 0.0, 100000.0, "crows; 0: 20, at most budget / 20"},
+    {"awareness", 0.2, 0.0, 1.0, "AP: probability that the followed crow leads to a random place; 0.1 in the source"},
     {"flight", 2.0, 0.01, 10.0, "fl: flight length"},
-    {"bounds", 0.0, 0.0, 1.0, "0 a crow that would leave the box stays, 1 its move is cut at the bound"},
+    {"bounds", 1.0, 0.0, 1.0, "1 a move out of the box is cut at the bound, 0 the crow stays, as in the source"},
 };
 
 class CrowSearch final : public support::SamplingSolver {
@@ -129,8 +136,9 @@ const SolverEntry solver_crow_search = {
     "crow-search",
     "Crow search",
     "Askarzadeh, Computers & Structures 169:1-12, 2016, doi 10.1016/j.compstruc.2016.03.001",
-    "Each crow flies towards the memory of a random crow, or to a random place with probability AP. A crow whose move\n"
-    "would leave the box stays where it is and is not evaluated again.",
+    "Each crow flies towards the memory of a random crow and beyond, or to a random place with probability AP. A move\n"
+    "out of the box is cut at the bound; in the source the crow stays where it is, which draws the flock to the "
+    "middle.",
     false,
     settings,
     make,

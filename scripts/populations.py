@@ -50,7 +50,7 @@ lines = ["# Sizes of populations", "",
          "|---|" + "--:|" * len(budgets)]
 lines += [f"| {solver} | " + " | ".join(cell(solver, budget) for budget in budgets) + " |" for solver in solvers]
 lines += ["", "The defaults follow the budget so: a population has ten generations at least, as that of `ga` has, and `spso-2011` a hundred,",
-          "as the swarm of `pso` has; `css` has 10 particles. `grasshopper` keeps its 30: 20 did better here and, at 1000",
+          "as the swarm of `pso` has, `crow-search` twenty; `css` has 10 particles. `grasshopper` keeps its 30: 20 did better here and, at 1000",
           "evaluations, not on the suite. `shrinking-box-lm`",
           "has no more descents a stage than the budget holds to their end, of 25 points each.", ""]
 (root / "results/populations.md").write_text("\n".join(lines), encoding="utf-8")

@@ -9,6 +9,7 @@
 #include <map>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "fit/solver.hpp"
@@ -141,6 +142,37 @@ TEST(Convergence, FrogsNeedARandomNumberACoordinate) {
   const double source =
       median_squares("shuffled-frog-leaping", testing::sphere, 4, 4000, {{"componentwise", 0.0}, {"stretch", 1.0}});
   EXPECT_LT(shipped, 1e-6 * source);
+}
+
+// The sphere with every second coordinate of the optimum near an end of its range, where parameters of dampers often
+// are.
+testing::Residuals sphere_near_the_ends(const double* u, std::size_t n) {
+  testing::Residuals out = testing::sphere(u, n);
+  for (std::size_t d = 0; d < n; d += 2) out.value[d] = 10.0 * (u[d] - (d % 4 == 0 ? 0.03 : 0.97));
+  return out;
+}
+
+TEST(Convergence, CrowsAreNotAboveRandomSearchAfterAHundredEvaluations) {
+  for (const auto& [name, objective] : {std::pair<const char*, testing::Objective>{"sphere", testing::sphere},
+                                        {"sphere near the ends", sphere_near_the_ends},
+                                        {"ellipsoid", testing::ellipsoid},
+                                        {"rosenbrock", testing::rosenbrock}}) {
+    for (const std::size_t dimension : {2U, 4U, 6U}) {
+      EXPECT_LE(median_squares("crow-search", objective, dimension, 100),
+                median_squares("random-search", objective, dimension, 100))
+          << name << " of " << dimension;
+    }
+  }
+}
+
+// Crows that stay where their move would leave the box (the source's form) draw together in the middle of it.
+TEST(Convergence, CrowsThatStayMissTheEndsOfTheBox) {
+  const double chance = median_squares("random-search", sphere_near_the_ends, 4, 100);
+  for (const double crows : {10.0, 20.0}) {
+    const double source = median_squares("crow-search", sphere_near_the_ends, 4, 100,
+                                         {{"population", crows}, {"awareness", 0.1}, {"bounds", 0.0}});
+    EXPECT_GT(source, chance) << crows;
+  }
 }
 
 TEST(Convergence, LShadeOnTheEllipsoid) {

@@ -69,7 +69,7 @@ struct Population {
 };
 
 TEST(SmallBudget, APopulationHasTenGenerationsOrAsManyAsItsRuleSays) {
-  for (const Population& expected : {Population{"crow-search", 10, 20, 20},
+  for (const Population& expected : {Population{"crow-search", 5, 20, 20},
                                      {"grasshopper", 10, 30, 30},
                                      {"css", 10, 10, 10},
                                      {"adaptive-css", 10, 20, 20},
