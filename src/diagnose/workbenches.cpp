@@ -12,18 +12,23 @@ constexpr std::size_t quick_samples = 3000;
 constexpr std::size_t quick_recordings = 8;
 
 // The laws of the user's choice, or the base model's own with a note.
-LayoutOptions with_laws(const DiagnoseOptions& options, const Campaign& campaign, std::vector<std::string>& notes) {
+LayoutOptions with_laws(const DiagnoseOptions& options, const Split& split, const Campaign& campaign,
+                        std::vector<std::string>& notes) {
   LayoutOptions layout = options.layout;
   if (!layout.by_current.empty() || !layout.by_frequency.empty()) {
     return layout;
   }
-  layout.by_current = base_laws(options.model, campaign.recordings);
+  layout.by_current = base_laws(options.model, split.fit);
   std::string list;
   for (const auto& [name, order] : layout.by_current) {
     list += (list.empty() ? "" : ",") + fmt::format("{}:{}", name, order);
   }
   if (!list.empty()) {
     notes.push_back("the drive varies and no laws were given: laws in the drive assumed, " + list);
+  } else if (!base_laws(options.model, campaign.recordings).empty()) {
+    notes.emplace_back(
+        "the fitted recordings hold one level of the drive, and those held out another: no law in the drive can be "
+        "found from them, and none is assumed");
   }
   return layout;
 }
@@ -32,7 +37,7 @@ LayoutOptions with_laws(const DiagnoseOptions& options, const Campaign& campaign
 
 Workbenches workbenches_of(const Campaign& campaign, const Split& split, const DiagnoseOptions& options,
                            std::vector<std::string>& notes) {
-  const LayoutOptions layout = with_laws(options, campaign, notes);
+  const LayoutOptions layout = with_laws(options, split, campaign, notes);
   const DataScale scale = scale_of(campaign.recordings);
   ObjectiveOptions objective = options.objective;
   objective.skip_run_in = true;

@@ -64,13 +64,6 @@ void check_known(const std::vector<std::string>& names, const std::string& name,
   }
 }
 
-// `law` is the option with the parameter.
-void refuse_one_level(const DataScale& scale, const std::string& what, const Message& law, int order) {
-  if (order == 0) return;
-  const std::string lack = lack_of_levels(scale, what);
-  if (!lack.empty()) throw OptionError(law + ":" + std::to_string(order) + ": " + lack);
-}
-
 // Of the recordings' scale, where a card is written for 1 kN, 25 mm and 0.3 m/s.
 double factor_of(const Parameter& card, const DataScale& scale) {
   return std::pow(scale.force / 1000.0, card.dimension.force) * std::pow(scale.length / 0.025, card.dimension.length) *

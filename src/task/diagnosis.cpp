@@ -151,7 +151,7 @@ std::set<std::string> parameters_elsewhere(const DiagnoseOptions& options) {
 void check_laws(const Campaign& campaign, DiagnoseOptions& options) {
   const CompositeModel base = make_model(options.model, {});
   const std::set<std::string> elsewhere = parameters_elsewhere(options);
-  const DataScale scale = scale_of(campaign.recordings);
+  const DataScale scale = scale_of_fitted(without_apart(campaign));
   refuse_laws_of_other_model(campaign, options.layout, base, elsewhere);
   refuse_laws_of_one_level(campaign, options.layout, scale);
   add_laws_of(campaign, options.layout);

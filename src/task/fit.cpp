@@ -393,16 +393,6 @@ void refuse_unknown_frequency(const LayoutOptions& layout, const Message& given,
   }
 }
 
-// Of the recordings that laws are spanned over.
-DataScale scale_of_fitted(const Campaign& campaign) {
-  std::vector<std::size_t> fitted;
-  for (std::size_t k = 0; k < campaign.recordings.size(); ++k) {
-    if (campaign.roles[k] != Role::validate) fitted.push_back(k);
-  }
-  const bool all = fitted.empty() || fitted.size() == campaign.recordings.size();
-  return all ? scale_of(campaign.recordings) : scale_of(pick(campaign.recordings, fitted));
-}
-
 }  // namespace
 
 FitData fit_data(Campaign campaign, FitRequest& request) {

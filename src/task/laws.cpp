@@ -18,11 +18,18 @@ struct LawsIn {
   LawOrders orders;
   Option option;  // that gives others
 
-  // The option that gives a parameter no law: "--by pressure=alpha:0".
-  [[nodiscard]] Message without(const std::string& parameter) const {
-    return option + (option == Option::by ? " " + what + "=" : " ") + parameter + ":0";
+  // The option with a parameter: "--by pressure=alpha".
+  [[nodiscard]] Message of(const std::string& parameter) const {
+    return option + (option == Option::by ? " " + what + "=" : " ") + parameter;
   }
 };
+
+std::vector<LawsIn> laws_asked(const LayoutOptions& asked) {
+  std::vector<LawsIn> result = {{"current", asked.by_current, Option::by_current},
+                                {"frequency", asked.by_frequency, Option::by_frequency}};
+  for (const auto& [condition, orders] : asked.by) result.push_back({condition, orders, Option::by});
+  return result;
+}
 
 // Those that add_laws_of would add.
 std::vector<LawsIn> added_laws(const Campaign& campaign, const LayoutOptions& asked) {
@@ -64,16 +71,35 @@ void refuse_laws_of_other_model(const Campaign& campaign, const LayoutOptions& a
   }
 }
 
-void refuse_laws_of_one_level(const Campaign& campaign, const LayoutOptions& asked, const DataScale& scale) {
+DataScale scale_of_fitted(const Campaign& campaign) {
+  std::vector<Recording> fitted;
+  for (std::size_t k = 0; k < campaign.recordings.size(); ++k) {
+    if (campaign.roles[k] != Role::validate) fitted.push_back(campaign.recordings[k]);
+  }
+  return scale_of(fitted.empty() ? campaign.recordings : fitted);
+}
+
+void refuse_laws_of_one_level(const Campaign& campaign, const LayoutOptions& asked, const DataScale& fitted) {
+  const DataScale all = scale_of(campaign.recordings);
+  const auto whose = [&](const std::string& what) {
+    return lack_of_levels(all, what).empty() ? "the recordings that are fitted" : "the recordings";
+  };
+  for (const LawsIn& laws : laws_asked(asked)) {
+    // Else the layout refuses it, once the parameter is known.
+    if (!lack_of_levels(all, laws.what).empty()) continue;
+    for (const auto& [parameter, order] : laws.orders) {
+      refuse_one_level(fitted, laws.what, laws.of(parameter), order, whose(laws.what));
+    }
+  }
   for (const LawsIn& laws : added_laws(campaign, asked)) {
-    const std::string lack = lack_of_levels(scale, laws.what);
+    const std::string lack = lack_of_levels(fitted, laws.what, whose(laws.what));
     if (lack.empty()) continue;
     for (const auto& [parameter, order] : laws.orders) {
       if (order == 0) continue;
       const LineOfFile place = place_of(campaign, laws.what, parameter);
       throw OptionError(
           place.file, place.line,
-          fmt::format("a law in the {} of '{}', and {}, or ", laws.what, parameter, lack) + laws.without(parameter));
+          fmt::format("a law in the {} of '{}', and {}, or ", laws.what, parameter, lack) + laws.of(parameter) + ":0");
     }
   }
 }

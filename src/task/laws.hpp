@@ -17,8 +17,11 @@ void add_laws_of(const Campaign& campaign, LayoutOptions& asked);
 void refuse_laws_of_other_model(const Campaign& campaign, const LayoutOptions& asked, const CompositeModel& model,
                                 const std::set<std::string>& others = {});
 
-// Throws InputError where add_laws_of would add a law in what the recordings of a scale hold one value of, with its
-// line.
-void refuse_laws_of_one_level(const Campaign& campaign, const LayoutOptions& asked, const DataScale& scale);
+// Of the recordings that are fitted, which laws are spanned over: not those that campaign.toml holds out.
+DataScale scale_of_fitted(const Campaign& campaign);
+
+// Throws InputError where a law that is asked for, or that add_laws_of would add (with its line), follows what the
+// recordings hold one value of, by the scale of those that are fitted.
+void refuse_laws_of_one_level(const Campaign& campaign, const LayoutOptions& asked, const DataScale& fitted);
 
 }  // namespace hysteron

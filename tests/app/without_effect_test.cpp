@@ -345,7 +345,9 @@ TEST_F(WithoutEffect, ALawOfCampaignTomlInWhatDoesNotChangeIsToldByItsLine) {
   // Of other recordings than those that judge.
   write(folder_ / "one/s.csv", testing::csv(1.0, 0.7));
   declare("[by_current]\nc0 = 1\n", "[[recording]]\nfile = \"s.csv\"\nrole = \"validate\"\n");
-  refused(fit_of("one", {}), current);
+  refused(fit_of("one", {}),
+          "one/campaign.toml:4: a law in the current of 'c0', and the recordings that are fitted hold no current or "
+          "voltage, or only one level of it, expected at least two levels, or --by-current c0:0");
 }
 
 // Laws are left out of the models that do not have their parameter.
