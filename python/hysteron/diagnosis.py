@@ -4,7 +4,7 @@ import json
 
 from . import _hysteron, _table, _words
 from .model import Model, as_typed, refuse_numbers, save_files, warnings_of, with_campaign
-from .recordings import as_recordings
+from .recordings import as_recordings, taken_beside
 
 
 class Diagnosis:
@@ -52,7 +52,8 @@ def diagnose(recordings, model=None, *, by_current=None, by_frequency=None, by=N
     laws that the base law is set against, [] takes it for right, default those that list themselves; most_effects: that
     the augmented model may have. The rest as in fit. Ctrl-C ends it; nothing is kept of an unfinished diagnosis."""
     by = _words.laws(by)
-    recordings = as_recordings(recordings, need_force=True, conditions=by)
+    recordings = as_recordings(recordings, need_force=True, conditions=by,
+                               taken=taken_beside(model, by_current, by_frequency, by))
     refuse_numbers(recordings, "diagnose")
     options = {
         **_words.hypothesis(model, by_current, by_frequency, by, effects),

@@ -8,7 +8,7 @@ import numpy
 
 from . import _hysteron, _table, _words
 from ._hysteron import InputError
-from .recordings import as_recording, as_recordings
+from .recordings import as_recording, as_recordings, taken_beside
 
 
 class Score(typing.NamedTuple):
@@ -277,7 +277,8 @@ def fit(recordings, model=None, *, by_current=None, by_frequency=None, by=None, 
     progress: a function that is called with a Progress now and then. Ctrl-C, or an exception of `progress`, ends it."""
     by = _words.laws(by)
     # As the program reads them: of a mass the force may be what excites it, or missing.
-    recordings = as_recordings(recordings, need_force=response is None, conditions=by, motion_only=response is not None)
+    recordings = as_recordings(recordings, need_force=response is None, conditions=by,
+                               taken=taken_beside(model, by_current, by_frequency, by), motion_only=response is not None)
     refuse_numbers(recordings, "fit")
     if response is not None:
         defaults = {"stiffness": 0.0, "damping": 0.0, "interpolation": "cubic", "excitation": "auto"}

@@ -2,6 +2,7 @@
 
 import collections.abc
 import os
+import typing
 
 import numpy
 
@@ -137,7 +138,26 @@ class Recordings(collections.abc.Sequence):
         return [(one._core, one.role) for one in self._recordings]
 
 
-def as_recordings(value, need_force=False, conditions=(), **read):
+class Taken(typing.NamedTuple):
+    """What is taken of a campaign.toml beside its recordings; a warning names what of it is missed."""
+
+    model: bool = True
+    laws: bool = True
+    other_laws: tuple = ()  # "current", "frequency" and conditions whose laws are given
+    roles: bool = True
+    given_later: bool = False  # model and laws, to fit or diagnose
+
+
+def taken_beside(model, by_current, by_frequency, by):
+    """What a fit takes beside what it is given."""
+    given = {"current": by_current, "frequency": by_frequency}
+    return Taken(model=not model, other_laws=(*(name for name, laws in given.items() if laws), *by))
+
+
+RECORDINGS_ALONE = Taken(model=False, laws=False, roles=False)
+
+
+def as_recordings(value, need_force=False, conditions=(), taken=RECORDINGS_ALONE, **read):
     """Of whatever a function is given: recordings, one or several, or paths of them, read with the conditions and what
     else load() takes."""
     if isinstance(value, Recordings):
@@ -145,14 +165,14 @@ def as_recordings(value, need_force=False, conditions=(), **read):
     elif isinstance(value, Recording):
         result = Recordings([value])
     elif isinstance(value, (str, os.PathLike)):
-        result = load(value, conditions=conditions, **read)
+        result = _load([value], taken, conditions=conditions, **read)
     else:
         try:
             items = list(value)
         except TypeError:
             items = [value]
         if items and all(isinstance(one, (str, os.PathLike)) for one in items):
-            result = load(*items, conditions=conditions, **read)
+            result = _load(items, taken, conditions=conditions, **read)
         else:
             for one in items:
                 if not isinstance(one, Recording):
@@ -190,6 +210,12 @@ def load(*data, columns=None, group="", skip=0, keep_samples=_hysteron.default_k
     Model.respond; conditions: columns that laws are to follow (`by` of fit),
     ["pressure"]; at: {"pressure": "2.1 bar"} of what the laws of a model follow and no column holds, to simulate and
     score; without_time=True: the time may be missing, for laws that do not depend on the rate. Returns Recordings."""
+    return _load(data, Taken(given_later=True), columns, group, skip, keep_samples, motion_only, excitation, conditions, at,
+                 without_time)
+
+
+def _load(data, taken, columns=None, group="", skip=0, keep_samples=_hysteron.default_keep_samples, motion_only=False,
+          excitation=False, conditions=(), at=None, without_time=False):
     paths = [_words.path(one) for one in data]
     columns = {str(key): str(value) for key, value in (columns or {}).items()}
     skip = _words.whole("skip", skip, 0, 100000)
@@ -197,7 +223,7 @@ def load(*data, columns=None, group="", skip=0, keep_samples=_hysteron.default_k
     at = {str(key): str(value) for key, value in (at or {}).items()}
     cores, roles, model, by_current, by_frequency, by, remarks = _hysteron.load(
         paths, columns, group, skip, keep_samples, required(motion_only, excitation),
-        [*_words.names("conditions", conditions), *at], at, bool(without_time))
+        [*_words.names("conditions", conditions), *at], at, bool(without_time), taken)
     _words.warn(text for text, _ in remarks)
     command = _words.Command()
     for channel in sorted(columns):

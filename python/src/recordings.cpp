@@ -8,6 +8,7 @@
 #include <optional>
 #include <set>
 #include <span>
+#include <tuple>
 
 #include "arguments.hpp"
 #include "core/error.hpp"
@@ -73,10 +74,21 @@ Required required_of(const std::string& word) {
   return word == "excitation" ? Required::nothing : word == "motion" ? Required::motion : Required::motion_and_force;
 }
 
+// Model, laws, conditions whose laws are given, roles, whether model and laws may be given later.
+using Taken = std::tuple<bool, bool, std::vector<std::string>, bool, bool>;
+
+TakenOfCampaign taken_of(const Taken& words) {
+  TakenOfCampaign taken;
+  std::vector<std::string> given;
+  std::tie(taken.model, taken.laws, given, taken.roles, taken.given_later) = words;
+  taken.other_laws = {given.begin(), given.end()};
+  return taken;
+}
+
 py::tuple load(const std::vector<std::string>& data, const std::map<std::string, std::string>& columns,
                const std::string& group, int skip, std::size_t keep_samples, const std::string& required,
                const std::vector<std::string>& conditions, const std::map<std::string, std::string>& at,
-               bool without_time) {
+               bool without_time, const Taken& taken) {
   ReadOptions options;
   options.conditions = conditions_named(conditions);
   options.numbers = numbers_of(at);
@@ -88,7 +100,7 @@ py::tuple load(const std::vector<std::string>& data, const std::map<std::string,
   Loaded loaded;
   {
     const py::gil_scoped_release released;
-    loaded = load_with_remarks(data, options, required_of(required));
+    loaded = load_with_remarks(data, options, required_of(required), taken_of(taken));
   }
   return tuple_of(std::move(loaded));
 }

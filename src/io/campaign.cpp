@@ -23,6 +23,7 @@
 #include "io/plausible.hpp"
 #include "io/sha256.hpp"
 #include "io/text.hpp"
+#include "io/unread_campaign.hpp"
 
 namespace hysteron {
 namespace {
@@ -124,7 +125,8 @@ std::string nearest_beside(const fs::path& folder, const std::string& file) {
   for (fs::directory_iterator at(folder / inside, code), end; !code && at != end && names.size() < most;
        at.increment(code)) {
     // Names begin alike; others are near by their ending only.
-    const bool alike = !name.empty() && at->path().filename().string().front() == name.front();
+    const std::string other = lower_case(at->path().filename().string());
+    const bool alike = !name.empty() && other.front() == lower_case(name).front();
     if (alike && is_recording(at->path()) && !is_folder(at->path())) {
       names.push_back((inside / at->path().filename()).generic_string());
     }
@@ -151,78 +153,6 @@ void tell_misnamed_toml(const fs::path& folder, const ReadOptions& options) {
   const std::string name = *std::ranges::min_element(names);
   options.remark({valid_utf8((folder / name).string()), Remark::Kind::dialect, "misnamed campaign.toml",
                   "it is not read, and its roles and laws are not taken: expected the name campaign.toml"});
-}
-
-// What of a campaign.toml would be taken were its folder given and not these files of it; empty where nothing would.
-std::vector<std::string> not_taken_of(const CampaignFile& declared, const std::vector<std::string>& files, bool alone,
-                                      const ReadOptions& options, const TakenOfCampaign& taken) {
-  std::vector<const CampaignEntry*> entries;
-  for (const CampaignEntry& entry : declared.entries) {
-    if (std::ranges::find(files, entry.file) != files.end()) entries.push_back(&entry);
-  }
-  // With their folder such files are not read at all.
-  if (entries.empty() && !declared.entries.empty()) return {};
-  const auto of_entries = [&](const auto& has) {
-    return std::ranges::any_of(entries, [&](const CampaignEntry* entry) { return has(*entry); });
-  };
-  const bool laws =
-      std::ranges::any_of(declared.lines_of_laws, [&](const auto& law) { return taken.laws_in(law.first.first); });
-  // A model that is identified needs of the numbers those that its laws follow, without which it is refused, and what
-  // a recording without a column of it is taken to be without.
-  const auto is_missed = [&](const auto& number) {
-    const std::string& name = number.first;
-    const bool channel = name == "current" || name == "voltage" || name == "temperature";
-    return !options.numbers.contains(name) && (taken.laws || channel);
-  };
-  std::vector<std::string> result;
-  if (taken.model && !declared.model.empty()) result.emplace_back("model");
-  if (laws) result.emplace_back("laws");
-  if (taken.roles && of_entries([](const CampaignEntry& entry) { return entry.role == Role::validate; })) {
-    result.emplace_back("roles");
-  }
-  // One start tells nothing of what was before it.
-  if (!alone && of_entries([](const CampaignEntry& entry) { return entry.start.has_value(); })) {
-    result.emplace_back("starts");
-  }
-  if (of_entries([&](const CampaignEntry& entry) { return std::ranges::any_of(entry.numbers, is_missed); })) {
-    result.emplace_back("numbers");
-  }
-  return result;
-}
-
-// The campaign.toml beside recordings that are given without their folder.
-void tell_unread_toml(const std::vector<std::string>& data, const ReadOptions& options, const TakenOfCampaign& taken) {
-  if (!options.remark) return;
-  std::set<fs::path> read;
-  std::map<fs::path, std::vector<std::string>> files;  // by folder
-  for (const std::string& argument : data) {
-    const fs::path path(argument);
-    if (is_folder(path)) {
-      read.insert(absolute_folder(path));
-    } else {
-      files[path.parent_path()].push_back(path.filename().generic_string());
-    }
-  }
-  for (const auto& [folder, names] : files) {
-    const fs::path toml = folder / "campaign.toml";
-    std::error_code code;
-    if (read.contains(absolute_folder(folder)) || !fs::is_regular_file(toml, code)) continue;
-    std::string what;
-    try {
-      const std::vector<std::string> parts =
-          not_taken_of(read_campaign_file(toml), names, data.size() == 1, options, taken);
-      if (parts.empty()) continue;
-      for (const std::string& part : parts) {
-        what += (what.empty() ? ", and its " : &part == &parts.back() ? " and " : ", ") + part;
-      }
-      what += parts == std::vector<std::string>{"model"} ? " is not taken" : " are not taken";
-    } catch (const InputError&) {  // nor could it be
-    }
-    const std::string file = valid_utf8(toml.string());
-    options.remark({file, Remark::Kind::dialect, "unread " + file,
-                    "it is not read, as recordings beside it are given one by one" + what +
-                        ": expected the folder in their place, for what it says of them"});
-  }
 }
 
 void add_folder(const fs::path& folder, const ReadOptions& options, const TakenOfCampaign& taken, Campaign& campaign,
@@ -375,14 +305,23 @@ void tell_two_starts(const Recording& recording, const ZonedStart& own, const Zo
                       " by the file itself, expected one start: that of campaign.toml is taken"});
 }
 
+// Both are in SI, and "2.3 bar" and "230 kPa" differ there by their rounding.
+bool is_one_number(const ConditionNumber& one, const ConditionNumber& other) {
+  constexpr double rounding = 1e-12;
+  const double from_kelvin = one.unit == "degC" ? 273.15 : 0.0;
+  const double size = std::max(std::fabs(one.value), std::fabs(other.value)) + from_kelvin;
+  return std::fabs(one.value - other.value) <= rounding * size;
+}
+
 // A number that is given for all recordings goes before those of campaign.toml.
 void tell_two_numbers(const Item& item, const ReadOptions& options) {
   if (!options.remark) return;
   for (const auto& [name, number] : options.numbers) {
     const auto declared = item.numbers.find(name);
-    if (declared == item.numbers.end() || declared->second.value == number.value) continue;
+    if (declared == item.numbers.end() || is_one_number(declared->second, number)) continue;
     const auto text = [](const ConditionNumber& one) {
-      return number_text(one.value) + (one.unit.empty() ? "" : " " + one.unit);
+      constexpr int digits_that_differ = 6;
+      return number_text(one.value, digits_that_differ) + (one.unit.empty() ? "" : " " + one.unit);
     };
     options.remark({valid_utf8(item.name), Remark::Kind::implausible, "two numbers " + name,
                     "its " + name + " is " + text(declared->second) + " by line " +
@@ -449,19 +388,27 @@ Campaign load_campaign(const std::vector<std::string>& data, const ReadOptions& 
   if (data.empty()) throw InputError("no recordings given, expected files or folders of them");
   Campaign campaign;
   std::vector<Item> items;
+  std::vector<GivenRecording> given;
+  std::set<fs::path> read;  // absolute folders
   for (const auto& argument : data) {
     const fs::path path(argument);
     if (is_folder(path)) {
+      const std::size_t before = items.size();
       add_folder(path, options, taken, campaign, items);
+      read.insert(absolute_folder(path));
+      std::error_code code;
+      if (fs::exists(path / "campaign.toml", code)) continue;
+      for (std::size_t k = before; k < items.size(); ++k) given.push_back({items[k].path, GivenBy::folder});
     } else {
       // What is not there is told before anything is read.
       std::error_code code;
       if (!fs::exists(path, code)) (void)InputFile(path);
       items.push_back({path, path.filename().string(), absolute_folder(path.parent_path()), Role::unassigned});
+      given.push_back({path, GivenBy::name});
     }
   }
   refuse_repeats(items);
-  tell_unread_toml(data, options, taken);
+  tell_unread_campaigns(given, read, options, taken);
   tell_apart(items);
   ReadOptions of_each = options;
   of_each.keep_samples = limit_of_each(items, options.keep_samples);

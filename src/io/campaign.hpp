@@ -20,6 +20,7 @@ struct TakenOfCampaign {
   bool laws = true;
   std::set<std::string> other_laws = {};  // not those in these, "current", "frequency" or a condition
   bool roles = true;
+  bool given_later = false;  // model and laws may still be given to what works with the recordings
 
   [[nodiscard]] bool laws_in(const std::string& what) const { return laws && !other_laws.contains(what); }
 };
@@ -30,8 +31,8 @@ inline const TakenOfCampaign recordings_alone{.model = false, .laws = false, .ro
 // Every argument is a recording or a folder: its recordings in bytewise order of name (not those of its
 // subfolders), or those its campaign.toml lists, with their roles. Recording::file is the name relative to the folder;
 // where two are the same, the names of parent folders go before it. Campaign files of several folders are merged and
-// must not contradict each other. The campaign.toml beside a recording that is an argument itself is not read, which is
-// remarked where anything would be taken of it. Everything wrong is an InputError.
+// must not contradict each other. A campaign.toml that says something of recordings which are given without its folder
+// is not read, which is remarked (io/unread_campaign.hpp). Everything wrong is an InputError.
 [[nodiscard]] Campaign load_campaign(const std::vector<std::string>& data, const ReadOptions& options = {},
                                      const TakenOfCampaign& taken = {});
 

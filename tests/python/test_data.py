@@ -115,6 +115,33 @@ class Data(InFolder):
         self.assertEqual([one["file"] for one in model.json["fitted_on"]], ["r0.csv", "r2.csv"])
         self.assertIsNotNone(model.nrmse_heldout)
 
+    def test_a_campaign_file_that_is_not_read(self):
+        (self.folder / "data" / "campaign.toml").write_text(
+            'schema = "hysteron.campaign/1"\nmodel = "bouc-wen"\n[by_current]\nc0 = 1\n')
+        files = ["data/r0.csv", "data/r2.csv"]
+        not_taken = "its model and laws are not taken: expected the folder in their place, for what it says of them"
+
+        def said(work):
+            with warnings.catch_warnings(record=True) as caught:
+                warnings.simplefilter("always")
+                work()
+            return [str(one.message) for one in caught if "campaign.toml: it is not read" in str(one.message)]
+
+        told = said(lambda: hysteron.load(*files))
+        self.assertEqual(len(told), 1)
+        self.assertTrue(told[0].endswith(f"{not_taken}, or its model and laws given to fit or diagnose"), told)
+        loaded = []
+        said(lambda: loaded.append(hysteron.load(*files)))
+        model = []
+        given = {"by_current": {"c0": 1}, "budget": 50}
+        self.assertEqual(said(lambda: model.append(hysteron.fit(files, "viscous", **given))), [])
+        told = said(lambda: hysteron.fit(files, "viscous", budget=50))
+        self.assertEqual(len(told), 1)
+        self.assertIn("its laws are not taken", told[0])
+        # A model that is identified takes neither.
+        self.assertEqual(said(lambda: model[0].score(files)), [])
+        self.assertEqual(said(lambda: model[0].simulate("data/r0.csv")), [])
+
     def test_remarks_are_warnings(self):
         time, displacement, force, _ = sine(2.0, 0.01, 0.0)
         with self.assertWarnsRegex(hysteron.HysteronWarning, "displacement"):
