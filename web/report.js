@@ -24,8 +24,9 @@ function brief(v) {
 
 // Counts with narrow spaces between thousands.
 const count = (v) => (isNumber(v) ? String(v).replace(/\B(?=(\d{3})+(?!\d))/g, "\u202f") : "–");
-// A sentence written by the program, its powers of ten as a reader writes them.
-const prose = (text) => String(text).replace(/(\d)e([+-])0*(\d+)/g, (_, digit, sign, power) => `${digit} × 10${superscript((sign === "-" ? "-" : "") + power)}`);
+// A sentence written by the program, its powers of ten and of units as a reader writes them.
+const prose = (text) => String(text).replace(/(\d)e([+-])0*(\d+)/g, (_, digit, sign, power) => `${digit} × 10${superscript((sign === "-" ? "-" : "") + power)}`)
+  .replace(/([A-Za-z])\^(-?\d+)/g, (_, letter, power) => letter + superscript(power));
 // What there is much of is put on the page in parts, the next one when the reader asks for it: `make(item)` gives a node
 // of `host`. Returns the node to stand below the host.
 function inParts(host, items, atOnce, what, make, added) {
@@ -900,11 +901,14 @@ function contrastPlot(c) {
   const [lo, hi] = padded(extent([rows.map((r) => r.value), [0, low, high]]));
   const at = (v) => (left + ((v - lo) / (hi - lo)) * (width - left - right)).toFixed(1);
   const bottom = top + pitch * rows.length;
+  const ending = (/\.\w+$/.exec(rows[0].file) || [""])[0];
+  const same = rows.every((r) => r.file.endsWith(ending));
+  const label = (file) => (same && ending ? file.slice(0, -ending.length) : file);
   const cut = (name) => (name.length > 16 ? `…${name.slice(-15)}` : name);
   const marks = [
     `<rect class="band" x="${at(low)}" y="${top}" width="${Math.max(1, at(high) - at(low)).toFixed(1)}" height="${bottom - top}"/>`,
     ...linearTicks(lo, hi, 3).map(([v, text]) => `<path class="grid${v === 0 ? " zero" : ""}" d="M${at(v)} ${top}V${bottom}"/><text class="tick" x="${at(v)}" y="${bottom + 14}" text-anchor="middle">${esc(text)}</text>`),
-    ...rows.map((r, k) => `<text x="${left - 8}" y="${top + (k + 0.5) * pitch}" dy="0.35em" text-anchor="end">${esc(cut(r.file))}</text><circle class="dot" cx="${at(r.value)}" cy="${top + (k + 0.5) * pitch}" r="3.5"><title>${esc(r.file)}: ${fmt(r.value, 3)}</title></circle>`),
+    ...rows.map((r, k) => `<text x="${left - 8}" y="${top + (k + 0.5) * pitch}" dy="0.35em" text-anchor="end">${esc(cut(label(r.file)))}</text><circle class="dot" cx="${at(r.value)}" cy="${top + (k + 0.5) * pitch}" r="3.5"><title>${esc(r.file)}: ${fmt(r.value, 3)}</title></circle>`),
     `<text class="tick" x="${(left + width - right) / 2}" y="${height - 4}" text-anchor="middle">${esc(c.unit === "1" ? "share" : unitText(c.unit))}</text>`,
   ];
   return el("figure", { class: "plot contrast" }, el("figcaption", {}, `${capital(c.what)}, by recording; band: all together ± 2 standard errors`),
@@ -1146,8 +1150,8 @@ function provenanceSection() {
 
 // ------------------------------------------------------------------------------------------------------------------ page
 
-// The paragraph of a diagnosis, what is missing first and the next recording last. A record without one has its verdict
-// and names told.
+// The summary of a diagnosis: what is missing, what is known of it, sentence by sentence, and the next recording. A
+// record without one has its verdict and names told.
 function summaryLines() {
   const d = report.diagnosis;
   const sentences = list(d && d.summary);
@@ -1157,8 +1161,11 @@ function summaryLines() {
     return [el("p", { class: "verdict" }, `${verdictWords[d.verdict] || d.verdict} ${told}`),
       d.next_experiment ? el("p", { class: "verdict" }, `Next recording: ${d.next_experiment}.`) : null];
   }
-  return [el("p", { class: "verdict" }, el("strong", {}, prose(sentences[0])), " ", prose(sentences.slice(1, -1).join(" "))),
-    el("p", { class: "verdict" }, prose(sentences[sentences.length - 1]))];
+  const [first, ...others] = sentences;
+  const next = others.pop();
+  return [el("p", { class: "verdict" }, el("strong", {}, prose(first))),
+    others.length ? el("ul", { class: "verdict" }, others.map((sentence) => el("li", {}, prose(sentence)))) : null,
+    next ? el("p", { class: "verdict" }, prose(next)) : null];
 }
 
 function verdictLine() {
