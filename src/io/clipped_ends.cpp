@@ -97,6 +97,9 @@ std::optional<Plateau> plateau_of(const std::vector<double>& time, const std::ve
   const double low = result.level - 0.5 * result.width;
   const double high = result.level + 0.5 * result.width;
   const double further = std::max(widths_before * result.width, near_the_end * span);
+  // A force of friction has no more than its two levels, and its jumps between few samples count as noise: so wide a
+  // plateau leaves nothing before it to be compared with.
+  if (!(low - further > sorted.front())) return std::nullopt;
   const auto count = [&](double from, double to) {
     return static_cast<double>(std::ranges::upper_bound(sorted, to) - std::ranges::lower_bound(sorted, from));
   };
@@ -176,7 +179,22 @@ bool drives_differ(const std::vector<Recording>& recordings, const std::vector<R
   return high - low > another_drive * high;
 }
 
-// Whether the rod goes on, the way that it went, where most plateaus end.
+// Friction reaches its end in every recording, even where too few samples show that it rests there.
+bool some_stay_short(const std::vector<Recording>& recordings, const std::vector<Resting>& resting, double sign) {
+  double level = resting.front().plateau.level;
+  double width = 0.0;
+  for (const Resting& one : resting) {
+    level = std::min(level, one.plateau.level);
+    width = std::max(width, one.plateau.width);
+  }
+  return std::ranges::any_of(recordings, [&](const Recording& one) {
+    const auto [low, high] = std::ranges::minmax(one.force);
+    return (sign > 0.0 ? high : -low) < level - width;
+  });
+}
+
+// Whether the rod goes on, the way that it went, where most plateaus are left: between the last sample at the level and
+// the first one out of it, so that coarse samples do not hide that it turned round.
 bool rod_goes_on(const std::vector<Recording>& recordings, const std::vector<Resting>& resting) {
   std::size_t on = 0;
   std::size_t all = 0;
@@ -184,9 +202,12 @@ bool rod_goes_on(const std::vector<Recording>& recordings, const std::vector<Res
     const std::vector<double>& velocity = recordings[one.recording].velocity;
     const double enough = goes_on * peak_of(velocity);
     for (const Run& run : one.plateau.runs) {
-      const double middle = velocity[(run.first + run.end) / 2];
+      if (run.end == velocity.size()) continue;
+      const double way = std::copysign(1.0, velocity[(run.first + run.end) / 2]);
+      const double last = way * velocity[run.end - 1];
+      const double next = way * velocity[run.end];
       ++all;
-      on += std::copysign(1.0, middle) * velocity[run.end - 1] > enough ? 1 : 0;
+      on += next > 0.0 && 0.5 * (last + next) > enough ? 1 : 0;
     }
   }
   return 2 * on > all;
@@ -263,8 +284,8 @@ std::vector<ClippedEnd> ends_of_force(const std::vector<Recording>& recordings) 
     std::vector<Resting> resting = resting_at_one_end(recordings, {&Recording::force, sign});
     if (resting.empty()) continue;
     // Friction rests in all recordings.
-    const bool in_some = 2 * resting.size() <= recordings.size() ||
-                         (resting.size() < recordings.size() && drives_differ(recordings, resting));
+    const bool in_some = some_stay_short(recordings, resting, sign) &&
+                         (2 * resting.size() <= recordings.size() || drives_differ(recordings, resting));
     if (!in_some && !rod_goes_on(recordings, resting)) continue;
     ends.push_back(end_of(resting, sign));
     alone = std::move(resting);

@@ -19,7 +19,12 @@ constexpr double more_often = 4.0;
 // Noise is told by so many differences. Every order of them tells the same deviation of it, of a smooth channel the
 // higher one tells less (io/held_ends.cpp).
 constexpr std::size_t fewest_differences = 32;
+// Of fewer samples from end to end most sixth differences reach over the middle, where a reversal is roughest.
+constexpr std::size_t shortest_run = 12;
 constexpr double white = 0.85;
+// Noise is of one size everywhere: half of its differences are twice as large as a quarter of them. A reversal between
+// few samples looks as rough, and its sizes go over decades.
+constexpr double most_uneven = 4.0;
 // It is larger than a step of the converter, which would let a channel rest at one value, and than this part of the
 // span: digits and solvers leave less, a load cell more.
 constexpr double least_of_span = 1e-4;
@@ -58,6 +63,7 @@ std::vector<double> differences_between_ends(const std::vector<double>& channel,
   std::vector<double> result;
   std::vector<double> run;
   const auto close_run = [&] {
+    if (run.size() < shortest_run) run.clear();
     for (std::size_t k = 0; k < order && !run.empty(); ++k) {
       for (std::size_t n = 0; n + 1 < run.size(); ++n) run[n] = run[n + 1] - run[n];
       run.pop_back();
@@ -76,10 +82,17 @@ std::vector<double> differences_between_ends(const std::vector<double>& channel,
   return result;
 }
 
+bool is_of_one_size(std::vector<double> differences) {
+  std::ranges::transform(differences, differences.begin(), [](double one) { return std::fabs(one); });
+  std::ranges::sort(differences);
+  return differences[differences.size() / 2] <= most_uneven * differences[differences.size() / 4];
+}
+
 // The divisors are the sums of squares of the binomial coefficients.
 bool is_noisy_between_ends(const std::vector<double>& values) {
   std::vector<double> sixth = differences_between_ends(values, values, 6);
   if (sixth.size() < fewest_differences) return false;
+  if (!is_of_one_size(sixth)) return false;
   const double noise = robust_deviation(std::move(sixth)) / std::sqrt(924.0);
   const double of_fourth = robust_deviation(differences_between_ends(values, values, 4)) / std::sqrt(70.0);
   const double step = std::max(channel_quantum(values), smallest_step(values));

@@ -32,7 +32,7 @@ double viscous(double displacement, double velocity, double current) {
 // 4 s at 500 Hz, of the force noise of 1 N before it ends and of 0.5 N behind, of the displacement 1 um.
 std::vector<Recording> campaign_of(const Force& force, const Ends& force_end, const Ends& displacement_end = whole) {
   std::vector<Recording> result;
-  for (const Test& test : tests) {
+  for (const auto& test : tests) {
     const Stream noise(result.size());
     Recording one;
     one.drive_kind = DriveKind::current;
@@ -83,6 +83,53 @@ TEST(ClippedEnds, AForceThatYieldsAtOneLevelIsWhole) {
   const auto by_current = [](double, double v, double i) { return (100.0 + 300.0 * i) * std::tanh(1e3 * v); };
   EXPECT_TRUE(clipping_of(campaign_of(by_current, whole)).empty());
   EXPECT_TRUE(clipping_of(campaign_of(viscous, whole)).empty());
+}
+
+// Of few samples and no noise the jumps of friction are its roughness, and the last sample at its level is at full
+// speed. Three recordings of another setting do not make the others saturate.
+TEST(ClippedEnds, FrictionThatIsSimulatedIsWhole) {
+  const std::vector<Force> laws = {
+      [](double, double v, double) { return v > 0.0 ? 200.0 : -200.0; },
+      [](double, double v, double) { return 200.0 * std::tanh(1e3 * v); },
+      [](double, double v, double i) { return (i > 0.6 ? 200.0 : 120.0) * std::tanh(1e3 * v) + 5.0 * v; }};
+  for (std::size_t law = 0; law < laws.size(); ++law) {
+    for (const double samples : {13.0, 17.0, 20.0, 50.0, 100.0}) {
+      for (const double noise : {0.0, 1e-3, 0.5}) {
+        std::vector<Recording> recordings;
+        for (const auto& test : tests) {
+          const Stream stream(recordings.size());
+          Recording one;
+          one.drive_kind = DriveKind::current;
+          for (std::uint64_t n = 0; n < static_cast<std::uint64_t>(8 * samples); ++n) {
+            const double phase = 2.0 * std::numbers::pi * static_cast<double>(n) / samples + 0.1;
+            const double speed = test.amplitude * 2.0 * std::numbers::pi * test.frequency;
+            one.time.push_back(static_cast<double>(n) / samples / test.frequency);
+            one.displacement.push_back(test.amplitude * std::sin(phase));
+            one.velocity.push_back(speed * std::cos(phase));
+            one.force.push_back(laws[law](one.displacement.back(), one.velocity.back(), test.current) +
+                                noise * stream.normal(n));
+            one.drive.push_back(test.current);
+          }
+          recordings.push_back(one);
+        }
+        EXPECT_TRUE(clipping_of(recordings).empty()) << law << " " << samples << " " << noise;
+      }
+    }
+  }
+}
+
+// Without noise as well.
+TEST(ClippedEnds, OfAForceWithoutNoise) {
+  std::vector<Recording> recordings = campaign_of(viscous, whole);
+  for (Recording& one : recordings) {
+    for (std::size_t n = 0; n < one.size(); ++n) {
+      const double x = one.displacement[n];
+      one.force[n] = std::clamp(viscous(x, one.velocity[n], one.drive[n]), -150.0, 150.0);
+    }
+  }
+  const auto found = clipping_of(recordings);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found.front().ends.size(), 2U);
 }
 
 // A limit of one direction with a void that is filled without force on the way back.

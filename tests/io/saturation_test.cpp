@@ -84,6 +84,23 @@ TEST(Saturation, OfAForceThatIsCutWithItsNoise) {
   }
 }
 
+// The corner between few samples is as rough as noise, and not everywhere.
+TEST(Saturation, NoneOfAFrictionThatIsSimulatedWithoutNoise) {
+  for (const int samples : {50, 100, 200}) {
+    for (const int periods : {3, 8, 20}) {
+      Recording one;
+      for (int n = 0; n < samples * periods; ++n) {
+        const double phase = 2.0 * std::numbers::pi * n / samples + 0.1;
+        one.time.push_back(static_cast<double>(n) / samples);
+        one.displacement.push_back(amplitude * std::sin(phase));
+        one.force.push_back(200.0 * std::tanh(2.0 * std::numbers::pi * amplitude * std::cos(phase) / 1e-3));
+      }
+      one.velocity = derive_velocity(one.time, one.displacement);
+      EXPECT_TRUE(saturated_ends_of_force(one).empty()) << samples << " " << periods;
+    }
+  }
+}
+
 // It is in the remark on the file.
 TEST(Saturation, IsAFlatEnd) {
   const Recording cut = damper(4.0, cut_at(-455.0, 455.0));
