@@ -20,8 +20,8 @@ bool varies(const std::vector<double>& drive);
 // Whether it rises and falls, each as varies() asks.
 bool returns(const std::vector<double>& drive);
 
-// How many values a device was driven at: such as differ by less than 2 % of the largest size are one, since nobody sets
-// a current more exactly. 0 for none.
+// How many values a device was driven at: such as differ by less than 2 % of the largest size are one, since nobody
+// sets a current more exactly. 0 for none.
 std::size_t count_levels(std::vector<double> values);
 
 // Its mean where it does not vary; else each sample is that of a parabola through up to 17 around it, as far as

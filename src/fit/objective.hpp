@@ -1,8 +1,8 @@
 // The one objective of all identification: NRMSE of the simulated force over the recordings.
 //   cost = sqrt( mean over recordings of NRMSE_r^2 ),  NRMSE_r = RMSE_r / normaliser_r
 // (or pooled over samples). Batches are the only evaluation path: packs of eight candidates, or two of them side by
-// side, threads over packs and recordings, sums in time order per candidate, so that results do not depend on threads or
-// company.
+// side, threads over packs and recordings, sums in time order per candidate, so that results do not depend on threads
+// or company.
 #pragma once
 
 #include <functional>

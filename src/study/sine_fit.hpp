@@ -15,7 +15,8 @@ struct SineFit {
   double rms;        // m, of what the sine leaves
 };
 
-// Least squares over the displacement within `budget` evaluations. Throws InputError for a recording without a whole period.
+// Least squares over the displacement within `budget` evaluations. Throws InputError for a recording without a whole
+// period.
 [[nodiscard]] SineFit fit_sine(const Recording& recording, std::size_t budget = 2000);
 
 // The recording with displacement, velocity and acceleration of the sine about zero in place of the recorded ones.

@@ -61,7 +61,8 @@ TEST_F(Completion, OfFishAndZshKnowsTheSame) {
                            "__fish_seen_subcommand_from generate; and not", "-f -a 'models solvers effects"}) {
     EXPECT_NE(fish.find(line), std::string::npos) << line;
   }
-  EXPECT_NE(run({"completion", "zsh"}).out.find("list|--help|--json|--quiet) words=\"models solvers"), std::string::npos);
+  EXPECT_NE(run({"completion", "zsh"}).out.find("list|--help|--json|--quiet) words=\"models solvers"),
+            std::string::npos);
 }
 
 }  // namespace
