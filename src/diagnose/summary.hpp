@@ -1,4 +1,4 @@
-// The paragraph that a diagnosis opens with, on the terminal, on its page and in its record.
+// The sentences that a diagnosis opens with: a paragraph on the terminal, a list on its page.
 #pragma once
 
 #include <string>

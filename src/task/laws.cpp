@@ -88,7 +88,7 @@ void refuse_laws_of_one_level(const Campaign& campaign, const LayoutOptions& ask
     // Else the layout refuses it, once the parameter is known.
     if (!lack_of_levels(all, laws.what).empty()) continue;
     for (const auto& [parameter, order] : laws.orders) {
-      refuse_one_level(fitted, laws.what, laws.of(parameter), order, whose(laws.what));
+      refuse_one_level(fitted, laws.what, laws.of(parameter), order, "the recordings that are fitted");
     }
   }
   for (const LawsIn& laws : added_laws(campaign, asked)) {

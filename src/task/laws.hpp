@@ -20,8 +20,8 @@ void refuse_laws_of_other_model(const Campaign& campaign, const LayoutOptions& a
 // Of the recordings that are fitted, which laws are spanned over: not those that campaign.toml holds out.
 DataScale scale_of_fitted(const Campaign& campaign);
 
-// Throws InputError where a law that is asked for, or that add_laws_of would add (with its line), follows what the
-// recordings hold one value of, by the scale of those that are fitted.
+// Throws InputError where a law that is asked for follows what the fitted recordings alone hold one value of (where all
+// do, the layout refuses it), or one that add_laws_of would add (with its line) what the fitted ones hold one value of.
 void refuse_laws_of_one_level(const Campaign& campaign, const LayoutOptions& asked, const DataScale& fitted);
 
 }  // namespace hysteron
