@@ -25,6 +25,10 @@
 #include "core/robust.hpp"
 #include "simulate/composite.hpp"
 
+#if defined(__FMA__)
+#include <immintrin.h>
+#endif
+
 namespace {
 
 using namespace hysteron;

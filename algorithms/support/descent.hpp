@@ -10,7 +10,8 @@
 // Sources: Levenberg 1944; Marquardt 1963, doi 10.1137/0111030; More 1978, doi 10.1007/BFb0067700.
 #pragma once
 
-#include <Eigen/Dense>
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <string>

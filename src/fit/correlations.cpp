@@ -1,5 +1,6 @@
 #include "fit/correlations.hpp"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 

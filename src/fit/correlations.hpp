@@ -1,7 +1,7 @@
 // Which parameters the data fix together only.
 #pragma once
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <cstddef>
 #include <vector>
 

@@ -1,7 +1,8 @@
 // Which directions of the coordinates the data tell: the Gauss-Newton matrix scaled to unit diagonal, by eigenvalues.
 #pragma once
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <vector>

@@ -1,7 +1,7 @@
 // Which coordinates of a point are off the bounds of the unit box.
 #pragma once
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <vector>
 
 namespace hysteron {

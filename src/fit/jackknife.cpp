@@ -1,5 +1,6 @@
 #include "fit/jackknife.hpp"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <boost/math/distributions/students_t.hpp>
 

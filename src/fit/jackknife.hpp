@@ -1,7 +1,7 @@
 // How far the optimum moves when part of the data is left out.
 #pragma once
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <optional>
 #include <vector>
 

@@ -1,5 +1,6 @@
 #include "fit/projection.hpp"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 

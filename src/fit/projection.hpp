@@ -5,7 +5,7 @@
 //   the box
 #pragma once
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 
 #include "fit/driver.hpp"
 

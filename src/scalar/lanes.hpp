@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <utility>
 
-#ifdef __AVX__
+#if defined(__AVX__) && (defined(__AVX512F__) || defined(__clang__))
 #include <immintrin.h>
 #endif
 
@@ -26,6 +26,36 @@ inline constexpr std::size_t vector_bytes = 16;
 using VectorDouble [[gnu::vector_size(vector_bytes)]] = double;
 using VectorInt [[gnu::vector_size(vector_bytes)]] = std::int64_t;
 using VectorUnsigned [[gnu::vector_size(vector_bytes)]] = std::uint64_t;
+
+#if defined(__AVX__) && !defined(__AVX512F__)
+// GCC's header of all intrinsics is 1.8 MB, a third of what most files would read. These are what it would give.
+namespace instruction {
+#if defined(__clang__)
+[[gnu::always_inline]] inline bool all_zero(VectorInt a) {
+  return _mm256_testz_si256(reinterpret_cast<__m256i>(a), reinterpret_cast<__m256i>(a)) != 0;
+}
+[[gnu::always_inline]] inline VectorDouble min(VectorDouble a, VectorDouble b) { return _mm256_min_pd(a, b); }
+[[gnu::always_inline]] inline VectorDouble max(VectorDouble a, VectorDouble b) { return _mm256_max_pd(a, b); }
+#if defined(__FMA__)
+[[gnu::always_inline]] inline VectorDouble multiply_add(VectorDouble a, VectorDouble b, VectorDouble c) {
+  return _mm256_fmadd_pd(a, b, c);
+}
+#endif
+#else
+using VectorLong [[gnu::vector_size(32)]] = long long;
+[[gnu::always_inline]] inline bool all_zero(VectorInt a) {
+  return __builtin_ia32_ptestz256(reinterpret_cast<VectorLong>(a), reinterpret_cast<VectorLong>(a)) != 0;
+}
+[[gnu::always_inline]] inline VectorDouble min(VectorDouble a, VectorDouble b) { return __builtin_ia32_minpd256(a, b); }
+[[gnu::always_inline]] inline VectorDouble max(VectorDouble a, VectorDouble b) { return __builtin_ia32_maxpd256(a, b); }
+#if defined(__FMA__)
+[[gnu::always_inline]] inline VectorDouble multiply_add(VectorDouble a, VectorDouble b, VectorDouble c) {
+  return __builtin_ia32_vfmaddpd256(a, b, c);
+}
+#endif
+#endif
+}  // namespace instruction
+#endif
 
 // Calls f with the compile-time indices 0 .. N-1: constant indices let the compiler keep a pack in registers.
 template <int N, class F>
@@ -57,7 +87,7 @@ struct PackMask {
 #if defined(__AVX512F__)
     return _mm512_test_epi64_mask(reinterpret_cast<__m512i>(all), reinterpret_cast<__m512i>(all)) != 0;
 #elif defined(__AVX__)
-    return _mm256_testz_si256(reinterpret_cast<__m256i>(all), reinterpret_cast<__m256i>(all)) == 0;
+    return !instruction::all_zero(all);
 #else
     return (all[0] | all[1]) != 0;
 #endif
@@ -132,7 +162,7 @@ struct Pack {
 #if defined(__AVX512F__)
       a.v[i] = _mm512_fmadd_pd(a.v[i], b.v[i], c.v[i]);
 #elif defined(__FMA__)
-      a.v[i] = _mm256_fmadd_pd(a.v[i], b.v[i], c.v[i]);
+      a.v[i] = instruction::multiply_add(a.v[i], b.v[i], c.v[i]);
 #elif defined(__wasm__)
       a.v[i] = a.v[i] * b.v[i] + c.v[i];
 #else
@@ -151,7 +181,7 @@ struct Pack {
 #if defined(__AVX512F__)
       a.v[i] = _mm512_mask_min_pd(b.v[i], 0xff, b.v[i], a.v[i]);
 #elif defined(__AVX__)
-      a.v[i] = _mm256_min_pd(b.v[i], a.v[i]);
+      a.v[i] = instruction::min(b.v[i], a.v[i]);
 #else
       a.v[i] = b.v[i] < a.v[i] ? b.v[i] : a.v[i];
 #endif
@@ -163,7 +193,7 @@ struct Pack {
 #if defined(__AVX512F__)
       a.v[i] = _mm512_mask_max_pd(b.v[i], 0xff, b.v[i], a.v[i]);
 #elif defined(__AVX__)
-      a.v[i] = _mm256_max_pd(b.v[i], a.v[i]);
+      a.v[i] = instruction::max(b.v[i], a.v[i]);
 #else
       a.v[i] = a.v[i] < b.v[i] ? b.v[i] : a.v[i];
 #endif

@@ -1,5 +1,7 @@
 #include "diagnose/judge/evidence.hpp"
 
+#include <nlohmann/json.hpp>
+
 namespace hysteron {
 
 // Each field stands in the record by its own name, and nowhere else in the code.

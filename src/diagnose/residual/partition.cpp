@@ -1,5 +1,6 @@
 #include "diagnose/residual/partition.hpp"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <array>
 #include <cmath>

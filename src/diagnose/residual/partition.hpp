@@ -5,7 +5,7 @@
 // Groups are merged by the least cost (Ward, J. Am. Stat. Assoc. 58 (1963) 236, in the metric of the data).
 #pragma once
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <cstddef>
 #include <optional>
 #include <vector>

@@ -1,7 +1,7 @@
 // What an effect adds to the force of a fit at a finite size, and what of it the fit's own parameters imitate.
 #pragma once
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <array>
 #include <string>
 #include <vector>

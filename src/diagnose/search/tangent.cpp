@@ -1,5 +1,6 @@
 #include "diagnose/search/tangent.hpp"
 
+#include <Eigen/Dense>
 #include <cmath>
 #include <utility>
 

@@ -1,7 +1,7 @@
 // What a fit leaves beside what its own parameters can do to first order.
 #pragma once
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 
 #include "diagnose/search/workbench.hpp"
 
