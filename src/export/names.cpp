@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/joined.hpp"
 #include "core/message.hpp"
 
 namespace hysteron {
@@ -59,15 +60,6 @@ struct Words {
 };
 constexpr Words languages[] = {{"C", of_c}, {"C++", of_cpp}, {"Python", of_python}, {"Modelica", of_modelica}};
 
-// "C", "C and Python", "C, C++ and Python".
-std::string listed(const std::vector<std::string_view>& words) {
-  std::string text;
-  for (std::size_t k = 0; k < words.size(); ++k) {
-    text += (k == 0 ? "" : k + 1 == words.size() ? " and " : ", ") + std::string(words[k]);
-  }
-  return text;
-}
-
 }  // namespace
 
 std::string identifier(std::string_view text) {
@@ -94,7 +86,7 @@ void refuse_name(Option option, const std::string& name) {
     if (std::ranges::find(one.words, name) != one.words.end()) own.push_back(one.language);
   }
   if (!own.empty()) {
-    throw OptionError(option + ": '" + name + "' is a word of " + listed(own) + ", " + instead);
+    throw OptionError(option + ": '" + name + "' is a word of " + joined(own, " and ") + ", " + instead);
   }
   if (std::ranges::find(used_by_the_code, name) != std::end(used_by_the_code)) {
     throw OptionError(option + ": '" + name + "' is a file or module that exported code uses, " + instead);

@@ -6,6 +6,7 @@
 #include <set>
 #include <string>
 
+#include "core/joined.hpp"
 #include "core/number_text.hpp"
 #include "fit/curvature_directions.hpp"
 #include "fit/free_coordinates.hpp"
@@ -35,14 +36,6 @@ std::string wider(const Parameter& card, bool upper) {
   return number_text(std::max(lower, card.limits.lower)) + ":" + number_text(std::min(higher, card.limits.upper));
 }
 
-std::string joined(const std::vector<std::string>& words) {
-  std::string text;
-  for (std::size_t k = 0; k < words.size(); ++k) {
-    text += (k == 0 ? "" : k + 1 == words.size() ? " and " : ", ") + words[k];
-  }
-  return text;
-}
-
 // "at 0 A" of a node of a law; empty for a constant.
 std::string place_text(const Layout& layout, const ParameterLaw& law, std::size_t node, DriveKind drive_kind) {
   const ParameterLaw::Node at = law.node(node);
@@ -58,7 +51,7 @@ std::string place_text(const Layout& layout, const ParameterLaw& law, std::size_
                       (condition.unit.empty() ? "" : " " + condition.unit));
     }
   }
-  return words.empty() ? "" : " at " + joined(words);
+  return words.empty() ? "" : " at " + joined(words, " and ");
 }
 
 }  // namespace
@@ -111,11 +104,12 @@ Message bounds_text(const Layout& layout, const Response& derivatives, const std
     }
   }
   std::string text;
-  if (!limits.empty()) text = joined(limits) + ": the recordings show none of it, or the others take its place";
+  if (!limits.empty())
+    text = joined(limits, " and ") + ": the recordings show none of it, or the others take its place";
   if (!ends.empty()) {
     const bool one = ends.size() == 1;
-    text += (text.empty() ? "" : "; ") + joined(ends) + (one ? " is at the end of its" : " are at the ends of their") +
-            " search range" + (one ? "" : "s");
+    text += (text.empty() ? "" : "; ") + joined(ends, " and ") +
+            (one ? " is at the end of its" : " are at the ends of their") + " search range" + (one ? "" : "s");
     if (const std::optional<double> beyond = cost_beyond_bounds(layout, derivatives, u)) {
       // A share: where steps are coarse the NRMSE of the derivatives is not that of the table.
       const double falls = 1.0 - *beyond / derivatives.cost[0];

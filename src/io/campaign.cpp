@@ -77,12 +77,6 @@ std::vector<std::string> names_in(const fs::path& folder) {
   return names;
 }
 
-fs::path absolute_folder(const fs::path& folder) {
-  std::error_code code;
-  auto result = fs::weakly_canonical(folder.empty() ? fs::path(".") : folder, code);
-  return code ? folder : result;
-}
-
 void merge_orders(std::map<std::string, int>& into, const std::map<std::string, int>& from, const std::string& file,
                   std::string_view table) {
   for (const auto& [parameter, order] : from) {

@@ -103,4 +103,10 @@ std::string read_file(const std::filesystem::path& path) {
   return bytes;
 }
 
+std::filesystem::path absolute_folder(const std::filesystem::path& folder) {
+  std::error_code code;
+  auto result = std::filesystem::weakly_canonical(folder.empty() ? std::filesystem::path(".") : folder, code);
+  return code ? folder : result;
+}
+
 }  // namespace hysteron

@@ -34,4 +34,8 @@ class InputFile {
 // The bytes of a file; a missing, unreadable or non-regular one is an InputError.
 [[nodiscard]] std::string read_file(const std::filesystem::path& path);
 
+// One name for one folder, however it was written: absolute, links followed. The path itself where that cannot be told;
+// an empty one is the current folder.
+[[nodiscard]] std::filesystem::path absolute_folder(const std::filesystem::path& folder);
+
 }  // namespace hysteron

@@ -6,8 +6,10 @@
 #include <string_view>
 
 #include "core/error.hpp"
+#include "core/joined.hpp"
 #include "core/printable.hpp"
 #include "io/campaign_file.hpp"
+#include "io/file.hpp"
 
 namespace hysteron {
 namespace {
@@ -53,12 +55,6 @@ std::vector<std::string> not_taken_of(const CampaignFile& declared, const std::v
 
 constexpr int folders_above = 2;
 
-fs::path absolute_of(const fs::path& folder) {
-  std::error_code code;
-  fs::path result = fs::weakly_canonical(folder.empty() ? fs::path(".") : folder, code);
-  return code ? folder : result;
-}
-
 // A campaign.toml with the recordings that it may say something of, by their names in it.
 struct Unread {
   bool beside = false;  // these recordings, not in a folder below
@@ -69,7 +65,7 @@ std::map<fs::path, Unread> unread_of(const std::vector<GivenRecording>& recordin
   std::map<fs::path, Unread> result;
   for (const GivenRecording& one : recordings) {
     fs::path folder = one.path.parent_path();
-    fs::path absolute = absolute_of(folder);
+    fs::path absolute = absolute_folder(folder);
     fs::path name = one.path.filename();
     for (int above = 0; above <= folders_above; ++above) {
       const fs::path toml = (folder / "campaign.toml").lexically_normal();
@@ -95,21 +91,13 @@ bool lists_one_of(const CampaignFile& declared, const std::vector<std::string>& 
   });
 }
 
-std::string enumerated(const std::vector<std::string>& parts) {
-  std::string result;
-  for (const std::string& part : parts) {
-    result += (result.empty() ? "" : &part == &parts.back() ? " and " : ", ") + part;
-  }
-  return result;
-}
-
 // What a caller may give in place of the file.
 std::string given_later(const std::vector<std::string>& parts) {
   std::vector<std::string> both;
   for (const char* part : {"model", "laws"}) {
     if (std::ranges::find(parts, part) != parts.end()) both.emplace_back(part);
   }
-  return both.empty() ? std::string() : ", or its " + enumerated(both) + " given to fit or diagnose";
+  return both.empty() ? std::string() : ", or its " + joined(both, " and ") + " given to fit or diagnose";
 }
 
 }  // namespace
@@ -127,7 +115,7 @@ void tell_unread_campaigns(const std::vector<GivenRecording>& recordings, const 
       const std::vector<std::string> parts =
           not_taken_of(declared, unread.files, recordings.size() == 1, options, taken);
       if (parts.empty()) continue;
-      what = ", and its " + enumerated(parts) +
+      what = ", and its " + joined(parts, " and ") +
              (parts == std::vector<std::string>{"model"} ? " is not taken" : " are not taken");
       if (taken.given_later) later = given_later(parts);
     } catch (const InputError&) {  // nor could it be

@@ -7,6 +7,7 @@
 
 #include "core/message.hpp"
 #include "core/suggest.hpp"
+#include "fit/identify.hpp"
 #include "fit/one_level.hpp"
 
 namespace hysteron {
@@ -72,11 +73,11 @@ void refuse_laws_of_other_model(const Campaign& campaign, const LayoutOptions& a
 }
 
 DataScale scale_of_fitted(const Campaign& campaign) {
-  std::vector<Recording> fitted;
+  std::vector<std::size_t> fitted;
   for (std::size_t k = 0; k < campaign.recordings.size(); ++k) {
-    if (campaign.roles[k] != Role::validate) fitted.push_back(campaign.recordings[k]);
+    if (campaign.roles[k] != Role::validate) fitted.push_back(k);
   }
-  return scale_of(fitted.empty() ? campaign.recordings : fitted);
+  return scale_of(fitted.empty() ? campaign.recordings : pick(campaign.recordings, fitted));
 }
 
 void refuse_laws_of_one_level(const Campaign& campaign, const LayoutOptions& asked, const DataScale& fitted) {

@@ -44,7 +44,7 @@ std::string Search::richer_dependence() const {
     if (one.by_law) parameters.erase(*one.by_law);  // told as an effect
   }
   if (parameters.empty()) return {};
-  return "a richer dependence of " + joined({parameters.begin(), parameters.end()}, " and ") + " on the drive";
+  return "a richer dependence of " + joined(parameters, " and ") + " on the drive";
 }
 
 Search search(const Workbench& bench, const Workbench& fine, const Hypothesis& base, const SearchOptions& options,

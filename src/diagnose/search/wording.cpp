@@ -66,14 +66,6 @@ std::string percent(double share) {
   return share >= rounds_to_all && share < 1.0 ? "over 99 %" : fmt::format("{:.0f} %", 100.0 * share);
 }
 
-std::string joined(const std::vector<std::string>& words, const std::string& last) {
-  std::string result;
-  for (std::size_t k = 0; k < words.size(); ++k) {
-    result += (k == 0 ? "" : (k + 1 == words.size() ? last : ", ")) + words[k];
-  }
-  return result;
-}
-
 std::string size_text(double value, const std::string& unit, int digits) {
   const double size = std::fabs(value);
   if (unit == "1" || unit.empty()) {

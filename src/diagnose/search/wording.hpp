@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/joined.hpp"
 #include "core/recording.hpp"
 
 namespace hysteron {
@@ -18,9 +19,6 @@ DriveKind drive_kind_of(const std::vector<Recording>& recordings);
 
 // An effect as it stands in a sentence; its id where nothing is known of it.
 std::string title_of(std::string_view effect);
-
-// "a, b and c" with " and " for `last`.
-std::string joined(const std::vector<std::string>& words, const std::string& last);
 
 // "7 %"; what is less than all is never "100 %" but "over 99 %".
 std::string percent(double share);
