@@ -24,9 +24,11 @@ function brief(v) {
 
 // Counts with narrow spaces between thousands.
 const count = (v) => (isNumber(v) ? String(v).replace(/\B(?=(\d{3})+(?!\d))/g, "\u202f") : "–");
+// "^-2" as a raised power.
+const raised = (power) => superscript(power.slice(1));
 // A sentence written by the program, its powers of ten and of units as a reader writes them.
 const prose = (text) => String(text).replace(/(\d)e([+-])0*(\d+)/g, (_, digit, sign, power) => `${digit} × 10${superscript((sign === "-" ? "-" : "") + power)}`)
-  .replace(/([A-Za-z])\^(-?\d+)/g, (_, letter, power) => letter + superscript(power));
+  .replace(/(?<=[A-Za-z])\^-?\d+/g, raised);
 // What there is much of is put on the page in parts, the next one when the reader asks for it: `make(item)` gives a node
 // of `host`. Returns the node to stand below the host.
 function inParts(host, items, atOnce, what, make, added) {
@@ -574,11 +576,11 @@ function printedUnit(unit) {
     const [symbol, power] = part.split("^");
     powers.set(symbol, (powers.get(symbol) || 0) + Number(power || 1));
   }
-  const head = unit.slice(0, begin).replace(/\^(\d+)/g, (_, power) => superscript(power));
+  const head = unit.slice(0, begin).replace(/\^\d+/g, raised);
   return [head === "1" ? "" : head, ...[...powers].map(([symbol, power]) => symbol + superscript(-power))].filter(Boolean).join(" ");
 }
 // A unit as the program writes it, with raised powers; it may break before "per" only.
-const unitWords = (unit) => String(unit || "").replace(/\^(-?\d+)/g, (_, power) => superscript(power)).replace(/ (?!per )/g, "\u00a0");
+const unitWords = (unit) => String(unit || "").replace(/\^-?\d+/g, raised).replace(/ (?!per )/g, "\u00a0");
 const printedTerm = (p) => (String(p.unit).includes("/V") ? p.name.replace("*i", "*u") : p.name);
 
 // Without a finite derivative by any parameter, or interrupted: no errors, which says nothing of the data.
@@ -761,7 +763,7 @@ const rounded = (v) => (isNumber(v) ? `${(100 * v).toFixed(0)} %` : "–");
 // Rounded down, as src/core/probability_text.cpp does: none reads as of a higher grade than it has.
 const probability = (v) => (!isNumber(v) ? "–" : 100 * v > 99 + 1e-9 && v < 1 ? "over 99 %" : `${Math.floor(100 * v + 1e-9)} %`);
 const significant = (v, digits) => fmt(Number(v.toPrecision(digits)), digits);
-const unitText = (unit) => printedUnit(unit).replace(/\^(-?\d+)/g, (_, power) => superscript(power));
+const unitText = (unit) => printedUnit(unit).replace(/\^-?\d+/g, raised);
 const axisUnit = (unit) => (unit === "1" ? "" : unitText(unit));
 const withUnit = (p) => (p.unit === "1" ? p.name : `${p.name} [${unitText(p.unit)}]`);
 const withError = (c) => `${significant(c.value, 3)} ± ${significant(c.std_error, 1)}${c.unit === "1" ? "" : `\u00a0${unitText(c.unit)}`}`;

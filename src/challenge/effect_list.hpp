@@ -13,7 +13,6 @@
 
 namespace hysteron::challenge {
 
-using D = Device;
 using Effects = std::vector<HiddenEffect>;
 
 inline const std::vector<Law> all_laws = {Law::bouc_wen, Law::modified_bouc_wen, Law::tanh_hysteresis, Law::bingham,
@@ -48,9 +47,9 @@ HiddenForm in_series(std::string id, std::string_view words, InSeries chain, Mak
   return {std::move(id), words, chain, make, also};
 }
 
-inline double knee_of(const D& d) { return std::clamp(4e-3 * d.amplitude, 2e-5, 1.2e-4); }
-inline double film_of(const D& d, Draws& shape) { return d.speed * shape.log_uniform(4e-3, 4e-2); }
-inline double stribeck_speed(const D& d, Draws& shape) {
+inline double knee_of(const Device& d) { return std::clamp(4e-3 * d.amplitude, 2e-5, 1.2e-4); }
+inline double film_of(const Device& d, Draws& shape) { return d.speed * shape.log_uniform(4e-3, 4e-2); }
+inline double stribeck_speed(const Device& d, Draws& shape) {
   return std::clamp(d.speed * shape.log_uniform(0.02, 0.12), 3e-3, 5e-2);
 }
 

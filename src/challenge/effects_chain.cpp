@@ -12,11 +12,11 @@ void add_chain(Effects& list) {
                   .least = 0.01,
                   .most = 1.0});
   list.back().forms = {form("sensor-delay/transport", "pure delay",
-                            [](const D&, double s, Draws) { return part<ForceTransport>(0.02 * s); }),
+                            [](const Device&, double s, Draws) { return part<ForceTransport>(0.02 * s); }),
                        form("sensor-delay/low-pass", "first order",
-                            [](const D&, double s, Draws) { return part<ForceLowPass>(0.02 * s); }),
+                            [](const Device&, double s, Draws) { return part<ForceLowPass>(0.02 * s); }),
                        form("sensor-delay/bessel", "second order",
-                            [](const D&, double s, Draws) { return part<ForceBessel>(0.02 * s); })};
+                            [](const Device&, double s, Draws) { return part<ForceBessel>(0.02 * s); })};
 
   list.push_back({.id = "velocity-lag",
                   .group = Group::phase,
@@ -26,11 +26,11 @@ void add_chain(Effects& list) {
                   .least = 0.01,
                   .most = 1.0});
   list.back().forms = {form("velocity-lag/transport", "pure delay",
-                            [](const D&, double s, Draws) { return part<VelocityTransport>(0.02 * s); }),
+                            [](const Device&, double s, Draws) { return part<VelocityTransport>(0.02 * s); }),
                        form("velocity-lag/bessel", "second order",
-                            [](const D&, double s, Draws) { return part<VelocityBessel>(0.02 * s); }),
+                            [](const Device&, double s, Draws) { return part<VelocityBessel>(0.02 * s); }),
                        form("velocity-lag/window", "one-sided window",
-                            [](const D&, double s, Draws) { return part<VelocityWindow>(0.02 * s); })};
+                            [](const Device&, double s, Draws) { return part<VelocityWindow>(0.02 * s); })};
 }
 
 }  // namespace hysteron::challenge

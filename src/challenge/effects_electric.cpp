@@ -14,16 +14,16 @@ void add_electric(Effects& list) {
                   .least = 0.01,
                   .most = 1.2});
   list.back().forms = {form("coil-lag/eddy-currents", "two time constants",
-                            [](const D&, double s, Draws shape) {
+                            [](const Device&, double s, Draws shape) {
                               const double fast = 0.12 * s;
                               const double ratio = shape.uniform(4.0, 9.0);
                               return part<EddyCoil>(fast, ratio * fast, shape.uniform(0.2, 0.5));
                             }),
                        form("coil-lag/saturable", "inductance falls with the current",
-                            [](const D& d, double s, Draws shape) {
+                            [](const Device& d, double s, Draws shape) {
                               return part<SaturableCoil>(0.35 * s, d.level * shape.uniform(0.5, 1.2));
                             }),
-                       form("coil-lag/current-loop", "second order", [](const D&, double s, Draws shape) {
+                       form("coil-lag/current-loop", "second order", [](const Device&, double s, Draws shape) {
                          const double damping = shape.uniform(0.5, 0.9);
                          return part<LoopCoil>(2.0 * damping / (0.25 * s), damping);
                        })};
@@ -37,13 +37,14 @@ void add_electric(Effects& list) {
                   .least = 0.1,
                   .most = 4.0});
   list.back().forms = {form("magnetic-saturation/arctan", "arctangent",
-                            [](const D& d, double s, Draws) { return part<ArctanSaturation>(d.level / s); }),
+                            [](const Device& d, double s, Draws) { return part<ArctanSaturation>(d.level / s); }),
                        form("magnetic-saturation/langevin", "Langevin function",
-                            [](const D& d, double s, Draws) { return part<LangevinSaturation>(d.level / s); }),
+                            [](const Device& d, double s, Draws) { return part<LangevinSaturation>(d.level / s); }),
                        form("magnetic-saturation/froehlich", "hyperbola",
-                            [](const D& d, double s, Draws) { return part<FroehlichSaturation>(d.level / s); }),
-                       form("magnetic-saturation/knee", "piecewise linear",
-                            [](const D& d, double s, Draws) { return part<KneeSaturation>(d.level / (1.0 + s)); })};
+                            [](const Device& d, double s, Draws) { return part<FroehlichSaturation>(d.level / s); }),
+                       form("magnetic-saturation/knee", "piecewise linear", [](const Device& d, double s, Draws) {
+                         return part<KneeSaturation>(d.level / (1.0 + s));
+                       })};
 
   list.push_back({.id = "magnetic-remanence",
                   .group = Group::drive_path,
@@ -54,11 +55,11 @@ void add_electric(Effects& list) {
                   .least = 0.005,
                   .most = 0.5});
   list.back().forms = {form("magnetic-remanence/plays", "four plays",
-                            [](const D& d, double s, Draws) { return part<PlaysRemanence>(s * d.level); }),
+                            [](const Device& d, double s, Draws) { return part<PlaysRemanence>(s * d.level); }),
                        form("magnetic-remanence/jiles", "follows the path of the current",
-                            [](const D& d, double s, Draws) { return part<JilesRemanence>(s * d.level); }),
+                            [](const Device& d, double s, Draws) { return part<JilesRemanence>(s * d.level); }),
                        form("magnetic-remanence/last-extreme", "offset by the last turn",
-                            [](const D& d, double s, Draws) { return part<LastExtremeRemanence>(s * d.level); })};
+                            [](const Device& d, double s, Draws) { return part<LastExtremeRemanence>(s * d.level); })};
 }
 
 }  // namespace hysteron::challenge
