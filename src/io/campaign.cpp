@@ -1,5 +1,7 @@
 #include "io/campaign.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -36,6 +38,7 @@ struct Item {
   std::string name;  // relative to `base`
   fs::path base;     // absolute folder, for telling equal names apart
   Role role = Role::unassigned;
+  LineOfFile role_at = {};  // of campaign.toml
   std::map<std::string, ConditionNumber> numbers = {};
   // Of campaign.toml, with its line.
   std::optional<double> start = {};
@@ -168,8 +171,15 @@ void add_folder(const fs::path& folder, const ReadOptions& options, const TakenO
                        "there is no recording " + in_quotes(entry.file) + " in the folder" +
                            nearest_beside(folder, entry.file) + ", expected a file with one");
     }
-    items.push_back(
-        {path, entry.file, base, entry.role, entry.numbers, entry.start, entry.start_has_zone, entry.start_line});
+    items.push_back({path,
+                     entry.file,
+                     base,
+                     entry.role,
+                     {toml.string(), entry.role_line},
+                     entry.numbers,
+                     entry.start,
+                     entry.start_has_zone,
+                     entry.start_line});
   }
   if (!declared.entries.empty()) return;
   const auto names = names_in(folder);
@@ -376,6 +386,17 @@ void follow_clock(std::vector<Recording>& recordings) {
   }
 }
 
+void refuse_all_held_out(const std::vector<Item>& items) {
+  if (!std::ranges::all_of(items, [](const Item& item) { return item.role == Role::validate; })) return;
+  const LineOfFile& first = items.front().role_at;
+  throw InputError(first.file, first.line,
+                   items.size() == 1
+                       ? "the only recording has the role validate, expected one with the role fit"
+                       : fmt::format("all {} recordings have the role validate, expected one or more with "
+                                     "the role fit",
+                                     items.size()));
+}
+
 }  // namespace
 
 Campaign load_campaign(const std::vector<std::string>& data, const ReadOptions& options, const TakenOfCampaign& taken) {
@@ -402,6 +423,7 @@ Campaign load_campaign(const std::vector<std::string>& data, const ReadOptions& 
     }
   }
   refuse_repeats(items);
+  if (taken.roles) refuse_all_held_out(items);
   tell_unread_campaigns(given, read, options, taken);
   tell_apart(items);
   ReadOptions of_each = options;

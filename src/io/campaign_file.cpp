@@ -140,7 +140,10 @@ class CampaignParser : private TomlReader {
       if (!seen.insert(entry.file).second) {
         fail(*file, "recording " + in_quotes(entry.file) + " is listed twice, expected each once");
       }
-      if (const auto* role = table->get("role")) entry.role = role_of(*role);
+      if (const auto* role = table->get("role")) {
+        entry.role = role_of(*role);
+        entry.role_line = line_of(*role);
+      }
       for (const auto& [key, value] : *table) {
         if (key.str() == "file" || key.str() == "role") continue;
         if (key.str() == "start") {

@@ -19,6 +19,7 @@ inline constexpr int highest_order = 5;
 struct CampaignEntry {
   std::string file;  // relative to the folder, forward slashes
   Role role = Role::unassigned;
+  int role_line = 0;
   std::optional<double> start;  // s since 1970
   bool start_has_zone = false;  // in UTC, else by the clock of the place
   int start_line = 0;

@@ -135,6 +135,8 @@ TEST(Campaign, WrongTomlIsOneClearLine) {
        ":3: 'file' is 'a/../../r1.csv', which leaves the folder, expected a name inside it"},
       {"listed twice", schema + "[[recording]]\nfile = \"r1.csv\"\n[[recording]]\nfile = \"./r1.csv\"\n",
        ":5: recording 'r1.csv' is listed twice, expected each once"},
+      {"nothing to fit", schema + "[[recording]]\nfile = \"r1.csv\"\nrole = \"validate\"\n",
+       ":4: the only recording has the role validate, expected one with the role fit"},
   };
   for (const auto& c : cases) {
     const TemporaryFolder folder;
@@ -148,6 +150,19 @@ TEST(Campaign, WrongTomlIsOneClearLine) {
   const auto message = message_of<InputError>([&] { (void)load_campaign({folder.path().string()}); });
   EXPECT_TRUE(message.starts_with(toml.string() + ":2: not valid TOML (")) << message;
   EXPECT_EQ(message.find('\n'), std::string::npos);
+}
+
+TEST(Campaign, RecordingsThatAllJudgeAreReadWhereRolesAreNotTaken) {
+  const TemporaryFolder folder;
+  std::string toml = schema;
+  for (const std::string name : {"r1.csv", "r2.csv"}) {
+    folder.write(name, good);
+    toml += "[[recording]]\nfile = \"" + name + "\"\nrole = \"validate\"\n";
+  }
+  const auto path = folder.write("campaign.toml", toml);
+  EXPECT_EQ(message_of<InputError>([&] { (void)load_campaign({folder.path().string()}); }),
+            path.string() + ":4: all 2 recordings have the role validate, expected one or more with the role fit");
+  EXPECT_EQ(load_campaign({folder.path().string()}, {}, recordings_alone).recordings.size(), 2U);
 }
 
 // What is told of a folder whose recordings say these starts, and campaign.toml those; empty where none does.
