@@ -35,8 +35,13 @@ double turn_at(const Recording& recording, std::size_t n) {
   return recording.time[n] + off * 0.5 * (recording.time[n + 1] - recording.time[n - 1]);
 }
 
-// Times at which the displacement turns, but for its ends.
-std::vector<double> turns_of(const Recording& recording) {
+struct Turn {
+  std::size_t at;  // the sample at or beside it
+  double time;     // s
+};
+
+// Where the displacement turns, but for its ends.
+std::vector<Turn> turns_of(const Recording& recording) {
   const auto& x = recording.displacement;
   if (x.size() < 3) {
     return {};
@@ -46,7 +51,7 @@ std::vector<double> turns_of(const Recording& recording) {
   if (!(threshold > 0.0)) {
     return {};
   }
-  std::vector<double> turns;
+  std::vector<Turn> turns;
   double extreme = x[0];
   std::size_t at = 0;
   int direction = 0;
@@ -62,13 +67,54 @@ std::vector<double> turns_of(const Recording& recording) {
       extreme = x[n];
       at = n;
     } else if (std::fabs(x[n] - extreme) > threshold) {
-      turns.push_back(turn_at(recording, at));
+      turns.push_back({at, turn_at(recording, at)});
       direction = -direction;
       extreme = x[n];
       at = n;
     }
   }
   return turns;
+}
+
+// The mean of those that are like their median, and how many there are.
+struct Alike {
+  double mean = 0.0;
+  std::size_t count = 0;
+};
+Alike alike_of(const std::vector<double>& times, double step) {
+  const double median = median_of(times);
+  const double alike = std::max(alike_share * median, alike_samples * step);
+  Alike result;
+  for (const double time : times) {
+    if (std::fabs(time - median) > alike) continue;
+    result.mean += time;
+    ++result.count;
+  }
+  result.mean /= static_cast<double>(result.count);
+  return result;
+}
+
+// When the displacement is half way from one turn to the next.
+double half_way(const Recording& recording, const Turn& from, const Turn& to) {
+  const std::vector<double>& x = recording.displacement;
+  const double middle = 0.5 * (x[from.at] + x[to.at]);
+  const bool up = x[to.at] > x[from.at];
+  std::size_t n = from.at + 1;
+  while (n < to.at && (up ? x[n] < middle : x[n] > middle)) ++n;
+  return std::lerp(recording.time[n - 1], recording.time[n],
+                   std::clamp((middle - x[n - 1]) / (x[n] - x[n - 1]), 0.0, 1.0));
+}
+
+// Of whole periods where most of them are alike, 0 where they are not: strokes of unequal length, and rests between
+// them, make half periods that are not. Taken half way, as a rest has no turn that could be placed.
+double frequency_of_periods(const Recording& recording, const std::vector<Turn>& turns, double step) {
+  std::vector<double> half_ways;
+  for (std::size_t k = 1; k < turns.size(); ++k) half_ways.push_back(half_way(recording, turns[k - 1], turns[k]));
+  std::vector<double> periods;
+  for (std::size_t k = 2; k < half_ways.size(); ++k) periods.push_back(half_ways[k] - half_ways[k - 2]);
+  if (periods.size() < 2) return 0.0;
+  const Alike alike = alike_of(periods, step);
+  return 2 * alike.count > periods.size() ? 1.0 / alike.mean : 0.0;
 }
 
 // The displacement at equal steps of time, each the mean of the samples about it, or between those beside it where
@@ -100,7 +146,8 @@ Even evenly(const Recording& recording, std::size_t count) {
   return result;
 }
 
-// Share of the squares about the mean that a sine of this frequency beside a constant takes off, by least squares.
+// Share of the squares about a straight line, as of a drift, that a sine of this frequency beside one takes off, by
+// least squares.
 double share_of_sine(const Even& even, double frequency) {
   const double angle = 2.0 * std::numbers::pi * frequency * even.step;
   const double turn_cosine = std::cos(angle);
@@ -109,7 +156,14 @@ double share_of_sine(const Even& even, double frequency) {
   double sine = 0.0;
   double c = 0.0, s = 0.0, cc = 0.0, cs = 0.0, ss = 0.0;
   double x = 0.0, xx = 0.0, xc = 0.0, xs = 0.0;
+  double tt = 0.0, tc = 0.0, ts = 0.0, tx = 0.0;  // with the time, in steps from the middle
+  double t = -0.5 * static_cast<double>(even.x.size() - 1);
   for (const double value : even.x) {
+    tt += t * t;
+    tc += t * cosine;
+    ts += t * sine;
+    tx += t * value;
+    t += 1.0;
     c += cosine;
     s += sine;
     cc += cosine * cosine;
@@ -124,12 +178,12 @@ double share_of_sine(const Even& even, double frequency) {
     cosine = next;
   }
   const auto count = static_cast<double>(even.x.size());
-  cc -= c * c / count;
-  cs -= c * s / count;
-  ss -= s * s / count;
-  xx -= x * x / count;
-  xc -= x * c / count;
-  xs -= x * s / count;
+  cc -= c * c / count + tc * tc / tt;
+  cs -= c * s / count + tc * ts / tt;
+  ss -= s * s / count + ts * ts / tt;
+  xx -= x * x / count + tx * tx / tt;
+  xc -= x * c / count + tx * tc / tt;
+  xs -= x * s / count + tx * ts / tt;
   const double determinant = cc * ss - cs * cs;
   if (!(determinant > 0.0) || !(xx > 0.0)) {
     return 0.0;
@@ -178,34 +232,29 @@ double frequency_of_sine(const Recording& recording, std::size_t turns) {
 bool turns_once(const Recording& recording) { return turns_of(recording).size() == 1; }
 
 double dominant_frequency(const Recording& recording) {
-  const std::vector<double> turns = turns_of(recording);
+  const std::vector<Turn> turns = turns_of(recording);
   if (turns.size() < 2) {
     return 0.0;
   }
   std::vector<double> halves;
   for (std::size_t k = 1; k < turns.size(); ++k) {
-    halves.push_back(turns[k] - turns[k - 1]);
+    halves.push_back(turns[k].time - turns[k - 1].time);
   }
-  const double median = median_of(halves);
   // In the mean of those like the median the errors of their ends cancel.
   const double step = (recording.time.back() - recording.time.front()) / static_cast<double>(recording.size() - 1);
-  const double alike = std::max(alike_share * median, alike_samples * step);
-  double sum = 0.0;
-  std::size_t count = 0;
-  for (const double half : halves) {
-    if (std::fabs(half - median) <= alike) {
-      sum += half;
-      ++count;
-    }
-  }
-  const double by_turns = 0.5 * static_cast<double>(count) / sum;
-  if (count == halves.size()) {
+  const Alike alike = alike_of(halves, step);
+  const double by_turns = 0.5 / alike.mean;
+  if (alike.count == halves.size()) {
     return by_turns;
   }
   const double of_sine = frequency_of_sine(recording, turns.size());
   // Where most half periods are alike the others are those of a ramp or a rest, which a sine knows nothing of.
-  const bool ramp = 2 * count > halves.size() && std::fabs(of_sine - by_turns) <= alike_share * by_turns;
-  return of_sine > 0.0 && !ramp ? of_sine : by_turns;
+  const bool ramp = 2 * alike.count > halves.size() && std::fabs(of_sine - by_turns) <= alike_share * by_turns;
+  if (of_sine > 0.0 && !ramp) return of_sine;
+  // Of two strokes of unequal length one is half of them, or one more.
+  const bool one_of_two = 2 * alike.count <= halves.size() + 1;
+  const double of_periods = one_of_two ? frequency_of_periods(recording, turns, step) : 0.0;
+  return of_periods > 0.0 ? of_periods : by_turns;
 }
 
 }  // namespace hysteron

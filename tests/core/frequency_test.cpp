@@ -70,6 +70,47 @@ TEST(Frequency, OfANoisySineIsThatOfTheSine) {
   EXPECT_NEAR(dominant_frequency(recording), 0.5, 5e-3);
 }
 
+// The period of a motion whose two strokes take unequal times, or that rests between them.
+TEST(Frequency, OfUnequalStrokesIsThatOfWholePeriods) {
+  constexpr double hertz = 0.8;
+  const auto smooth = [](double share) { return 0.5 - 0.5 * std::cos(std::numbers::pi * share); };
+  const auto stroke = [](double part, double up, double hold) {  // of a period: up, held, down, held
+    if (part < up) return part / up;
+    if (part < up + hold) return 1.0;
+    return std::max(0.0, 1.0 - (part - up - hold) / (0.2 - 0.5 * std::min(up, 0.2)));
+  };
+  const auto of = [&](double rate, auto&& displacement) {
+    Recording recording = sine(hertz, rate, 12.0);
+    for (std::size_t n = 0; n < recording.size(); ++n) {
+      recording.displacement[n] = 0.01 * displacement(std::fmod(recording.time[n] * hertz + 0.3, 1.0));
+    }
+    return dominant_frequency(recording);
+  };
+  for (const double rate : {50.0, 400.0}) {
+    for (const double up : {0.8, 0.9}) {
+      EXPECT_NEAR(of(rate, [&](double p) { return p < up ? p / up : (1.0 - p) / (1.0 - up); }), hertz, 2e-3) << up;
+      EXPECT_NEAR(of(rate, [&](double p) { return smooth(p < up ? p / up : (1.0 - p) / (1.0 - up)); }), hertz, 2e-3);
+    }
+    EXPECT_NEAR(of(rate, [&](double p) { return p < 0.5 ? smooth(4.0 * std::min(p, 0.5 - p)) : 0.0; }), hertz, 2e-3);
+    EXPECT_NEAR(of(rate, [&](double p) { return stroke(p, 0.1, 0.6); }), hertz, 2e-3) << "held twice";
+    EXPECT_NEAR(of(rate,
+                   [&](double p) {
+                     const double phase = 2.0 * std::numbers::pi * p;
+                     return std::sin(phase) + 0.4 * std::sin(2.0 * phase);
+                   }),
+                hertz, 2e-3);
+  }
+}
+
+TEST(Frequency, OfASineOnADriftIsThatOfTheSine) {
+  for (const double per_second : {0.1, 0.5, 1.5}) {  // of the amplitude
+    Recording recording = sine(1.0, 200.0, 20.0);
+    for (std::size_t n = 0; n < recording.size(); ++n)
+      recording.displacement[n] += 2e-3 * per_second * recording.time[n];
+    EXPECT_NEAR(dominant_frequency(recording), per_second > 1.0 ? 0.0 : 1.0, 2e-3) << per_second;
+  }
+}
+
 // No sine is most of a sweep: its frequency stays one that it turns with.
 TEST(Frequency, OfASweepIsThatOfItsTurns) {
   Recording recording = sine(1.0, 500.0, 20.0);
