@@ -158,6 +158,7 @@ ReadOptions read_options(const DataOptions& options) {
   read.skip = options.skip;
   read.keep_samples = options.keep_samples;
   read.conditions = options.conditions;
+  read.follows_frequency = options.follows_frequency;
   read.without_time = options.without_time;
   std::ranges::sort(read.conditions);
   read.numbers = numbers_at(options);

@@ -25,6 +25,7 @@ struct DataOptions {
   int skip = 0;                         // lines at the head of every CSV file, rows of a sheet
   std::size_t keep_samples = 0;         // of all recordings together, 0 for all
   std::vector<std::string> conditions;  // columns that laws follow, beside those of campaign.toml
+  bool follows_frequency = false;       // laws do
   bool without_time = false;            // where a file has none
   std::vector<std::string> at;          // NAME=NUMBER [UNIT], of every recording
   TakenOfCampaign taken;                // of a campaign.toml

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 
@@ -52,6 +53,7 @@ void run(const Options& options) {
     stored.push_back(&model.stored);
   }
   data.conditions = conditions_of(stored);
+  data.follows_frequency = std::ranges::any_of(stored, &StoredModel::follows_frequency);
   data.taken = recordings_alone;
   refuse_unfollowed(stored, numbers_at(data));
   const Campaign campaign = load(data);

@@ -49,6 +49,7 @@ void ask_conditions(const LawOptions& options, DataOptions& data) {
   data.taken.other_laws.clear();
   for (const auto& [name, orders] : parsed(options)) {
     data.taken.other_laws.insert(name);
+    if (name == "frequency") data.follows_frequency = true;
     if (name != "current" && name != "frequency") data.conditions.push_back(name);
   }
   for (const std::string& text : options.by) {

@@ -41,6 +41,7 @@ void add_score(CLI::App& program) {
     const ObjectiveOptions objective = objective_options(options->common);
     StoredModel stored = read_model(options->model);
     options->data.conditions = conditions_of({&stored});
+    options->data.follows_frequency = stored.follows_frequency();
     options->data.taken = recordings_alone;
     refuse_unfollowed({&stored}, numbers_at(options->data));
     const Campaign campaign = load(options->data);

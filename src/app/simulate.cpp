@@ -93,6 +93,7 @@ void add_simulate(CLI::App& program) {
     options->data.taken = recordings_alone;
     if (!preset) {
       options->data.conditions = conditions_of({&stored});
+      options->data.follows_frequency = stored.follows_frequency();
       refuse_unfollowed({&stored}, numbers_at(options->data));
     }
     const Campaign campaign = load(options->data, Required::motion);

@@ -427,6 +427,7 @@ Campaign load_campaign(const std::vector<std::string>& data, const ReadOptions& 
   tell_unread_campaigns(given, read, options, taken);
   tell_apart(items);
   ReadOptions of_each = options;
+  of_each.follows_frequency = options.follows_frequency || !campaign.by_frequency.empty();
   of_each.keep_samples = limit_of_each(items, options.keep_samples);
   for (const auto& [condition, orders] : campaign.by) {
     const auto at = std::ranges::lower_bound(of_each.conditions, condition);

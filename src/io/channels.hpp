@@ -44,6 +44,8 @@ struct ReadOptions {
   // What laws follow beside drive and frequency, in order: columns to keep (io/conditions.hpp).
   std::vector<std::string> conditions = {};
   std::map<std::string, ConditionNumber> numbers = {};  // of the recording
+  // Laws follow the frequency, which is that of the motion: a column or a number of that name is told not to be taken.
+  bool follows_frequency = false;
   // Samples kept of all recordings together, 0 for all samples (io/block_means.hpp).
   std::size_t keep_samples = 0;
   std::function<void(const Remark&)> remark = {};

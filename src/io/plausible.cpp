@@ -13,6 +13,7 @@
 
 #include "core/drive.hpp"
 #include "core/extent.hpp"
+#include "core/lower_case.hpp"
 #include "core/robust.hpp"
 #include "io/channel_faults.hpp"
 #include "io/held_ends.hpp"
@@ -173,6 +174,9 @@ bool drives_its_rig(const Recording& r) {
   constexpr double rounding = 1e-4;
   return both < 0.0 && v_left > rounding * vv && f_left > rounding * ff && both * both > share * v_left * f_left;
 }
+
+constexpr std::string_view frequency_not_taken =
+    "is not taken: laws in the frequency follow that of the motion, which the displacement tells";
 
 // Of a channel that is set to a level, in the unit of its column.
 void tell_of_setting(const std::string& column, const UnitConversion& unit, const std::vector<double>& time,
@@ -620,6 +624,13 @@ void remark_on_settings(const Sources& sources, const Channels& channels,
     tell_of_setting(columns[static_cast<std::size_t>(sources[q].column)].text, sources[q].unit, time, channels[q],
                     remarks);
   }
+  if (options.follows_frequency) {
+    for (const Column& column : columns) {
+      if (lower_case(column.name) != "frequency") continue;
+      options.remark({file, Remark::Kind::dialect, "frequency column",
+                      fmt::format("column '{}' {}", column.text, frequency_not_taken)});
+    }
+  }
   for (std::size_t c = 0; c < conditions.size(); ++c) {
     if (conditions[c].column < 0) continue;
     tell_of_setting(columns[static_cast<std::size_t>(conditions[c].column)].text, conditions[c].unit.conversion, time,
@@ -629,6 +640,11 @@ void remark_on_settings(const Sources& sources, const Channels& channels,
 
 void remark_on_numbers(const ReadOptions& options, const std::string& file) {
   if (!options.remark) return;
+  if (options.follows_frequency && options.numbers.contains("frequency")) {
+    const double value = options.numbers.at("frequency").value;
+    options.remark({file, Remark::Kind::dialect, "frequency number",
+                    fmt::format("the number frequency = {:.6g} {}", value, frequency_not_taken)});
+  }
   struct Kind {
     std::string_view name;
     Range range;
