@@ -17,6 +17,7 @@
 #include "task/excitation_faults.hpp"
 #include "task/finite.hpp"
 #include "task/fit_quality.hpp"
+#include "task/guesses.hpp"
 #include "task/laws.hpp"
 #include "task/model_file.hpp"
 #include "task/page.hpp"
@@ -528,6 +529,9 @@ FitResult fit_campaign(const FitData& data, const FitRequest& request, const std
   }
   const Names names = names_of(result, campaign, identify_with);
   fit.model_file = model_json(result, campaign, identify_with, command);
+  if (result.roles_given && !result.heldout.empty()) {
+    append(fit.warnings, held_out_beyond_fitted(fit.model_file, campaign.recordings, result.heldout));
+  }
   if (request.rig) fit.model_file["response"] = from_response_json(*request.rig, data.responses);
   fit.fit_file = fit_json(fit, data, request, names);
   fit.page = page_json(fit, data, request, command, names, std::move(page_recordings));

@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <utility>
 
 #include "core/error.hpp"
 #include "core/frequency.hpp"
+#include "fit/identify.hpp"
 #include "fit/layout.hpp"
 #include "task/impossible_laws.hpp"
 #include "task/remarks.hpp"
@@ -89,11 +91,11 @@ std::vector<std::string> drive_assumed(const StoredModel& stored, const std::str
                       path, drive_word, alike(count))};
 }
 
-std::vector<std::string> guesses_of(const StoredModel& stored, const std::string& path,
-                                    const std::vector<Recording>& recordings) {
-  std::vector<std::string> remarks = units_assumed(stored, path);
-  append(remarks, impossible_laws(stored, path));
-  append(remarks, drive_assumed(stored, path, recordings));
+namespace {
+
+std::vector<std::string> beyond_laws(const StoredModel& stored, const std::string& path,
+                                     const std::vector<Recording>& recordings) {
+  std::vector<std::string> remarks;
   const bool voltage = stored.drive == DriveKind::voltage;
   const char* const drive_word = voltage ? "voltage" : "current";
   Farthest drive;
@@ -121,6 +123,17 @@ std::vector<std::string> guesses_of(const StoredModel& stored, const std::string
     }
     farthest.tell(range, path, condition.name, condition.unit, remarks);
   }
+  return remarks;
+}
+
+}  // namespace
+
+std::vector<std::string> guesses_of(const StoredModel& stored, const std::string& path,
+                                    const std::vector<Recording>& recordings) {
+  std::vector<std::string> remarks = units_assumed(stored, path);
+  append(remarks, impossible_laws(stored, path));
+  append(remarks, drive_assumed(stored, path, recordings));
+  append(remarks, beyond_laws(stored, path, recordings));
   return remarks;
 }
 
@@ -154,6 +167,18 @@ std::vector<std::string> beyond_fitted(const StoredModel& stored, const std::str
   const bool voltage = over.drive_kind == DriveKind::voltage;
   drive.tell_of_model(over.drive.value_or(std::pair(0.0, 0.0)), path, voltage ? "voltage" : "current", 1.0,
                       voltage ? "V" : "A", remarks);
+  return remarks;
+}
+
+std::vector<std::string> held_out_beyond_fitted(const nlohmann::json& model_file,
+                                                const std::vector<Recording>& recordings,
+                                                const std::vector<std::size_t>& held_out) {
+  const std::string name = "the model";
+  StoredModel stored = parse_model(model_file.dump(), name);
+  follow_conditions(stored, recordings);
+  const std::vector<Recording> judging = pick(recordings, held_out);
+  std::vector<std::string> remarks = beyond_laws(stored, name, judging);
+  append(remarks, beyond_fitted(stored, name, judging));
   return remarks;
 }
 

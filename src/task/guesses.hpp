@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,11 @@ std::vector<std::string> guesses_of(const StoredModel& stored, const std::string
 // on. The displacement is the damper's own: of a response, what was worked out.
 std::vector<std::string> beyond_fitted(const StoredModel& stored, const std::string& path,
                                        const std::vector<Recording>& recordings);
+
+// The same of laws and motion where a model file comes from a fit that held some of these recordings out.
+std::vector<std::string> held_out_beyond_fitted(const nlohmann::json& model_file,
+                                                const std::vector<Recording>& recordings,
+                                                const std::vector<std::size_t>& held_out);
 
 // Remarks where conditions are held (hold_conditions) at values as far beyond those that the laws were fitted over.
 std::vector<std::string> held_beyond_fitted(const StoredModel& stored, const std::string& path,

@@ -180,6 +180,63 @@ TEST_F(Remarks, LawsAreNotExtrapolatedWithoutAWord) {
   for (const char* data : {"data", "near.csv"}) EXPECT_EQ(run({"score", "fitted/model.json", data}).err, "") << data;
 }
 
+TEST_F(Remarks, AFitTellsOfHeldOutRecordingsThatItsLawsDoNotReach) {
+  write(folder_ / "span/a.csv", csv(1.0, 0.2));
+  write(folder_ / "span/b.csv", csv(1.0, 0.8));
+  write(folder_ / "span/far.csv", csv(1.0, 2.0));
+  const std::string toml =
+      "schema = \"hysteron.campaign/1\"\n[[recording]]\nfile = \"a.csv\"\n[[recording]]\nfile = \"b.csv\"\n"
+      "[[recording]]\nfile = \"far.csv\"\n";
+  write(folder_ / "span/campaign.toml", toml + "role = \"validate\"\n");
+  const Words words{"fit", "span", "--model", "viscous", "--by-current", "c0:1", "--out", "of_span"};
+  const std::string said = "far.csv: a current of 2 A, and the laws of the model were fitted from 0.2 to 0.8 A";
+  const Outcome held = run(words);
+  EXPECT_EQ(held.status, 0) << held.err;
+  EXPECT_NE(held.err.find(said), std::string::npos) << held.err;
+  write(folder_ / "span/campaign.toml", toml);
+  const Outcome fitted = run(words);
+  EXPECT_EQ(fitted.status, 0) << fitted.err;
+  EXPECT_EQ(fitted.err.find("were fitted from"), std::string::npos) << fitted.err;
+}
+
+// They follow that of the motion.
+TEST_F(Remarks, AFrequencyOfTheFileIsToldWhereLawsFollowOne) {
+  std::string toml = "schema = \"hysteron.campaign/1\"\n";
+  for (const int tenths : {5, 10, 20}) {
+    const double hertz = 0.1 * tenths;
+    std::string plain = "time [s],displacement [mm],force [N]\n";
+    std::string with_column = "time [s],displacement [mm],force [N],frequency [Hz]\n";
+    for (int n = 0; n < 200; ++n) {
+      const double phase = 2.0 * std::numbers::pi * 0.02 * n;
+      const std::string row = std::to_string(0.02 * n / hertz) + "," + std::to_string(5.0 * std::sin(phase)) + "," +
+                              std::to_string(100.0 * hertz * std::cos(phase));
+      plain += row + "\n";
+      with_column += row + ",7\n";
+    }
+    const std::string name = "f" + std::to_string(tenths) + ".csv";
+    write(folder_ / "columns" / name, with_column);
+    write(folder_ / "numbers" / name, plain);
+    toml += "[[recording]]\nfile = \"" + name + "\"\nfrequency = 7\n";
+  }
+  write(folder_ / "numbers/campaign.toml", toml);
+  const auto fitted = [&](const char* data, bool followed) {
+    Words words{"fit", data, "--model", "viscous", "--budget", "60", "--out", "tones"};
+    if (followed) words.insert(words.end(), {"--by", "frequency=c0:1"});
+    const Outcome outcome = run(words);
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    return outcome.err;
+  };
+  const std::string column = "column 'frequency [Hz]' is not taken: laws in the frequency follow that of the motion";
+  const std::string of_columns = fitted("columns", true);
+  EXPECT_NE(of_columns.find(column), std::string::npos) << of_columns;
+  EXPECT_NE(run({"score", "tones/model.json", "columns"}).err.find(column), std::string::npos);
+  const std::string of_numbers = fitted("numbers", true);
+  EXPECT_NE(of_numbers.find("the number frequency = 7 is not taken"), std::string::npos) << of_numbers;
+  for (const char* data : {"columns", "numbers"}) {
+    EXPECT_EQ(fitted(data, false).find("is not taken"), std::string::npos);
+  }
+}
+
 TEST_F(Remarks, NumbersThatAreNoneAreRefused) {
   fit();
   for (const char* option : {"--x0", "--v0", "--drive", "--frequency", "--tolerance"}) {
