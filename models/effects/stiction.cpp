@@ -33,6 +33,10 @@ struct Stiction {
   };
 
   template <class T>
+  static std::array<T, 1> begin(const std::array<T, 2>& /*p*/, std::span<const EarlierWork> /*earlier*/) {
+    return {T(0.0)};
+  }
+  template <class T>
   static std::array<T, 1> rate(const std::array<T, 2>& /*p*/, const std::array<T, 1>& /*s*/, const Input<T>& in) {
     return {abs(in.v)};
   }

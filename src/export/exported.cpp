@@ -196,6 +196,13 @@ int enough_steps(ExportedModel exported, Target& target, const Recording& record
   return default_most_substeps;
 }
 
+// Travel, heat or wear that count from the first sample: exported code cannot leave a period beforehand out of them.
+bool counts_from_start(const CompositeModel& model) {
+  bool counts = false;
+  model.for_links([&](const Link& link) { counts = counts || link.part->on_double.begin != nullptr; });
+  return counts;
+}
+
 }  // namespace
 
 double TestVector::allowed() const {
@@ -212,7 +219,12 @@ TestVector test_vector(const ExportedModel& exported, const Recording& motion) {
   recording.earlier.clear();  // exported code begins cold and as new
   ObjectiveOptions options;
   options.tolerance = exported.tolerance;
-  const Target target = make_target(recording, options, false);
+  Target target = make_target(recording, options, false);
+  if (counts_from_start(exported.model)) {
+    target.preroll = 0;
+    target.lead_in = {};
+    target.motion.lead = 0.0;
+  }
   const std::vector<double> wanted = predict(exported.model, exported.held, exported.terms, target);
   if (const auto time = diverges_at(wanted, recording)) {
     throw WorkError(fmt::format(

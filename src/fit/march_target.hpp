@@ -45,6 +45,8 @@ class Marcher {
         march(target_.lead_in, begin, end, state, begin > 0);
         before(begin, end - begin, out_.data());
       }
+      // Travel, heat and wear count from the first sample: what was before it is not known.
+      again_ = target_.preroll > 0;
     } else if (target_.inputs_vary && !excitation_.none()) {
       // What the effects on the drive remember, from the start of the recording.
       for (std::size_t n = 0; n < first; ++n) {
@@ -90,6 +92,13 @@ class Marcher {
       model_.begin<T>(p_.data(), target_.earlier, state.data());
       begins_ = false;
     }
+    if (again_ && &motion == &target_.motion) {
+      model_.for_links([&](const Link& link) {
+        const auto begin_part = link.part->on<T>().begin;
+        if (begin_part != nullptr) begin_part(p_.data() + link.parameter, target_.earlier, state.data() + link.state);
+      });
+      again_ = false;
+    }
     const std::size_t stride = target_.inputs_vary ? width_ : 0;
     if (!is_lean(motion)) {
       model_.march<T>(motion, p_.data(), stride, begin, end, state.data(), out_.data());
@@ -112,6 +121,7 @@ class Marcher {
   Motion piece_;
   bool goes_on_ = false;
   bool begins_ = false;
+  bool again_ = false;  // the period marched beforehand is over
 };
 
 // Marches samples [first, last) of a target block by block and hands (first sample, count, force) to the sink, those of

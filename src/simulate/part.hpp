@@ -15,8 +15,8 @@
 // A part with states has besides
 //   rate(p, s, in) -> array<T, states>         their time derivatives, or, where they depend on the force below,
 //   loaded_rate(p, s, in, below) -> array<T, states>
-//   begin(p, earlier) -> array<T, states>      optional: the states at the start of a recording after the work that
-//                                      recordings before it did; else they are zero
+//   begin(p, earlier) -> array<T, states>      optional, of states that count from the first sample of a recording, so
+//                                      those there, after the work that recordings before it did; others are zero
 //   stiffness(p, speed) -> T           bound of |d rate / d state| in 1/s at |velocity| <= speed: linear in the speed,
 //                                      or rising ever less with it, which marches build on
 //                                      (simulate/march.hpp)

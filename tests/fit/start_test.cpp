@@ -133,5 +133,41 @@ TEST(Start, FromNothingNothingIsMarchedBeforehand) {
   EXPECT_EQ(start_of(recording), Start::in_cycle);
 }
 
+// The equations of these count from the first sample, whatever period is marched before it: F(0) is that of a damper
+// which has neither travelled nor worked.
+TEST(Start, TravelAndWorkCountFromTheFirstSample) {
+  const Recording recording = moving(0.0);
+  const auto first_force = [&](const std::vector<std::string>& effects, const std::vector<double>& of_effects) {
+    std::vector<double> values{2000.0, 0.0, 0.0};  // c0, k0, f0
+    values.insert(values.end(), of_effects.begin(), of_effects.end());
+    const CompositeModel model = make_model("viscous", effects);
+    const Target target = make_target(recording, {});
+    EXPECT_GT(target.preroll, 0U);
+    return predict(model, values, {}, target)[0] / recording.velocity[0];
+  };
+  const CompositeModel law = make_model("viscous", {});
+  ASSERT_EQ(law.parameter_names(), (std::vector<std::string>{"c0", "k0", "f0"}));
+  EXPECT_NEAR(first_force({"stiction"}, {0.5, 0.01}), 3000.0, 1e-6);
+  EXPECT_NEAR(first_force({"degradation"}, {1e-3}), 2000.0, 1e-6);
+  EXPECT_NEAR(first_force({"self-heating"}, {1e-3, 60.0, 1.0, 0.0}), 2000.0, 1e-6);
+  // Packs of candidates go the same way.
+  const std::vector<Recording> recordings{recording};
+  LayoutOptions options;
+  options.fix = {{"k0", 0.0}, {"f0", 0.0}};
+  const CompositeModel model = make_model("viscous", {"stiction"});
+  const Layout layout(model, scale_of(recordings), options);
+  Recording simulated = recording;
+  const std::vector<double> point(layout.dimension(), 0.5);
+  simulated.force = predict(model, layout.held(), layout.terms(point), make_target(recording, {}));
+  simulated.start = Start::in_cycle;
+  const Objective objective(layout, {&simulated}, {});
+  const std::vector<double> points = [&] {
+    std::vector<double> eight;
+    for (int k = 0; k < 8; ++k) eight.insert(eight.end(), point.begin(), point.end());
+    return eight;
+  }();
+  EXPECT_LT(objective.evaluate({points, false}).cost[7], 1e-9);
+}
+
 }  // namespace
 }  // namespace hysteron
