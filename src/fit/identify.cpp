@@ -39,13 +39,14 @@ std::vector<Recording> pick(const std::vector<Recording>& recordings, const std:
 }
 
 double predicted_nrmse(const Layout& layout, const std::vector<Term>& terms,
-                       const std::vector<const Recording*>& recordings, const ObjectiveOptions& options) {
+                       const std::vector<const Recording*>& recordings, const ObjectiveOptions& options,
+                       const std::vector<const Recording*>& normalised_by) {
   std::vector<Score> scores;
   for (const Recording* recording : recordings) {
     const Target target = make_target(*recording, options);
     scores.push_back(score(predict(layout.model(), layout.held(), terms, target), *recording, options.normalisation));
   }
-  return overall(scores, recordings, options.normalisation, options.weighting);
+  return overall(scores, recordings, options.normalisation, options.weighting, normalised_by);
 }
 
 Problem make_problem(const Objective& objective, const SolverEntry& entry, const IdentifyOptions& options,
@@ -179,6 +180,12 @@ Identification identify(const Campaign& campaign, const std::string& model, cons
         [&](const RunResult& partial) { return !progress || progress(model + " without effects", partial); });
   }
 
+  // Beside the error of what the model is fitted to in the end.
+  const auto heldout_nrmse = [&](const std::vector<double>& point) {
+    return predicted_nrmse(layout, layout.terms(point), refer_to(campaign.recordings, heldout), options.objective,
+                           refer_to(campaign.recordings, roles ? fitted : all));
+  };
+
   // One objective at a time: they are as large as the recordings. Some is evaluated whether it was interrupted or not.
   bool calm = false;
   ObjectiveOptions with = options.objective;
@@ -223,8 +230,7 @@ Identification identify(const Campaign& campaign, const std::string& model, cons
     }
     SolverOutcome outcome{std::move(run), {}};
     if (!heldout.empty()) {
-      outcome.nrmse_heldout = predicted_nrmse(layout, layout.terms(outcome.run.best),
-                                              refer_to(campaign.recordings, heldout), options.objective);
+      outcome.nrmse_heldout = heldout_nrmse(outcome.run.best);
     }
     result.solvers.push_back(std::move(outcome));
   }
@@ -260,8 +266,7 @@ Identification identify(const Campaign& campaign, const std::string& model, cons
     if (run.cost < before) {
       best = run.best;
       if (!refit && !heldout.empty()) {
-        result.nrmse_heldout =
-            predicted_nrmse(layout, layout.terms(best), refer_to(campaign.recordings, heldout), options.objective);
+        result.nrmse_heldout = heldout_nrmse(best);
       }
     }
     if (refit) {

@@ -78,9 +78,10 @@ struct Identification {
 
 std::vector<Recording> pick(const std::vector<Recording>& recordings, const std::vector<std::size_t>& indices);
 
-// Overall NRMSE of a set of terms on recordings it need not have seen.
+// Overall NRMSE of a set of terms on recordings it need not have seen; `normalised_by` as in overall (fit/score.hpp).
 double predicted_nrmse(const Layout& layout, const std::vector<Term>& terms,
-                       const std::vector<const Recording*>& recordings, const ObjectiveOptions& options);
+                       const std::vector<const Recording*>& recordings, const ObjectiveOptions& options,
+                       const std::vector<const Recording*>& normalised_by = {});
 
 // The problem a solver is given: options.budget, options.settings as far as the solver knows them, and a stream of the
 // seed, the stage's name and the solver.

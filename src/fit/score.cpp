@@ -99,25 +99,24 @@ Score score(const std::vector<double>& predicted, const Recording& recording, No
   return result;
 }
 
-double overall(const std::vector<Score>& scores, const std::vector<Recording>& recordings, Normalisation normalisation,
-               Weighting weighting) {
-  return overall(scores, refer_to(recordings), normalisation, weighting);
-}
-
 double overall(const std::vector<Score>& scores, const std::vector<const Recording*>& recordings,
-               Normalisation normalisation, Weighting weighting) {
+               Normalisation normalisation, Weighting weighting, const std::vector<const Recording*>& normalised_by) {
   double sum = 0.0;
   double total = 0.0;
-  double largest = 0.0;
   for (std::size_t r = 0; r < scores.size(); ++r) {
     const auto samples = static_cast<double>(recordings[r]->size());
     if (weighting == Weighting::pooled) {
       sum += scores[r].rmse * scores[r].rmse * samples;
       total += samples;
-      largest = std::max(largest, normaliser(*recordings[r], normalisation));
     } else {
       sum += scores[r].nrmse * scores[r].nrmse;
       total += 1.0;
+    }
+  }
+  double largest = 0.0;
+  if (weighting == Weighting::pooled) {
+    for (const Recording* one : normalised_by.empty() ? recordings : normalised_by) {
+      largest = std::max(largest, normaliser(*one, normalisation));
     }
   }
   return std::sqrt(sum / total) / (weighting == Weighting::pooled ? largest : 1.0);

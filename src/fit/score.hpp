@@ -24,10 +24,10 @@ struct Score {
   double fit_percent;  // 100 (1 - RMSE / standard deviation)
 };
 Score score(const std::vector<double>& predicted, const Recording& recording, Normalisation normalisation);
-// Over recordings: root mean square of NRMSE, or pooled over samples.
-double overall(const std::vector<Score>& scores, const std::vector<Recording>& recordings, Normalisation normalisation,
-               Weighting weighting);
+// Over recordings: root mean square of NRMSE, or pooled over samples and divided by the largest normaliser of
+// `normalised_by`, so that figures of several groups of recordings can be compared; empty: of `recordings`.
 double overall(const std::vector<Score>& scores, const std::vector<const Recording*>& recordings,
-               Normalisation normalisation, Weighting weighting);
+               Normalisation normalisation, Weighting weighting,
+               const std::vector<const Recording*>& normalised_by = {});
 
 }  // namespace hysteron

@@ -258,7 +258,8 @@ TwoStage fit_two_stage(const Campaign& campaign, const Layout& layout, const std
   const std::vector<Term> terms = layout.terms(result.point);
   result.nrmse = predicted_nrmse(layout, terms, refer_to(campaign.recordings, fitted), options.objective);
   if (!heldout.empty()) {
-    result.nrmse_heldout = predicted_nrmse(layout, terms, refer_to(campaign.recordings, heldout), options.objective);
+    result.nrmse_heldout = predicted_nrmse(layout, terms, refer_to(campaign.recordings, heldout), options.objective,
+                                           refer_to(campaign.recordings, fitted));
   }
   result.evaluations = (spent + all_samples - 1) / all_samples;
   return result;

@@ -35,7 +35,8 @@ double heldout_nrmse(const StudyProblem& problem, const std::vector<Term>& terms
         score(predict(problem.layout.model(), problem.layout.held(), terms, make_target(recording, options)), recording,
               options.normalisation));
   }
-  return overall(scores, problem.heldout, options.normalisation, options.weighting);
+  return overall(scores, refer_to(problem.heldout), options.normalisation, options.weighting,
+                 refer_to(problem.recordings));
 }
 
 // Processor time of the calling thread: what the clock on the wall says where the machine does nothing else.

@@ -69,19 +69,16 @@ std::vector<std::vector<double>> residuals_of(const Compared& model, const std::
   return result;
 }
 
-// Over recordings, as everywhere: the root mean square of theirs.
+// Over recordings, as everywhere: the root mean square of theirs, or pooled and over the largest normaliser of all.
 std::optional<double> overall_of(const Compared& model, const std::vector<Recording>& recordings,
                                  const ObjectiveOptions& objective, const std::vector<std::size_t>& which) {
   if (which.empty()) {
     return std::nullopt;
   }
   std::vector<Score> scores;
-  std::vector<Recording> of;
-  for (const std::size_t r : which) {
-    scores.push_back(model.scores[r]);
-    of.push_back(recordings[r]);
-  }
-  return overall(scores, of, objective.normalisation, objective.weighting);
+  for (const std::size_t r : which) scores.push_back(model.scores[r]);
+  return overall(scores, refer_to(recordings, which), objective.normalisation, objective.weighting,
+                 refer_to(recordings));
 }
 
 json number_or_null(const std::optional<double>& value) { return value ? json(*value) : json(nullptr); }

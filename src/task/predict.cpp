@@ -50,7 +50,7 @@ CampaignScore score_campaign(StoredModel stored, const std::string& path, const 
     const std::vector<double> force = force_on(stored, path, recording, objective);
     result.recordings.push_back(score(force, recording, objective.normalisation));
   }
-  result.overall = overall(result.recordings, recordings, objective.normalisation, objective.weighting);
+  result.overall = overall(result.recordings, refer_to(recordings), objective.normalisation, objective.weighting);
   return result;
 }
 

@@ -12,6 +12,9 @@
 #include "core/error.hpp"
 #include "fit/bounds_met.hpp"
 #include "fit/estimate_blocks.hpp"
+#include "fit/predict.hpp"
+#include "fit/score.hpp"
+#include "fit/target.hpp"
 #include "synthetic.hpp"
 
 namespace hysteron {
@@ -56,6 +59,28 @@ const Estimate& estimate_of(const Identification& result, const std::string& nam
     if (estimate.name == name) return estimate;
   }
   throw std::runtime_error("no estimate of " + name);
+}
+
+// Recordings that are missed by as many newtons, two of large forces and one of small ones.
+TEST(Estimates, PooledErrorsOfFittedAndHeldOutRecordingsHaveOneNormaliser) {
+  Campaign campaign = viscous_campaign(15.0);
+  for (double& force : campaign.recordings[1].force) force *= 0.1;
+  for (double& velocity : campaign.recordings[1].velocity) velocity *= 0.1;
+  for (double& displacement : campaign.recordings[1].displacement) displacement *= 0.1;
+  campaign.roles = {Role::fit, Role::validate, Role::fit};
+  IdentifyOptions options;
+  options.solvers = {"lm"};
+  options.budget = 200;
+  options.objective.weighting = Weighting::pooled;
+  const Identification result = identify(campaign, "viscous", options, {});
+  ASSERT_TRUE(result.nrmse_heldout.has_value());
+  // A tenth of the noise, beside what scaling did to the offset of 40 N.
+  const double largest = std::max(normaliser(campaign.recordings[0], Normalisation::max_abs),
+                                  normaliser(campaign.recordings[2], Normalisation::max_abs));
+  const std::vector<double> force =
+      predict(result.layout.model(), result.layout.held(), result.terms, make_target(campaign.recordings[1], {}));
+  EXPECT_NEAR(*result.nrmse_heldout, score(force, campaign.recordings[1], Normalisation::max_abs).rmse / largest,
+              1e-9);
 }
 
 // Of derivatives that are not finite, as beside a jump of the force, nothing follows for the data.

@@ -111,7 +111,7 @@ TEST(Score, AgreesWithHandComputationAndWithTheObjective) {
   EXPECT_NEAR(first.fit_percent, 0.0, 1e-12);  // as good as the mean
   const std::vector<Score> scores{first, score({1.0, 1.0}, recordings[1], Normalisation::max_abs)};
   for (const Weighting weighting : {Weighting::per_recording, Weighting::pooled}) {
-    EXPECT_NEAR(overall(scores, recordings, Normalisation::max_abs, weighting),
+    EXPECT_NEAR(overall(scores, refer_to(recordings), Normalisation::max_abs, weighting),
                 cost_by_hand(Normalisation::max_abs, weighting), 1e-12);
   }
 }
@@ -316,7 +316,8 @@ TEST_F(TwinObjective, CostIsThatOfThePrediction) {
           predict(of.layout().model(), of.layout().held(), of.layout().terms(u), make_target(recording, {}));
       scores.push_back(score(force, recording, Normalisation::max_abs));
     }
-    EXPECT_NEAR(overall(scores, pair(), Normalisation::max_abs, Weighting::per_recording), response.cost[k],
+    const std::vector<Recording> both = pair();
+    EXPECT_NEAR(overall(scores, refer_to(both), Normalisation::max_abs, Weighting::per_recording), response.cost[k],
                 1e-8 * response.cost[k]);
   }
 }
