@@ -66,10 +66,7 @@ class System {
     in.age = in.time;
     double pull = excitation_.force ? excitation_.force->value(t) : 0.0;
     if (excitation_.base) {
-      // The second derivative of the base by a difference of its slope, over what the steps resolve anyway.
-      constexpr double moment = 1e-6;
-      pull -= oscillator_.mass * (excitation_.base->slope(t + moment) - excitation_.base->slope(t - moment)) /
-              (2.0 * moment);
+      pull -= oscillator_.mass * excitation_.base->bend(t);
     }
     pull -= oscillator_.damping * y[1] + oscillator_.stiffness * y[0];
     double* own = result.data() + 2;

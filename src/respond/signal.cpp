@@ -163,6 +163,14 @@ double Signal::placed(double time) const {
 
 Signal::Point Signal::at(double time) const { return within(placed(time)); }
 
+double Signal::bend(double time) const {
+  constexpr double moment = 1e-6;
+  const bool ends = period_ <= 0.0;
+  const double from = ends ? std::max(time - moment, time_.front()) : time - moment;
+  const double to = ends ? std::min(time + moment, time_.back()) : time + moment;
+  return (slope(to) - slope(from)) / (to - from);
+}
+
 // Band-limited, which a simulated motion asks for at every stage of every step: Lagrange's weights without their
 // slopes.
 double Signal::value(double time) const {

@@ -28,6 +28,8 @@ class Signal {
 
   [[nodiscard]] double value(double time) const;
   [[nodiscard]] double slope(double time) const { return at(time).slope; }  // per s
+  // The second derivative, per s^2, by a difference of the slope over 2 us; at its ends of the side it has.
+  [[nodiscard]] double bend(double time) const;
   struct Point {
     double value;
     double slope;

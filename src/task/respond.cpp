@@ -208,7 +208,7 @@ MassResponse response_to(StoredModel stored, const std::string& path, Recording 
   };
   const bool follows = std::ranges::any_of(stored.terms, [](const Term& term) { return term.drive_power > 0; });
   require_response(stored.model, parameters_at(stored.held, stored.terms, 0.0, frequency, middle_of(stored.conditions)),
-                   follows && drive_varies(recording));
+                   follows && drive_varies(as_motion));
   Excitation excitation = excitation_of(recording, base, request);
   if (request.periods > 0) excitation.time.push_back(end_of_periods(recording.time, request.periods));
   MassMotion motion = respond(oscillator, excitation, request.respond);

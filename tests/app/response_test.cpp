@@ -88,6 +88,28 @@ TEST_F(ResponseOfAMass, AnExcitationUnderAnotherNameIsNotTakenForNoneSilently) {
       << outcome.err;
 }
 
+// A drive that is given is constant, whatever the file's is.
+TEST_F(ResponseOfAMass, ADriveThatIsGivenStandsForOneThatVaries) {
+  write(folder_ / "lagged.json",
+        R"({"schema":"hysteron.model/1","model":"viscous","effects":["coil-lag"],"by_current":{"c0":1},"parameters":[
+        {"name":"k0","value":800,"unit":"N/m"},{"name":"c0","parameter":"c0","value":8,"unit":"N s/m"},
+        {"name":"c0*i","parameter":"c0","drive_power":1,"value":4,"unit":"N s/m/A"},
+        {"name":"f0","value":0,"unit":"N"},{"name":"coil-lag.tau","value":0.01,"unit":"s"},
+        {"name":"coil-lag.r","value":1,"unit":"1"}]})");
+  std::string text = "time [s],force [N],current [A]\n";
+  for (int n = 0; n < 500; ++n) {
+    text += fmt::format("{},{},{}\n", n / 500.0, 20.0 * std::sin(9.0 * n / 500.0), n < 250 ? 0.2 : 0.8);
+  }
+  write(folder_ / "steps.csv", text);
+  const std::vector<std::string> words{"respond", "lagged.json", "steps.csv", "--mass", "2", "--out", "steps_out.csv"};
+  const Outcome varying = run(words);
+  EXPECT_EQ(varying.status, 2) << varying.err;
+  EXPECT_NE(varying.err.find("coil-lag acts on a drive that varies"), std::string::npos) << varying.err;
+  std::vector<std::string> given = words;
+  given.insert(given.end(), {"--drive", "0.5"});
+  EXPECT_EQ(run(given).status, 0) << run(given).err;
+}
+
 TEST_F(ResponseOfAMass, ItsForceIsNotTakenForTheDampers) {
   const Outcome outcome = run({"fit", "shaker", "--model", "viscous", "--out", "out"});
   EXPECT_EQ(outcome.status, 2);

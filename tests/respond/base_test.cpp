@@ -67,6 +67,30 @@ TEST(OnABase, TheDamperIsRecovered) {
   EXPECT_EQ(fit.motions[0].displacement.size(), responses[0].size());
 }
 
+// m (a + b'') + F = 0, with the damper at rest at the start; the end has one side as well.
+TEST(OnABase, TheFirstAndTheLastAccelerationAreThoseOfTheWholeBase) {
+  std::vector<double> time;
+  std::vector<double> base;
+  constexpr double omega = 2.0 * std::numbers::pi * 1.4;
+  for (std::size_t n = 0; n <= 500; ++n) {
+    time.push_back(static_cast<double>(n) / rate);
+    base.push_back(0.02 * (1.0 - std::cos(omega * time.back())));
+  }
+  Oscillator oscillator{make_model("viscous", {}),
+                        [](double, std::span<const double>) {
+                          return std::vector<double>{2000.0, 8000.0, 0.0};
+                        },
+                        100.0, 0.0, 0.0};
+  Excitation excitation;
+  excitation.time = time;
+  excitation.base = Signal(time, base, Interpolation::cubic, false);
+  const MassMotion motion = respond(oscillator, excitation, {});
+  for (const std::size_t n : {std::size_t{0}, time.size() - 1}) {
+    const double of_base = 0.02 * omega * omega * std::cos(omega * time[n]);
+    EXPECT_NEAR(motion.acceleration[n], -of_base - motion.force[n] / 100.0, 0.02 * std::fabs(of_base)) << n;
+  }
+}
+
 TEST(OnABase, ABaseIsWantedAndNotByStraightLines) {
   Recording without = on_base();
   without.base.clear();
