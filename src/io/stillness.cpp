@@ -50,13 +50,27 @@ bool has_one_mean(std::span<const double> x, std::size_t first, std::size_t end,
   return chi_squared < degrees + surely * std::sqrt(2.0 * degrees);
 }
 
+// A rod that leaves does not come back: one sample further off than noise mostly is, and the next one not, is noise.
 Still extended(Still still, std::span<const double> x, double sigma) {
   const double mean = mean_of(x.subspan(still.first, still.end - still.first));
-  while (still.first > 0 && std::fabs(x[still.first - 1] - mean) < no_further_off * sigma) {
-    --still.first;
+  const auto near = [&](std::size_t n) { return n < x.size() && std::fabs(x[n] - mean) < no_further_off * sigma; };
+  for (;;) {
+    if (still.first > 0 && near(still.first - 1)) {
+      still.first -= 1;
+    } else if (still.first > 1 && near(still.first - 2)) {
+      still.first -= 2;
+    } else {
+      break;
+    }
   }
-  while (still.end < x.size() && std::fabs(x[still.end] - mean) < no_further_off * sigma) {
-    ++still.end;
+  for (;;) {
+    if (near(still.end)) {
+      still.end += 1;
+    } else if (near(still.end + 1)) {
+      still.end += 2;
+    } else {
+      break;
+    }
   }
   return still;
 }

@@ -61,6 +61,22 @@ TEST(Stillness, AHeldRodIsFoundWhereItIsHeld) {
   EXPECT_GE(found, 90);
 }
 
+// One sample of a hundred or two is further off than three standard deviations, wherever it lies.
+TEST(Stillness, OneSampleOffDoesNotEndIt) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    Channel with = channel(stopped, 2.65, seed);
+    const std::vector<Still> before = stretches(with);
+    if (before.size() != 1) continue;
+    // Behind the stop, in front of the first of three blocks that tell it.
+    const std::size_t at = before[0].first + 4;
+    with.x[at] = stopped(2.6) + 4.0 * noise;
+    const std::vector<Still> after = stretches(with);
+    ASSERT_EQ(after.size(), 1U) << seed;
+    EXPECT_LE(after[0].first, at) << seed;
+    EXPECT_EQ(after[0].end, before[0].end) << seed;
+  }
+}
+
 TEST(Stillness, MotionIsNotTakenForStillness) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     EXPECT_TRUE(stretches(channel(sine, 3.0, seed)).empty());
