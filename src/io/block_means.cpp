@@ -110,18 +110,19 @@ void thin(Channels& channels, const Sources& sources, const ReadOptions& options
   }
   const double bend = means.bend();
   channels = means.take();
-  if (options.remark) options.remark(thinning_remark(file, samples, k, channels[time_at], bend));
+  if (options.remark)
+    options.remark(thinning_remark(file, samples, options.samples_of_all, k, channels[time_at], bend));
 }
 
-Remark thinning_remark(const std::string& file, std::size_t read, std::size_t k, const std::vector<double>& time,
-                       double bend) {
+Remark thinning_remark(const std::string& file, std::size_t read, std::size_t of_all, std::size_t k,
+                       const std::vector<double>& time, double bend) {
   const std::size_t kept = time.size();
   const double step = (time.back() - time.front()) / static_cast<double>(kept - 1);
   const std::string text = fmt::format("{} samples read, every {} averaged to one: {} kept, {:.3g} ms apart",
                                        counted(read), k, counted(kept), 1e3 * step);
   if (bend <= largest_bend) {
     return {file, Remark::Kind::thinned, "thinned",
-            text + "; " + Option::keep_samples + fmt::format(" {} keeps all", read)};
+            text + "; " + Option::keep_samples + fmt::format(" {} keeps all", std::max(read, of_all))};
   }
   // What a straight line leaves grows with the square of the block. Blocks are of whole samples.
   const double block = std::floor(static_cast<double>(k) * std::sqrt(largest_bend / bend));

@@ -62,7 +62,7 @@ class BlockMeans {
 void thin(Channels& channels, const Sources& sources, const ReadOptions& options, const std::string& file);
 
 // What happened, in one line: samples read and kept, what is between them, and whether the motion is told by them.
-[[nodiscard]] Remark thinning_remark(const std::string& file, std::size_t read, std::size_t k,
+[[nodiscard]] Remark thinning_remark(const std::string& file, std::size_t read, std::size_t of_all, std::size_t k,
                                      const std::vector<double>& time, double bend);
 
 }  // namespace hysteron

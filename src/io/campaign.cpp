@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <set>
 #include <string_view>
@@ -238,8 +239,9 @@ Recording load_recording(const fs::path& path, const ReadOptions& options) {
 
 namespace {
 
-// Samples that each recording may keep; 0 where all of them are kept.
-std::size_t limit_of_each(const std::vector<Item>& items, std::size_t total) {
+// Limits what each recording may keep so that all keep no more than was asked for.
+void limit_each(const std::vector<Item>& items, ReadOptions& of_each) {
+  const std::size_t total = of_each.keep_samples;
   constexpr std::uintmax_t shortest_row = 6;  // bytes, of a text
   std::uintmax_t bytes = 0;
   for (const Item& item : items) {
@@ -247,14 +249,15 @@ std::size_t limit_of_each(const std::vector<Item>& items, std::size_t total) {
     const std::uintmax_t size = fs::file_size(item.path, code);
     bytes += code ? 0 : size;
   }
-  if (total == 0 || bytes / shortest_row <= total) return total;
+  if (total == 0 || bytes / shortest_row <= total) return;
   std::vector<std::size_t> samples;
   for (const Item& item : items) {
     // What is no recording is told when it is read.
     const InputFormat* format = find_format(item.path);
     samples.push_back(format == nullptr ? 0 : format->samples(item.path));
   }
-  return kept_of_each(samples, total);
+  of_each.keep_samples = kept_of_each(samples, total);
+  of_each.samples_of_all = std::accumulate(samples.begin(), samples.end(), std::size_t{0});
 }
 
 bool has_start(const Recording& recording) { return recording.started.has_value(); }
@@ -428,7 +431,7 @@ Campaign load_campaign(const std::vector<std::string>& data, const ReadOptions& 
   tell_apart(items);
   ReadOptions of_each = options;
   of_each.follows_frequency = options.follows_frequency || !campaign.by_frequency.empty();
-  of_each.keep_samples = limit_of_each(items, options.keep_samples);
+  limit_each(items, of_each);
   for (const auto& [condition, orders] : campaign.by) {
     const auto at = std::ranges::lower_bound(of_each.conditions, condition);
     if (at == of_each.conditions.end() || *at != condition) of_each.conditions.insert(at, condition);

@@ -48,6 +48,7 @@ struct ReadOptions {
   bool follows_frequency = false;
   // Samples kept of all recordings together, 0 for all samples (io/block_means.hpp).
   std::size_t keep_samples = 0;
+  std::size_t samples_of_all = 0;  // that these have; 0: of one recording
   std::function<void(const Remark&)> remark = {};
   // Group of a TDMS or MDF file, or sheet of a workbook, that alone is read; empty for all of them.
   std::string group = {};

@@ -160,7 +160,7 @@ class CsvReader {
       channels_ = means_->take();
       made_time = make_time(channels_);
       if (options_.remark) {
-        options_.remark(thinning_remark(file_, rows_read_, stride_, channels_[0], bend));
+        options_.remark(thinning_remark(file_, rows_read_, options_.samples_of_all, stride_, channels_[0], bend));
       }
     }
     made_time = make_time(channels_) || made_time;
