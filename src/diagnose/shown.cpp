@@ -15,10 +15,20 @@ namespace {
 
 bool speaks_by_itself(const Signature& row) { return speaks({&row, loudness(row)}); }
 
-// Those that speak, and for none of the names.
-std::vector<const Signature*> untold(const std::vector<Signature>& signatures, const std::vector<Named>& names) {
+// Whether a contrast no longer shows among others, or can no longer be taken.
+bool no_longer_shows(const Signature& row, const std::vector<Signature>& others) {
+  const auto at = std::ranges::find(others, row.id, &Signature::id);
+  return at == others.end() || !shows({&*at, loudness(*at)});
+}
+
+// Those that speak, for none of the names and, where a name is more than a suggestion, of what the augmented model
+// still leaves: one effect may show in several contrasts.
+std::vector<const Signature*> untold(const std::vector<Signature>& signatures, const std::vector<Named>& names,
+                                     const std::vector<Signature>& left) {
+  const bool named = std::ranges::any_of(names, [](const Named& row) { return row.grade <= Grade::supported; });
   std::vector<const Signature*> result;
   for (const Signature& row : signatures) {
+    if (named && no_longer_shows(row, left)) continue;
     const bool told = std::ranges::any_of(row.speaks_for, [&](const std::string& effect) {
       return std::ranges::find(names, effect, &Named::id) != names.end();
     });
@@ -28,12 +38,6 @@ std::vector<const Signature*> untold(const std::vector<Signature>& signatures, c
   }
   std::ranges::stable_sort(result, std::greater{}, [](const Signature* row) { return loudness(*row); });
   return result;
-}
-
-// Whether a contrast no longer shows among others, or can no longer be taken.
-bool no_longer_shows(const Signature& row, const std::vector<Signature>& others) {
-  const auto at = std::ranges::find(others, row.id, &Signature::id);
-  return at == others.end() || !shows({&*at, loudness(*at)});
 }
 
 std::string phrase_of(const Signature& row, const std::string& more) {
@@ -66,6 +70,7 @@ void name_units(Evidence& evidence, DriveKind drive) {
   }
   const std::string_view square = drive == DriveKind::voltage ? "V^2" : "A^2";
   name_unit(evidence.signatures, square);
+  name_unit(evidence.signatures_left, square);
   for (Candidate& candidate : evidence.candidates) {
     name_unit(candidate.signatures, square);
   }
@@ -78,7 +83,7 @@ std::string sentence_of_contrasts(const Evidence& evidence, const std::vector<Na
   const bool replaced = !evidence.behind_asked.empty();
   const Evidence& asked = replaced ? evidence.behind_asked.front() : evidence;
   std::vector<std::string> phrases;
-  for (const Signature* row : untold(asked.signatures, names)) {
+  for (const Signature* row : untold(asked.signatures, names, evidence.signatures_left)) {
     phrases.push_back(phrase_of(*row, replaced && no_longer_shows(*row, evidence.signatures)
                                           ? "; absent with " + evidence.model
                                           : std::string{}));
@@ -88,7 +93,7 @@ std::string sentence_of_contrasts(const Evidence& evidence, const std::vector<Na
     text = fmt::format("Whatever the cause, the residual of {} shows: {}.", asked.model, fmt::join(phrases, "; "));
   }
   phrases.clear();
-  for (const Signature* row : untold(evidence.signatures, names)) {
+  for (const Signature* row : untold(evidence.signatures, names, evidence.signatures_left)) {
     const auto before = std::ranges::find(asked.signatures, row->id, &Signature::id);
     if (replaced && (before == asked.signatures.end() || !speaks_by_itself(*before))) {
       phrases.push_back(phrase_of(*row, {}));

@@ -28,6 +28,23 @@ TEST(Shown, IsWhatSpeaksAndHasNoName) {
   EXPECT_EQ(sentence_of_contrasts(evidence, {mass}), "");
 }
 
+// A mass that is left out shows as a lag too.
+TEST(Shown, IsNotWhatANameExplainsByTheWay) {
+  Evidence evidence;
+  evidence.model = "bouc-wen";
+  evidence.signatures = {signature("lag", "sensor-delay", 4.0), signature("loud", "stiction", 6.0)};
+  evidence.signatures_left = {signature("lag", "sensor-delay", 0.5), signature("loud", "stiction", 4.0)};
+  Named mass;
+  mass.id = "inertia";
+  const std::string loud = "what loud is, 20 N (6 of 8 recordings)";
+  mass.grade = Grade::supported;
+  EXPECT_EQ(sentence_of_contrasts(evidence, {mass}),
+            "Whatever the cause, the residual of bouc-wen shows: " + loud + ".");
+  mass.grade = Grade::suggested;
+  EXPECT_EQ(sentence_of_contrasts(evidence, {mass}),
+            "Whatever the cause, the residual of bouc-wen shows: " + loud + "; what lag is, 20 N (6 of 8 recordings).");
+}
+
 TEST(Shown, SaysWhatIsGoneBehindTheLawThatTakesThePlace) {
   Evidence asked;
   asked.model = "bouc-wen";

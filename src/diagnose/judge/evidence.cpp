@@ -22,7 +22,8 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ContrastLeft, effect, signature, instead, law
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FirstLook, id, gain, refitted)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Evidence, model, asked_for, recordings, motions, base, augmented, first_stage,
                                    candidates, base_compared, augmented_compared, augmented_over_base, other_laws,
-                                   signatures, contrasts_left, behind_asked, doubt_of_completeness, doubt_of_data)
+                                   signatures, signatures_left, contrasts_left, behind_asked, doubt_of_completeness,
+                                   doubt_of_data)
 
 bool Comparison::surely_better() const {
   // Quantile of Student's distribution for that of the normal at two, in powers of one over the degrees of freedom
@@ -44,6 +45,7 @@ void complete_signatures(nlohmann::json& signatures) {
 // Records of earlier programs hold none of these.
 void complete(nlohmann::json& evidence) {
   complete_signatures(evidence.at("signatures"));
+  evidence.emplace("signatures_left", evidence.at("signatures"));
   evidence.emplace("motions", evidence.at("recordings"));
   evidence.emplace("contrasts_left", nlohmann::json::array());
   evidence.emplace("behind_asked", nlohmann::json::array());

@@ -255,6 +255,7 @@ Evidence evidence_of_models(const Search& search, const Workbench& fine, const C
     result.first_stage.push_back({name_of(tried.part), tried.gain, tried.fit.has_value()});
   }
   result.signatures = signatures_of(known.contrasts);
+  result.signatures_left = same ? result.signatures : signatures_of(known.contrasts_of(search.augmented));
   LeftOut before = *looked.find(search.base);
   for (const Found& found : search.found) {
     before = found.of_law ? std::move(before) : left_out_beside(fine, search.base, found.part, std::move(before));
