@@ -236,7 +236,7 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const Split& split
 
   progress(0.92, "locating the misfit");
   // Where nothing but noise is left, places of it would be those of chance.
-  if (diagnosis.verdict.answer != Answer::complete &&
+  if (diagnosis.verdict.answer != Answer::complete && !only_a_tone(diagnosis) &&
       (structured(diagnosis.search.base_misfit) || !diagnosis.search.found.empty())) {
     diagnosis.locations = locate(diagnosis.bench.split().fit, diagnosis.bench.residuals(diagnosis.search.base));
     if (diagnosis.verdict.remaining_structure && !(diagnosis.search.augmented.what == diagnosis.search.base.what)) {

@@ -241,6 +241,12 @@ void add(std::vector<std::string>& summary, const std::string& sentence) {
 
 }  // namespace
 
+// It is more often the rig's than the damper's.
+bool only_a_tone(const Diagnosis& diagnosis) {
+  const Verdict& verdict = diagnosis.verdict;
+  return diagnosis.tone_doubts && verdict.effects.empty() && verdict.suggestions.empty() && verdict.doubtful.empty();
+}
+
 std::vector<std::string> summary_of(const Diagnosis& diagnosis) {
   const Verdict& verdict = diagnosis.verdict;
   std::vector<std::string> summary;
@@ -253,12 +259,10 @@ std::vector<std::string> summary_of(const Diagnosis& diagnosis) {
   } else if (verdict.effects.empty()) {
     const bool may_be_noise = diagnosis.too_few_values && diagnosis.evidence.doubt_of_data.empty();
     const bool faulty = !diagnosis.evidence.doubt_of_data.empty();
-    // A tone whatever the motion is more often the rig's than the damper's.
-    const bool tone_alone = diagnosis.tone_doubts && verdict.suggestions.empty() && verdict.doubtful.empty();
-    add(summary, (may_be_noise ? "Whether physics is missing cannot be told: "
-                  : faulty     ? "The recordings have a fault, and no effect can be named: "
-                  : tone_alone ? "More than noise is left, of the damper or of the rig: "
-                               : "Physics is missing, but no effect is certain enough to name: ") +
+    add(summary, (may_be_noise             ? "Whether physics is missing cannot be told: "
+                  : faulty                 ? "The recordings have a fault, and no effect can be named: "
+                  : only_a_tone(diagnosis) ? "More than noise is left, of the damper or of the rig: "
+                                           : "Physics is missing, but no effect is certain enough to name: ") +
                      verdict.reason + ".");
   }
   if (diagnosis.column) {

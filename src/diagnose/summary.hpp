@@ -12,4 +12,7 @@ namespace hysteron {
 // the strongest away; last the recording to make next.
 std::vector<std::string> summary_of(const Diagnosis& diagnosis);
 
+// Whether a tone that runs whatever the motion is all that is told beside the noise: it has no place in the motion.
+bool only_a_tone(const Diagnosis& diagnosis);
+
 }  // namespace hysteron
