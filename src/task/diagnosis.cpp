@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <functional>
 #include <set>
 #include <string>
@@ -82,6 +83,15 @@ Identification identification_of(const Diagnosis& diagnosis, const Campaign& cam
       blocks.add();
       return objective.stopped && objective.stopped();
     };
+  }
+  // On every sample, as `score` has them: the search counts thinned recordings without their run-in.
+  const auto error_on = [&](const std::vector<std::size_t>& which) {
+    return predicted_nrmse(*fit.layout, fit.terms, refer_to(campaign.recordings, which), objective,
+                           refer_to(campaign.recordings, result.fitted));
+  };
+  if (const double error = error_on(result.fitted); std::isfinite(error)) result.cost = error;
+  if (!result.heldout.empty()) {
+    if (const double error = error_on(result.heldout); std::isfinite(error)) result.nrmse_heldout = error;
   }
   const Objective on_all(*fit.layout, fitted, told);
   blocks.expect(blocks_of_estimate(on_all));
