@@ -8,7 +8,9 @@
 #include "core/apart.hpp"
 #include "core/drive.hpp"
 #include "core/error.hpp"
+#include "core/joined.hpp"
 #include "diagnose/account.hpp"
+#include "diagnose/base_bounds.hpp"
 #include "diagnose/doubts.hpp"
 #include "diagnose/judgement.hpp"
 #include "diagnose/search/of_fit.hpp"
@@ -62,6 +64,12 @@ const Fit& without_of(const Diagnosis& diagnosis, const Named& named) {
 }
 
 namespace {
+
+void add_note(Diagnosis& diagnosis, const std::string& note) {
+  if (!note.empty()) {
+    diagnosis.notes.push_back(note);
+  }
+}
 
 // Effects that the inputs excite; the others are noted as not observable.
 std::vector<std::string> candidates_of(const DiagnoseOptions& options, Diagnosis& diagnosis) {
@@ -202,6 +210,10 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const Split& split
         "the starts of the recordings are told: heat and wear go on from one to the next, by the measured force");
   }
 
+  if (!options.candidates.empty()) {
+    add_note(diagnosis, "no other effects were tried than " + joined(options.candidates, " and "));
+  }
+
   SearchOptions searching;
   std::string doubt = doubt_of_velocity(diagnosis.bench.split().fit);
   if (doubt.empty()) doubt = doubt_of_channels(campaign.recordings);
@@ -244,6 +256,7 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const Split& split
           locate(diagnosis.bench.split().fit, diagnosis.bench.residuals(diagnosis.search.augmented));
     }
   }
+  if (diagnosis.verdict.answer != Answer::complete) add_note(diagnosis, note_of_bounds(fine, diagnosis.search.base));
   diagnosis.drift_of_base = drift_of(fine, diagnosis.search.base);
   diagnosis.drift_of_augmented = drift_of(fine, diagnosis.search.augmented);
   for (const Named& named : names) {
@@ -287,12 +300,6 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const Split& split
   diagnosis.final = fine.on_all(diagnosis.search.augmented,
                                 thinned(roles ? diagnosis.bench.split().fit : campaign.recordings, fine_samples), 5);
   return result;
-}
-
-void add_note(Diagnosis& diagnosis, const std::string& note) {
-  if (!note.empty()) {
-    diagnosis.notes.push_back(note);
-  }
 }
 
 }  // namespace

@@ -535,7 +535,7 @@ TEST(Verdict, WhatIsNotNoiseIsNotComplete) {
   Evidence evidence = nothing();
   evidence.doubt_of_completeness = "what is left is a factor of the force that swings";
   EXPECT_EQ(verdict_of(evidence).answer, Answer::unattributed);
-  EXPECT_EQ(verdict_of(evidence).reason, evidence.doubt_of_completeness + "; no effect of the catalogue explains it");
+  EXPECT_EQ(verdict_of(evidence).reason, evidence.doubt_of_completeness + "; no effect that was tried explains it");
 }
 
 TEST(Verdict, EveryCandidateIsNamedSuggestedOrDoubted) {

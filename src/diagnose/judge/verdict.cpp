@@ -257,7 +257,7 @@ Verdict answer_of(const Evidence& evidence) {
     verdict.answer = Answer::unattributed;
     verdict.reason =
         evidence.doubt_of_completeness +
-        (verdict.suggestions.empty() && evidence.candidates.empty() ? "; no effect of the catalogue explains it" : "");
+        (verdict.suggestions.empty() && evidence.candidates.empty() ? "; no effect that was tried explains it" : "");
     return verdict;
   }
   if (!evidence.asked_for.empty()) {
@@ -270,7 +270,7 @@ Verdict answer_of(const Evidence& evidence) {
       verdict.missing >= suggested_from || !verdict.suggestions.empty() ? Answer::unattributed : Answer::complete;
   if (verdict.answer == Answer::unattributed) {
     verdict.reason =
-        evidence.candidates.empty() ? "no effect of the catalogue explains the misfit" : likeliest(verdict);
+        evidence.candidates.empty() ? "no effect that was tried explains the misfit" : likeliest(verdict);
   }
   return verdict;
 }
