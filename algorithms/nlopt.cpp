@@ -2,7 +2,9 @@
 //
 //   minimise cost(u)^2 over the unit box; the gradient, where the algorithm wants one, is 2 J^T r
 //
-// The square is what the library is told because it is smooth at a perfect fit, where the cost itself has a kink.
+// The square is what the library is told because it is smooth at a perfect fit, where the cost itself has a kink. A
+// problem without recordings may have costs of any sign, whose squares are in another order: of those the library is
+// told the cost itself, by algorithms without derivatives (the others are given a sum of squares anyway).
 // Source: S. G. Johnson, The NLopt nonlinear-optimization package; the papers behind each algorithm are in its manual.
 // Algorithms the installed library was built without (StoGO, AGS in the distributions' packages) are not listed.
 // What is done here and not by the library:
@@ -10,8 +12,8 @@
 // - Starts from the problem's start, else the centre of the box, step lengths and population by the library's own
 // rules.
 // - A point outside the box (PRAXIS and NEWUOA may ask for one) is evaluated at its projection onto the box.
-// - A diverged candidate is answered with ten times the largest squared cost seen: quadratic models do not survive
-// 1e20.
+// - A diverged candidate is answered with ten times the largest squared cost seen, of costs themselves with the largest
+// seen and nine times their size or spread more: quadratic models do not survive 1e20.
 // - MLSL descends with BOBYQA or L-BFGS, the augmented Lagrangian (without constraints here) minimises with them.
 // - The library's random state is local to a thread; the run has its own thread and seeds it from its stream.
 #include <nlopt.h>
@@ -21,6 +23,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstring>
+#include <limits>
 #include <memory>
 #include <span>
 #include <string>
@@ -44,7 +47,7 @@ constexpr Setting settings[] = {
     {"population", 0.0, 0.0, 100000.0, "population or starts a round of global algorithms; 0: the library's choice"},
     {"step", 0.0, 0.0, 1.0, "initial step of local algorithms as a share of the box; 0: the library's choice"},
     {"xtol", 1e-8, 0.0, 1.0, "stop when a step is smaller, relative to the point"},
-    {"ftol", 1e-12, 0.0, 1.0, "stop when the squared cost changes less, relative to it"},
+    {"ftol", 1e-12, 0.0, 1.0, "stop when the squared cost (minimise: the cost) changes less, relative to it"},
 };
 
 struct OptimiserDeleter {
@@ -56,16 +59,27 @@ using Optimiser = std::unique_ptr<std::remove_pointer_t<nlopt_opt>, OptimiserDel
 struct Call {
   const ForeignSolver::Evaluate* evaluate;
   nlopt_opt opt;
-  double worst = -1.0;  // largest squared cost of a candidate that did not diverge
+  bool squares = true;  // the library is told squared costs
+  // Lowest and largest value told of a candidate that did not diverge.
+  double least = std::numeric_limits<double>::infinity();
+  double worst = -std::numeric_limits<double>::infinity();
   // Calls before which the library must not be told to stop: the original DIRECT then reads outside its arrays.
   std::size_t uninterruptible = 0;
   std::size_t calls = 0;
   bool stopped = false;
 };
 
-// Above every squared cost of a finite force, and below the 1e20 from which the original DIRECT takes a value for none:
-// told only of such values it reads outside its arrays.
+// Above every value told of a candidate that did not diverge, and below the 1e20 from which the original DIRECT takes a
+// value for none: told only of such values it reads outside its arrays.
 constexpr double worthless = 1e19;
+
+// Of a diverged candidate.
+double penalty(const Call& call) {
+  if (call.squares) return call.worst > 0.0 ? 10.0 * call.worst : worthless;
+  if (!std::isfinite(call.worst)) return worthless;
+  const double size = std::max(std::fabs(call.worst), call.worst - call.least);
+  return call.worst + 9.0 * (size > 0.0 ? size : 1.0);
+}
 
 double objective(unsigned dimension, const double* x, double* gradient, void* data) {
   auto& call = *static_cast<Call*>(data);
@@ -84,13 +98,14 @@ double objective(unsigned dimension, const double* x, double* gradient, void* da
     if (call.calls > call.uninterruptible) nlopt_force_stop(call.opt);
     return worthless;
   }
-  if (answer->cost >= diverged_cost) return call.worst > 0.0 ? 10.0 * call.worst : worthless;
-  const double square = answer->cost * answer->cost;
-  call.worst = std::max(call.worst, square);
+  if (answer->cost >= diverged_cost) return penalty(call);
+  const double value = call.squares ? answer->cost * answer->cost : answer->cost;
+  call.least = std::min(call.least, value);
+  call.worst = std::max(call.worst, value);
   if (wanted) {
     for (unsigned d = 0; d < dimension; ++d) gradient[d] = 2.0 * answer->gradient[d];
   }
-  return square;
+  return value;
 }
 
 void configure(nlopt_opt opt, const Problem& problem, int evaluations) {
@@ -116,7 +131,7 @@ std::string optimise(nlopt_algorithm algorithm, const Problem& problem, const Fo
   if (!opt) return "nlopt_create failed: the installed NLopt has no " + std::string(name);
   const int evaluations = static_cast<int>(std::min<std::size_t>(problem.budget, 1000000000U));
   configure(opt.get(), problem, evaluations);
-  Call call{&evaluate, opt.get()};
+  Call call{&evaluate, opt.get(), !problem.recordings.empty() || wants_gradient(name)};
   if (std::strstr(name, "ORIG_DIRECT") != nullptr) call.uninterruptible = 2 * problem.dimension + 2;
   nlopt_set_min_objective(opt.get(), objective, &call);
   if (nests(name)) {
@@ -186,7 +201,9 @@ const SolverEntry solver_nlopt = {
     "is\n"
     "cut by the program's own counter. Ends by the library's tolerances. A diverged candidate is answered with ten "
     "times\n"
-    "the largest squared cost seen; a point outside the box is evaluated at its projection onto it.",
+    "the largest squared cost seen; a point outside the box is evaluated at its projection onto it. In `minimise`, "
+    "whose\n"
+    "costs may be negative, it is the cost itself that is minimised.",
     false,
     settings,
     nullptr,

@@ -15,8 +15,10 @@
 namespace hysteron {
 namespace {
 
+// As of one recording, so that costs are known to be roots of sums of squares.
 Problem problem_of(std::size_t dimension, std::size_t budget, std::uint64_t seed = 1) {
   Problem problem;
+  problem.recordings = {1};
   problem.dimension = dimension;
   problem.budget = budget;
   problem.stream = Stream(seed).child("foreign");
@@ -109,6 +111,29 @@ TEST(Foreign, LocalAlgorithmsSolveRosenbrock) {
   EXPECT_LT(evaluations_to("nlopt:LN_SBPLX", 1e-4), 1500.0);
   EXPECT_LT(evaluations_to("nlopt:LD_LBFGS", 1e-4), 200.0);
   EXPECT_LT(evaluations_to("nlopt:LD_SLSQP", 1e-4), 200.0);
+}
+
+// Without recordings a cost may be any number, and the square of a negative one grows as the cost falls.
+TEST(Foreign, NegativeCostsKeepTheirOrder) {
+  for (const char* id : {"nlopt:LN_BOBYQA", "nlopt:LN_COBYLA", "nlopt:GN_DIRECT_L"}) {
+    Problem problem = problem_of(2, 400);
+    problem.recordings.clear();
+    const auto solver = find_solver(id)->make(problem);
+    double best = 1e9;
+    for (std::size_t used = 0; used < problem.budget; ++used) {
+      const Request request = solver->ask();
+      if (request.points.empty()) break;
+      const double x = request.points[0] - 0.3;
+      const double y = request.points[1] - 0.8;
+      // Some points have no cost, which must not look good beside those that have one.
+      const bool diverged = x + y > 0.5;
+      Response response;
+      response.cost = {diverged ? diverged_cost : 100.0 * (x * x + y * y) - 5.0};
+      best = std::min(best, response.cost[0]);
+      solver->tell(request, response);
+    }
+    EXPECT_NEAR(best, -5.0, 1e-3) << id;
+  }
 }
 
 TEST(Foreign, StartAndStepAreUsed) {
