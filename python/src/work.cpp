@@ -27,6 +27,7 @@
 #include "task/excites.hpp"
 #include "task/fit.hpp"
 #include "task/json_text.hpp"
+#include "task/solver_settings.hpp"
 #include "task/study.hpp"
 #include "watched.hpp"
 
@@ -58,6 +59,7 @@ FitRequest fit_request(const Options& options, const Campaign& campaign) {
   identify.seed = options.get<std::uint64_t>("seed");
   identify.effects = options.get<std::vector<std::string>>("effects");
   identify.settings = options.get<std::map<std::string, double>>("settings");
+  check_settings("settings", identify.solvers, identify.settings);
   identify.objective = objective_of(options);
   identify.layout = laws_of(options, campaign);
   identify.layout.fix = options.get<std::map<std::string, double>>("fix");

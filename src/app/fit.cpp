@@ -19,6 +19,7 @@
 #include "report/html.hpp"
 #include "report/terminal.hpp"
 #include "task/finite.hpp"
+#include "task/solver_settings.hpp"
 #include "task/stages.hpp"
 
 namespace hysteron::app {
@@ -79,6 +80,7 @@ FitRequest request_of(const FitOptions& options) {
     }
   }
   result.settings = settings_of(options.settings);
+  check_settings(Option::set, result.solvers, result.settings);
   return request;
 }
 

@@ -18,6 +18,7 @@
 #include "external/line_program.hpp"
 #include "fit/driver.hpp"
 #include "report/terminal.hpp"
+#include "task/solver_settings.hpp"
 
 namespace hysteron::app {
 namespace {
@@ -189,6 +190,7 @@ void run(const Options& options) {
   std::vector<const SolverEntry*> entries;
   for (const std::string& id : options.solvers) entries.push_back(&solver_of(id));
   const std::map<std::string, double> settings = settings_of(options.settings);
+  check_settings(Option::set, entries, settings);
   json record = {{"schema", "hysteron.minimum/1"},
                  {"command", command_line()},
                  {"seed", options.seed},
@@ -208,12 +210,7 @@ void run(const Options& options) {
     // Without the solver's name: solvers that draw a first population alike draw the same one.
     problem.stream = Stream(options.seed).child("minimise");
     for (const auto& [name, value] : settings) {
-      const bool knows = std::ranges::any_of(entry->settings, [&](const Setting& one) { return one.name == name; });
-      if (knows) problem.settings[name] = value;
-      if (!knows && entries.size() == 1) {
-        throw InputError("--set: '" + options.solvers.front() + "' has no setting '" + name +
-                         "', see `hysteron describe " + options.solvers.front() + "`");
-      }
+      if (find_setting(*entry, name) != nullptr) problem.settings[name] = value;
     }
     const RunResult result = run_solver(
         *entry, problem, [&](const Request& request) { return objective.evaluate(request); },

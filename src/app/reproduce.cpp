@@ -19,6 +19,7 @@
 #include "io/output.hpp"
 #include "report/markdown.hpp"
 #include "report/terminal.hpp"
+#include "task/solver_settings.hpp"
 
 namespace hysteron::app {
 namespace {
@@ -86,23 +87,21 @@ std::string reproduction_markdown(const PublishedTable& entry, const Reproductio
 // Gives the study's solvers these settings, each to those that know it and are not there as they ship. Returns what was
 // changed, "pso: topology = 0".
 std::vector<std::string> set(Study& study, const std::map<std::string, double>& settings) {
+  std::vector<const SolverEntry*> taking;
+  for (const SolverSpec& solver : study.solvers) {
+    if (const SolverEntry* entry = find_solver(solver.id);
+        !solver.shipped && std::ranges::find(taking, entry) == taking.end()) {
+      taking.push_back(entry);
+    }
+  }
+  check_settings(Option::set, taking, settings);
   std::vector<std::string> changed;
   for (const auto& [name, value] : settings) {
-    bool known = false;
     for (SolverSpec& solver : study.solvers) {
-      if (solver.shipped) continue;
-      const SolverEntry* entry = find_solver(solver.id);
-      const auto row = std::ranges::find(entry->settings, name, &Setting::name);
-      if (row == entry->settings.end()) continue;
-      if (value < row->lower || value > row->upper) {
-        throw InputError(fmt::format("--set: {} is {:g}, expected a number from {:g} to {:g} for {}", name, value,
-                                     row->lower, row->upper, solver.id));
-      }
-      known = true;
+      if (solver.shipped || find_setting(*find_solver(solver.id), name) == nullptr) continue;
       solver.settings[name] = value;
       changed.push_back(fmt::format("{}: {} = {:g}", solver.label, name, value));
     }
-    if (!known) throw InputError("--set: no solver of this table has a setting '" + name + "'");
   }
   return changed;
 }
