@@ -91,6 +91,16 @@ std::string plain_name(const std::string& label) {
   return name;
 }
 
+// The improvements of a run, and its last evaluation, with which a block must end. A run without a finite candidate
+// would be no run to the reader, and its solver without failures: it has the cost of a diverged candidate, as the
+// solver was told, from its first evaluation on. The format counts evaluations from 1.
+std::vector<TracePoint> ioh_rows(const RunRecord& record) {
+  std::vector<TracePoint> rows = record.trace;
+  if (rows.empty()) rows.push_back({1, diverged_cost});
+  if (rows.back().evaluations < record.evaluations) rows.push_back({record.evaluations, rows.back().best});
+  return rows;
+}
+
 }  // namespace
 
 std::string runs_csv(const json& plan, const std::vector<RunRecord>& records) {
@@ -142,16 +152,13 @@ std::map<std::string, std::string> ioh_files(const json& plan, const std::vector
   const auto largest = plan.at("budgets").back().get<std::size_t>();
   std::map<std::pair<std::size_t, std::size_t>, Block> blocks;
   for (const auto& [run, record] : rows_of(plan, records)) {
-    if (run->at("budget").get<std::size_t>() != largest || record->trace.empty()) continue;
+    if (run->at("budget").get<std::size_t>() != largest) continue;
     Block& block = blocks[{run->at("solver").get<std::size_t>(), run->at("problem").get<std::size_t>()}];
+    const std::vector<TracePoint> rows = ioh_rows(*record);
     block.data += "\"function evaluation\" \"best-so-far f(x)\"\n";
-    for (const TracePoint& point : record->trace) block.data += fmt::format("{} {}\n", point.evaluations, point.best);
-    // A block must end with the last evaluation.
-    if (record->trace.back().evaluations < record->evaluations) {
-      block.data += fmt::format("{} {}\n", record->evaluations, record->trace.back().best);
-    }
+    for (const TracePoint& point : rows) block.data += fmt::format("{} {}\n", point.evaluations, point.best);
     block.summary +=
-        fmt::format(", {}:{}|{}", run->at("seed").get<std::uint64_t>(), record->evaluations, record->trace.back().best);
+        fmt::format(", {}:{}|{}", run->at("seed").get<std::uint64_t>(), rows.back().evaluations, rows.back().best);
   }
   std::map<std::string, std::string> files;
   for (const auto& [where, block] : blocks) {

@@ -98,6 +98,18 @@ class Export(unittest.TestCase):
                 self.assertLessEqual(len(rows), len(own) + 1)
                 self.assertLessEqual(rows[-1][0], 120)
 
+    def test_a_failed_run_is_a_run_without_success(self):
+        with tempfile.TemporaryDirectory() as place:
+            folder = Path(place)
+            # No point with derivatives is within that budget.
+            small = study.replace('["random-search", "pso", "multistart-lm"]', '["random-search", "lm"]')
+            (folder / "study.toml").write_text(small.replace("[50, 120]", "[2]"), encoding="utf-8")
+            for command in (["bench", "study.toml", "--out", "out", "--quiet"], ["report", "out", "--ioh"]):
+                subprocess.run([hysteron, *command], cwd=folder, check=True, stdout=subprocess.DEVNULL)
+            runs = read(folder / "out/ioh")
+            self.assertEqual(len(runs), 12)
+            self.assertEqual([rows for (algorithm, *_), rows in runs.items() if algorithm == "lm"], [[(1, 1e10)]] * 6)
+
     def test_the_reader_refuses_what_is_not_the_format(self):
         with tempfile.TemporaryDirectory() as place:
             folder = Path(place) / "solver"
