@@ -99,6 +99,8 @@ def medians(analysis):
 
 
 def ratio_text(value):
+    if value is None:  # runs failed
+        return "-"
     return f"{value:.2f}" if value < 100 else f"{value:.0f}"
 
 
@@ -144,7 +146,7 @@ def over_the_first(analysis):
         turned = row["a"] == first
         ratio, low, high = row["mean_ratio"], row["ratio_low"], row["ratio_high"]
         if turned:
-            ratio, low, high = 1 / ratio, 1 / high, 1 / low
+            ratio, low, high = (value and 1 / value for value in (ratio, high, low))
         word = {"equal": "equal", "undecided": "undecided"}.get(
             row["practical"], "worse" if row["practical"] == ("a" if turned else "b") else "better")
         table[label(analysis, row["b"] if turned else row["a"])] = (

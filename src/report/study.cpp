@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -146,6 +147,12 @@ StudyTable fixed_target_table(const json& analysis, const Names& names) {
   return table;
 }
 
+// Failed runs, or a cost of 0, leave no number; then their problems are counted.
+std::string mean_ratio(const json& row) {
+  if (row.at("mean_ratio").is_number() || !row.contains("problems_infinite")) return shown(row.at("mean_ratio"));
+  return fmt::format("- ({} failed)", whole(row.at("problems_infinite")));
+}
+
 StudyTable pair_table(const json& analysis, const Names& names, const std::string& member) {
   const bool by_problem = member == "problem_pairs";
   const bool one_problem = analysis.at("ranking").at("block") == "seed";
@@ -167,6 +174,11 @@ StudyTable pair_table(const json& analysis, const Names& names, const std::strin
         " Mean ratio: geometric, with the 95 % interval of a bootstrap over problems and seeds within them. In "
         "practice: better by more than " +
         region + " where the whole interval says so, equal where it lies within " + region + ", else undecided.";
+    if (std::ranges::any_of(analysis.at(member), [](const json& row) { return row.contains("problems_infinite"); })) {
+      table.note +=
+          " The cost of a failed run counts as infinite: a mean ratio with one of them is no number, but - with the "
+          "problems where one of the two failed; so may be an end of its interval.";
+    }
     table.header.insert(table.header.end(), {"mean ratio a/b", "95 % interval", "in practice"});
   }
   if (by_problem) {
@@ -183,7 +195,7 @@ StudyTable pair_table(const json& analysis, const Names& names, const std::strin
     } else if (!by_problem) {
       const std::string practical = row.at("practical");
       cells.insert(cells.end(),
-                   {shown(row.at("mean_ratio")), shown(row.at("ratio_low")) + " to " + shown(row.at("ratio_high")),
+                   {mean_ratio(row), shown(row.at("ratio_low")) + " to " + shown(row.at("ratio_high")),
                     practical == "a" || practical == "b" ? names.solver(row.at(practical)) + " better" : practical});
     }
     table.rows.push_back(std::move(cells));

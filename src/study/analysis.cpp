@@ -153,6 +153,34 @@ json run_rows(const Cells& study) {
   return rows;
 }
 
+// Of the runs of a problem at the largest budget that have no result, without its name: those that tried something, all
+// together, and those that did not, whose solver and reason say why.
+std::vector<std::string> failures(const Cells& study, std::size_t p) {
+  std::size_t tried = 0;
+  std::map<std::pair<std::size_t, std::string>, std::size_t> idle;  // by solver and reason
+  for (std::size_t s = 0; s < study.solvers(); ++s) {
+    for (const RunRecord* record : study.cell(p, study.last(), s).present()) {
+      if (record->nrmse) continue;
+      if (record->evaluations > 0) {
+        ++tried;
+      } else {
+        ++idle[{s, record->stopped}];
+      }
+    }
+  }
+  std::vector<std::string> result;
+  if (tried > 0) result.push_back(std::to_string(tried) + " runs found no candidate that stays finite; they rank last");
+  for (const auto& [what, runs] : idle) {
+    const auto& [solver, stopped] = what;
+    const std::string why = stopped == "budget" ? "the budget of " + std::to_string(study.budgets().back()) +
+                                                      " evaluations is too small for its first point"
+                                                : "it stopped before the first: " + stopped;
+    result.push_back(std::to_string(runs) + (runs == 1 ? " run of " : " runs of ") + study.solver_name(solver) +
+                     " evaluated nothing (" + why + "); " + (runs == 1 ? "it ranks last" : "they rank last"));
+  }
+  return result;
+}
+
 json warnings(const Cells& study, const json& result) {
   json list = json::array();
   if (study.done() < study.planned()) {
@@ -173,10 +201,8 @@ json warnings(const Cells& study, const json& result) {
     std::vector<double> medians;
     double shift = 0.0;
     double lowest = infinite;
-    std::size_t failed = 0;
     for (const json& row : result.at("fixed_budget")) {
       if (row.at("problem") != p || row.at("budget") != study.budgets().back()) continue;
-      failed += row.at("failed").get<std::size_t>();
       if (row.at("median").is_null()) continue;
       medians.push_back(row.at("median").get<double>());
       if (medians.back() < lowest && !row.at("integration_shift").is_null()) {
@@ -194,10 +220,7 @@ json warnings(const Cells& study, const json& result) {
                        text + ", more than its lead: use a smaller tolerance in the study");
       }
     }
-    if (failed > 0) {
-      list.push_back(study.problem_name(p) + ": " + std::to_string(failed) +
-                     " runs found no candidate that stays finite; they rank last");
-    }
+    for (const std::string& text : failures(study, p)) list.push_back(study.problem_name(p) + ": " + text);
   }
   return list;
 }

@@ -17,7 +17,6 @@ using nlohmann::json;
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
-constexpr double failure_ratio = 1e3;  // stands for the cost ratio to a run that found no finite candidate
 constexpr std::size_t all_pairs_up_to = 4;
 constexpr std::size_t difference_resamples = 1000;
 
@@ -53,13 +52,15 @@ Blocks study_blocks(const Cells& study, const std::vector<std::size_t>& problems
   return result;
 }
 
+// Infinite against a run that found no finite candidate, whose cost counts as infinite, and against a cost of 0.
 double log_ratio(double a, double b) {
-  if (std::isinf(a) && std::isinf(b)) return 0.0;
-  if (std::isinf(a)) return std::log(failure_ratio);
-  if (std::isinf(b)) return -std::log(failure_ratio);
-  if (a <= 0.0 || b <= 0.0) return a == b ? 0.0 : (a < b ? -1.0 : 1.0) * std::log(failure_ratio);
+  if (a == b) return 0.0;
+  if (std::isinf(a) || std::isinf(b) || a <= 0.0 || b <= 0.0) return a < b ? -infinite : infinite;
   return std::log(a / b);
 }
+
+// The ratio of a logarithm; null where it is infinite, or as good as zero.
+json ratio_of(double logarithm) { return std::isfinite(logarithm) ? json(std::exp(logarithm)) : json(nullptr); }
 
 json pair_row(const Cells& study, std::size_t a, std::size_t b, const std::vector<double>& ratios) {
   const SignedRank test = signed_rank_test(ratios, std::log1p(study.tie()));
@@ -71,7 +72,7 @@ json pair_row(const Cells& study, std::size_t a, std::size_t b, const std::vecto
           {"a_better", std::ranges::count_if(ratios, [&](double r) { return r < -std::log1p(study.tie()); })},
           {"w_plus", test.w_plus},
           {"w_minus", 0.5 * n * (n + 1.0) - test.w_plus},
-          {"median_ratio", ratios.empty() ? json(nullptr) : json(std::exp(quantile(ratios, 0.5)))},
+          {"median_ratio", ratios.empty() ? json(nullptr) : ratio_of(quantile(ratios, 0.5))},
           {"exact", test.exact},
           {"p", test.p}};
 }
@@ -94,9 +95,15 @@ std::vector<double> log_ratios(const std::vector<std::vector<double>>& rows, std
   return result;
 }
 
+bool any_infinite(const std::vector<double>& values) {
+  return std::ranges::any_of(values, [](double value) { return std::isinf(value); });
+}
+
 // Mean over the problems of the mean log cost ratio over their seeds, with the 95 % percentile interval of a
 // bootstrap that draws problems, then seeds within them, and the shares of resamples below, within and above the
-// region of practical equivalence. With one problem only its seeds are drawn.
+// region of practical equivalence. With one problem only its seeds are drawn. Failed runs are not left out, which would
+// favour who fails where it is hard: their ratios are infinite, and so is a mean with one of them. A resample with
+// failures of either solver has no mean: it counts in no share, and may lie at either end of the interval.
 json difference(const Cells& study, const Blocks& of, std::size_t a, std::size_t b) {
   std::vector<std::vector<double>> values;
   double mean = 0.0;
@@ -107,8 +114,10 @@ json difference(const Cells& study, const Blocks& of, std::size_t a, std::size_t
   }
   const std::size_t problems = values.size();
   const Stream stream = Stream(0).child("cost ratio").child(study.solver_name(a)).child(study.solver_name(b));
-  std::vector<double> means;
+  std::vector<double> lows;
+  std::vector<double> highs;
   std::size_t below = 0;
+  std::size_t within = 0;
   std::size_t above = 0;
   const double region = std::log1p(study.equivalence());
   for (std::size_t draw = 0; draw < difference_resamples; ++draw) {
@@ -120,23 +129,30 @@ json difference(const Cells& study, const Blocks& of, std::size_t a, std::size_t
       for (std::size_t n = 0; n < seeds.size(); ++n) own += seeds[stream.below(seeds.size(), draw, next++)];
       sum += own / static_cast<double>(seeds.size());
     }
-    means.push_back(sum / static_cast<double>(problems));
-    below += means.back() < -region ? 1 : 0;
-    above += means.back() > region ? 1 : 0;
+    const double own_mean = sum / static_cast<double>(problems);
+    lows.push_back(std::isnan(own_mean) ? -infinite : own_mean);
+    highs.push_back(std::isnan(own_mean) ? infinite : own_mean);
+    below += own_mean < -region ? 1 : 0;
+    within += own_mean >= -region && own_mean <= region ? 1 : 0;
+    above += own_mean > region ? 1 : 0;
   }
-  const double low = quantile(means, 0.025);
-  const double high = quantile(means, 0.975);
+  const double low = quantile(lows, 0.025);
+  const double high = quantile(highs, 0.975);
   constexpr auto all = static_cast<double>(difference_resamples);
-  return {{"mean_ratio", std::exp(mean / static_cast<double>(problems))},
-          {"ratio_low", std::exp(low)},
-          {"ratio_high", std::exp(high)},
-          {"share_a_better", static_cast<double>(below) / all},
-          {"share_equal", (all - static_cast<double>(below + above)) / all},
-          {"share_b_better", static_cast<double>(above) / all},
-          {"practical", high < -region                     ? "a"
-                        : low > region                     ? "b"
-                        : low >= -region && high <= region ? "equal"
-                                                           : "undecided"}};
+  json result = {{"mean_ratio", ratio_of(mean / static_cast<double>(problems))},
+                 {"ratio_low", ratio_of(low)},
+                 {"ratio_high", ratio_of(high)},
+                 {"share_a_better", static_cast<double>(below) / all},
+                 {"share_equal", static_cast<double>(within) / all},
+                 {"share_b_better", static_cast<double>(above) / all},
+                 {"practical", high < -region                     ? "a"
+                               : low > region                     ? "b"
+                               : low >= -region && high <= region ? "equal"
+                                                                  : "undecided"}};
+  if (const auto infinite_ones = std::ranges::count_if(values, any_infinite); infinite_ones > 0) {
+    result["problems_infinite"] = infinite_ones;
+  }
+  return result;
 }
 
 }  // namespace

@@ -257,6 +257,11 @@ Study pso_table_v(const ReproduceOptions& options) {
 
 namespace {
 
+// Null where half of the runs failed.
+std::string ratio_text(const json& ratio) {
+  return ratio.is_number() ? format_number(ratio.get<double>(), 3) : "no number, for runs that failed";
+}
+
 // What all conditions together say of "PSO is ahead of GA", by the row of that pair.
 std::string claim_of_table_v(const json& pair, const json& analysis, std::size_t seeds) {
   const bool of_seeds = analysis.at("ranking").at("block") == "seed";  // one condition, whose seeds are the pairs
@@ -264,7 +269,7 @@ std::string claim_of_table_v(const json& pair, const json& analysis, std::size_t
   const std::string over = counted(pairs, of_seeds ? "seed" : "condition");
   const std::string ratio = fmt::format("Over {}, the median ratio PSO as published / GA is {}",
                                         of_seeds ? over + " of the one condition" : over + ", each with its medians",
-                                        format_number(pair.at("median_ratio").get<double>(), 3));
+                                        ratio_text(pair.at("median_ratio")));
   if (const std::size_t needed = pairs_to_tell(analysis.at("pairs").size(), analysis.at("alpha").get<double>());
       pairs < needed) {
     return fmt::format(

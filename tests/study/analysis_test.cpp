@@ -3,10 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "report/study.hpp"
+#include "study/export.hpp"
 
 namespace hysteron {
 namespace {
@@ -253,6 +255,87 @@ TEST(Analysis, MissingAndFailedRunsAreSaid) {
     EXPECT_EQ(text.find("nan"), std::string::npos);
   }
   EXPECT_NE(study_html(analysis, nullptr).find("<html"), std::string::npos);
+}
+
+void fail(RunRecord& record) {
+  record.nrmse.reset();
+  record.trace.clear();
+}
+
+// Solver 1 fails on the second of four problems and is far worse than solver 0 on the others.
+TEST(Analysis, AFailedRunIsWorseThanAnyRatio) {
+  Made made = on_problems({1e8, 1e8, 1e8, 1e8});
+  for (std::size_t k = 0; k < made.records.size(); ++k) {
+    const json& run = made.plan["runs"][k];
+    if (run.at("solver") == 1 && run.at("problem") == 1) fail(made.records[k]);
+  }
+  const json analysis = analyse(made.plan, made.records);
+  const json& pair = analysis.at("pairs")[0];
+  // The failed problem has the highest of four ranks, 4 + 3 * 2 = 10 as without it, and makes no ratio smaller.
+  EXPECT_DOUBLE_EQ(pair.at("w_minus"), 10.0);
+  EXPECT_TRUE(pair.at("mean_ratio").is_null());
+  EXPECT_TRUE(pair.at("ratio_low").is_null());
+  EXPECT_LT(pair.at("ratio_high").get<double>(), 1e-7);
+  EXPECT_EQ(pair.at("problems_infinite"), 1);
+  EXPECT_EQ(pair.at("practical"), "a");
+  EXPECT_LT(pair.at("median_ratio").get<double>(), 1e-7);
+  EXPECT_FALSE(analysis.at("pairs")[1].contains("problems_infinite"));
+  EXPECT_NE(study_markdown(analysis, nullptr).find("- (1 failed)"), std::string::npos);
+}
+
+// A solver with finite costs that are 10^8 times those of another, which fails on half of the problems: the failures
+// are the largest differences.
+TEST(Analysis, FailuresAreTheLargestDifferencesOfAPairedTest) {
+  Made made = on_problems({1e8, 1e8, 1e8, 1e8});
+  for (std::size_t k = 0; k < made.records.size(); ++k) {
+    const json& run = made.plan["runs"][k];
+    if (run.at("solver") == 0 && run.at("problem") >= 2) fail(made.records[k]);
+  }
+  const json pair = analyse(made.plan, made.records).at("pairs")[0];
+  EXPECT_DOUBLE_EQ(pair.at("w_plus"), 3.5 + 3.5);
+  EXPECT_DOUBLE_EQ(pair.at("w_minus"), 1.5 + 1.5);
+  EXPECT_TRUE(pair.at("mean_ratio").is_null());
+  EXPECT_TRUE(pair.at("median_ratio").is_null());
+  EXPECT_EQ(pair.at("problems_infinite"), 2);
+  EXPECT_EQ(pair.at("practical"), "undecided");
+}
+
+TEST(Analysis, RunsThatEvaluatedNothingSayWhy) {
+  Made made = make();
+  for (RunRecord& record : made.records) {
+    const bool own = record.key.ends_with("-0");
+    if (!own && !record.key.ends_with("-1")) continue;
+    fail(record);
+    record.evaluations = 0;
+    record.stopped = own ? "no mood" : "budget";
+  }
+  const std::string warnings = analyse(made.plan, made.records).at("warnings").dump();
+  EXPECT_NE(
+      warnings.find("m @ d: 10 runs of a evaluated nothing (it stopped before the first: no mood); they rank last"),
+      std::string::npos)
+      << warnings;
+  EXPECT_NE(warnings.find("10 runs of b evaluated nothing (the budget of 100 evaluations is too small for its first "
+                          "point); they rank last"),
+            std::string::npos)
+      << warnings;
+  EXPECT_EQ(warnings.find("no candidate"), std::string::npos) << warnings;
+}
+
+// A reader of the format sees runs: one that is left out has not failed.
+TEST(Analysis, FailedRunsAreExportedAsRunsWithoutImprovement) {
+  Made made = make();
+  fail(made.records[0]);
+  made.records[3].evaluations = 0;
+  fail(made.records[3]);
+  const auto files = ioh_files(made.plan, made.records);
+  const std::string info = files.at("a/IOHprofiler_f1.info");
+  EXPECT_EQ(std::ranges::count(info, '|'), static_cast<std::ptrdiff_t>(seeds)) << info;
+  EXPECT_NE(info.find(", 1:100|10000000000"), std::string::npos) << info;
+  EXPECT_NE(info.find(", 2:1|10000000000"), std::string::npos) << info;
+  EXPECT_EQ(files.at("a/data_f1/IOHprofiler_f1_DIM4.dat")
+                .find("\"function evaluation\" \"best-so-far f(x)\"\n"
+                      "1 10000000000\n100 10000000000\n"),
+            0U);
 }
 
 TEST(Analysis, AnEmptyStudyIsNoError) {
