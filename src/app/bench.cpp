@@ -57,6 +57,7 @@ void conclude(const Plan& plan, Store& store, const RunProgress& progress, const
              printable(out));
   const StudyView view = view_of(store, std::move(records), out);
   fmt::print("{}\nThe whole report: hysteron report {}\n", study_terminal(view.analysis, view.times), printable(out));
+  warn_of_failed_ends();
 }
 
 // As one of several ranks of mpirun. Only the first says anything, and all end with the same status.

@@ -193,6 +193,10 @@ void warn_of(const std::vector<std::string>& remarks) {
   for (const std::string& remark : remarks) fmt::print(stderr, "warning: {}\n", printable(remark));
 }
 
+void warn_of_failed_ends() {
+  if (!interrupted()) warn_of(take_failed_ends());
+}
+
 void add_common_options(CLI::App& command, CommonOptions& options) {
   command.add_option("--seed", options.seed, "seed of every random stream")
       ->transform(seed_number())

@@ -54,6 +54,9 @@ Campaign load(const DataOptions& options, Required required = Required::motion_a
 
 // "warning: ..." on standard error, a line each.
 void warn_of(const std::vector<std::string>& remarks);
+// Likewise of solvers of the user's own that did not end well. Not of an interrupted command, which interrupts them
+// too.
+void warn_of_failed_ends();
 
 struct CommonOptions {
   std::uint64_t seed = 1;

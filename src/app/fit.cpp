@@ -210,6 +210,7 @@ void run(const FitOptions& options) {
     const bool hint = fit.warnings[k] == fit.drive_hint.plain();
     fmt::print(stderr, "warning: {}\n", printable(hint ? fit.drive_hint.with(option_name) : fit.warnings[k]));
   }
+  warn_of_failed_ends();
   if (!fit.diverged.empty()) {
     throw WorkError(fit.diverged);
   }

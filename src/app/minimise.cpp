@@ -142,12 +142,26 @@ class Objective {
       for (std::size_t c = 0; c < d; ++c) row.push_back(box_[c].at(request.points[k + c]));
       points.push_back(std::move(row));
     }
+    refuse_unread();
     program_.write(json{{"evaluate", points}}.dump());
     Response response;
     for (const std::optional<double>& cost : objective_answer(program_.read(), points.size())) {
       response.cost.push_back(cost ? range_.told(*cost) : diverged_cost);
     }
     return response;
+  }
+
+  // WorkError where the program has printed what nobody asked for: the answers before it may be to other questions.
+  void refuse_unread() {
+    if (const std::optional<std::string> line = program_.unread()) {
+      throw WorkError("the objective " + printed(*line) + " without being asked, expected one line for each question");
+    }
+  }
+
+  // Of a whole run. How the program ended, where that was not well.
+  std::string end() {
+    refuse_unread();
+    return program_.end();
   }
 
   // The program's own value of the lowest cost of a run, now or at an improvement; none where no point had one.
@@ -199,6 +213,7 @@ void run(const Options& options) {
   std::vector<std::string> head{"solver", "cost", "evaluations"};
   for (const Coordinate& one : box) head.push_back(one.name);
   std::vector<std::vector<std::string>> rows;
+  std::vector<std::string> warnings;
   bool found = false;
   ProgressLine progress(options.quiet);
   for (const SolverEntry* entry : entries) {
@@ -221,6 +236,11 @@ void run(const Options& options) {
           return !interrupted();
         });
     progress.finish();
+    // An interrupted program may owe an answer, and was interrupted itself.
+    if (result.ended_by != EndedBy::interruption) {
+      const std::string how = objective.end();
+      if (!how.empty()) warnings.push_back(fmt::format("the objective, asked by {}: {}", result.solver, how));
+    }
     record["runs"].push_back(record_of(result, objective, box));
     const json& parameters = record["runs"].back()["parameters"];
     std::vector<std::string> row{result.solver, cost_text(objective.value_of(result.cost), 9),
@@ -234,6 +254,7 @@ void run(const Options& options) {
   }
   if (!options.out.empty()) write_result(options.out, json_text(record));
   say_beside(options.out, table(head, rows));
+  warn_of(warnings);
   if (!found) throw WorkError("the objective gave no point a cost");
 }
 

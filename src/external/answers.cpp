@@ -12,14 +12,18 @@ using nlohmann::json;
 SolverAnswer solver_answer(const std::string& line, const std::string& id, std::size_t dimension) {
   const json answer = json::parse(line, nullptr, false);
   SolverAnswer result;
+  const auto wrong = [&](const std::string& expected) {
+    return WorkError("solver '" + id + "' " + printed(line) + ", expected " + expected);
+  };
   if (answer.is_object() && answer.contains("stop") && answer.at("stop").is_string()) {
+    // Which of them it means cannot be known, and points would be lost without a word.
+    if (answer.contains("ask") && !answer.at("ask").empty()) {
+      throw wrong(R"(either {"ask": [[...], ...]} or {"stop": "why"}, not both in one line)");
+    }
     result.stop = answer.at("stop").get<std::string>();
     if (result.stop.empty()) result.stop = "its own end";
     return result;
   }
-  const auto wrong = [&](const std::string& expected) {
-    return WorkError("solver '" + id + "' " + printed(line) + ", expected " + expected);
-  };
   if (!answer.is_object() || !answer.contains("ask") || !answer.at("ask").is_array() || answer.at("ask").empty()) {
     throw wrong(R"({"ask": [[...], ...]} with at least one point, or {"stop": "why"})");
   }

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <deque>
+#include <map>
 #include <memory>
+#include <mutex>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "core/error.hpp"
 #include "external/answers.hpp"
@@ -18,6 +21,24 @@ using nlohmann::json;
 // Seeds that a double and a signed integer of 32 bits hold.
 constexpr std::uint64_t seeds = std::uint64_t{1} << 31;
 
+// Runs of a study end in several threads.
+struct FailedEnds {
+  std::mutex mutex;
+  std::map<std::string, std::size_t> runs;
+};
+
+FailedEnds& failed_ends() {
+  static FailedEnds ends;
+  return ends;
+}
+
+void note_end(const std::string& id, const std::string& how) {
+  if (how.empty()) return;
+  FailedEnds& ends = failed_ends();
+  const std::lock_guard lock(ends.mutex);
+  ++ends.runs["solver '" + id + "': " + how];
+}
+
 class ExternalSolver final : public Solver {
  public:
   ExternalSolver(std::string id, const std::vector<std::string>& words, const Problem& problem)
@@ -30,6 +51,11 @@ class ExternalSolver final : public Solver {
                   {"linear", problem.linear}};
     program_.write(begin.dump());
   }
+  ExternalSolver(const ExternalSolver&) = delete;
+  ExternalSolver& operator=(const ExternalSolver&) = delete;
+  ExternalSolver(ExternalSolver&&) = delete;
+  ExternalSolver& operator=(ExternalSolver&&) = delete;
+  ~ExternalSolver() override { note_end(id_, program_.end()); }
 
   Request ask() override {
     if (!stopped_.empty() || !pending_.points.empty()) {
@@ -38,17 +64,26 @@ class ExternalSolver final : public Solver {
     SolverAnswer answer = solver_answer(program_.read(), id_, dimension_);
     stopped_ = std::move(answer.stop);
     pending_.points = std::move(answer.points);
+    if (!stopped_.empty()) refuse_unread("nothing after its stop");
     return pending_;
   }
 
   void tell(const Request& /*request*/, const Response& response) override {
     pending_ = {};
+    refuse_unread(R"(nothing before {"tell": [...]})");
     program_.write(json{{"tell", response.cost}}.dump());
   }
 
   [[nodiscard]] std::string stopped_because() const override { return stopped_; }
 
  private:
+  // A line that nobody asked for would be taken for a later answer, or lost.
+  void refuse_unread(const std::string& expected) {
+    if (const std::optional<std::string> line = program_.unread()) {
+      throw WorkError("solver '" + id_ + "' " + printed(*line) + " without being asked, expected " + expected);
+    }
+  }
+
   std::string id_;
   std::size_t dimension_;
   LineProgram program_;
@@ -70,6 +105,17 @@ std::deque<Added>& added() {
 }
 
 }  // namespace
+
+std::vector<std::string> take_failed_ends() {
+  FailedEnds& ends = failed_ends();
+  const std::lock_guard lock(ends.mutex);
+  std::vector<std::string> result;
+  for (const auto& [how, runs] : ends.runs) {
+    result.push_back(runs == 1 ? how : how + ", in " + std::to_string(runs) + " runs");
+  }
+  ends.runs.clear();
+  return result;
+}
 
 const ExternalProgram* external_program(std::string_view id) {
   const auto found = std::ranges::find(added(), id, &Added::id);

@@ -21,6 +21,10 @@ struct ExternalProgram {
 // with the same program. Throws InputError when the id is empty or taken.
 void add_external_solver(const std::string& id, ExternalProgram program);
 
+// Which of these programs, since the last call, ended with another exit status than 0 or by a signal once their input
+// had ended, one sentence for all that ended alike: nothing in a run's result shows it.
+std::vector<std::string> take_failed_ends();
+
 // nullptr where the solver is none of these.
 const ExternalProgram* external_program(std::string_view id);
 

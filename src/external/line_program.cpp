@@ -1,6 +1,7 @@
 #include "external/line_program.hpp"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <pthread.h>
 #include <signal.h>
 #include <spawn.h>
@@ -12,6 +13,7 @@
 #include <chrono>
 #include <cstring>
 #include <thread>
+#include <utility>
 
 #include "core/error.hpp"
 #include "fit/solver.hpp"
@@ -22,7 +24,9 @@ namespace hysteron {
 namespace {
 
 constexpr std::size_t longest_line = std::size_t{1} << 28;
+constexpr const char* blanks = " \t\r\n";
 constexpr int waits = 200;
+constexpr int most_rounds = 16;  // of output after the end of its input
 constexpr std::chrono::milliseconds wait{10};
 
 // A pipe that ends for its reader is an error of writing it here, not a signal that ends the program.
@@ -116,17 +120,34 @@ LineProgram::LineProgram(const std::vector<std::string>& words) : words_(words) 
   }
 }
 
-LineProgram::~LineProgram() {
+LineProgram::~LineProgram() { end(); }
+
+std::string LineProgram::end() {
+  if (child_ < 0) return {};
   close(to_);
-  close(from_);
-  for (int k = 0; k < waits; ++k) {
-    const pid_t ended = waitpid(child_, nullptr, WNOHANG);
-    if (ended == child_ || (ended == -1 && errno != EINTR)) return;
-    std::this_thread::sleep_for(wait);
+  const pid_t child = std::exchange(child_, -1);
+  int status = 0;
+  pid_t ended = 0;
+  int rounds = most_rounds;
+  for (int k = 0; k < waits && ended == 0; ++k) {
+    // What it still prints is read, so that it can end by itself; one that prints without end is left to its signal.
+    pending_.clear();
+    take_in();
+    if (!pending_.empty() && --rounds == 0) close(std::exchange(from_, -1));
+    ended = waitpid(child, &status, WNOHANG);
+    if (ended == -1 && errno == EINTR) ended = 0;
+    if (ended == 0) std::this_thread::sleep_for(wait);
   }
-  kill(child_, SIGKILL);
-  while (waitpid(child_, nullptr, 0) == -1 && errno == EINTR) {
+  if (from_ >= 0) close(from_);
+  if (ended == 0) {
+    kill(child, SIGKILL);
+    while (waitpid(child, nullptr, 0) == -1 && errno == EINTR) {
+    }
   }
+  if (ended != child) return {};
+  if (WIFSIGNALED(status)) return name() + " was ended by signal " + std::to_string(WTERMSIG(status));
+  if (WEXITSTATUS(status) != 0) return name() + " ended with status " + std::to_string(WEXITSTATUS(status));
+  return {};
 }
 
 void LineProgram::write(const std::string& line) {
@@ -167,6 +188,26 @@ std::string LineProgram::read() {
       throw WorkError(name() + " cannot be read: " + std::strerror(errno));
     }
   }
+}
+
+void LineProgram::take_in() {
+  std::array<char, 65536> buffer{};
+  pollfd ready{from_, POLLIN, 0};
+  while (pending_.find_first_not_of(blanks) == std::string::npos && poll(&ready, 1, 0) > 0) {
+    const ssize_t count = ::read(from_, buffer.data(), buffer.size());
+    if (count <= 0) return;  // it has ended, which whoever reads next is told
+    pending_.append(buffer.data(), static_cast<std::size_t>(count));
+  }
+}
+
+std::optional<std::string> LineProgram::unread() {
+  take_in();
+  const std::size_t begin = pending_.find_first_not_of(blanks);
+  if (begin == std::string::npos) {
+    pending_.clear();
+    return std::nullopt;
+  }
+  return pending_.substr(begin, pending_.find_first_of("\r\n", begin) - begin);
 }
 
 }  // namespace hysteron

@@ -4,6 +4,7 @@
 
 #include <sys/types.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,7 +25,7 @@ class LineProgram {
   LineProgram& operator=(const LineProgram&) = delete;
   LineProgram(LineProgram&&) = delete;
   LineProgram& operator=(LineProgram&&) = delete;
-  // Its standard input ends; a program that has not ended after two seconds is killed.
+  // end(), where that was not called.
   ~LineProgram();
 
   // Writes a line. Throws WorkError where the program reads no more.
@@ -32,8 +33,16 @@ class LineProgram {
   // The next line, without its end; lines of blanks are passed over. Throws WorkError where there is none, Stopped
   // where a signal came.
   std::string read();
+  // A line, or the beginning of one, that it has printed beyond what was read; blanks do not count. It is looked for
+  // without waiting. Whoever is about to ask a question calls this: the line would be taken for the answer.
+  [[nodiscard]] std::optional<std::string> unread();
+  // Its standard input ends; a program that has not ended after two seconds is killed. Returns how it ended where that
+  // was neither so nor with exit status 0: "'python3' ended with status 3".
+  std::string end();
 
  private:
+  // Takes in what can be read without waiting, up to a line that is not blank.
+  void take_in();
   [[nodiscard]] std::string name() const { return "'" + words_.front() + "'"; }
 
   std::vector<std::string> words_;

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "app/program_fixture.hpp"
@@ -98,6 +99,9 @@ TEST_F(OwnSolver, WhatItSaysWronglyIsOneLine) {
        "solver 'mine' printed '{\"ask\": [[0.1, 0.2, 1.5]]}', expected coordinates from 0 to 1"},
       {"{\"ask\": [[0.1, 0.2, null]]}",
        "solver 'mine' printed '{\"ask\": [[0.1, 0.2, null]]}', expected coordinates from 0 to 1"},
+      {"{\"ask\": [[0.1, 0.2, 0.3]], \"stop\": \"x\"}",
+       "solver 'mine' printed '{\"ask\": [[0.1, 0.2, 0.3]], \"stop\": \"x\"}', expected either {\"ask\": [[...], ...]} "
+       "or {\"stop\": \"why\"}, not both in one line"},
   };
   for (const Case& one : cases) {
     const Outcome outcome = fitted(script("read first; echo '" + one.says + "'; read answer\n"));
@@ -108,6 +112,52 @@ TEST_F(OwnSolver, WhatItSaysWronglyIsOneLine) {
   const Outcome silent = fitted("mine=true");
   EXPECT_EQ(silent.status, 1);
   EXPECT_EQ(std::ranges::count(silent.err, '\n'), 1) << silent.err;
+}
+
+TEST_F(OwnSolver, AQuestionBeforeTheAnswerIsRefused) {
+  const Outcome outcome = fitted(
+      script("read first; printf '{\"ask\": [[0.1, 0.2, 0.3]]}\\n{\"ask\": [[0.3, 0.2, 0.1]]}\\n'; read answer\n"));
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_EQ(outcome.err,
+            "error: solver 'mine' printed '{\"ask\": [[0.3, 0.2, 0.1]]}' without being asked, expected nothing before "
+            "{\"tell\": [...]}\n");
+}
+
+TEST_F(OwnSolver, ThatFailsAtItsEndIsTold) {
+  const Outcome outcome =
+      fitted(script("read first; echo '{\"ask\": [[0.1, 0.2, 0.3]]}'; read answer\n"
+                    "echo '{\"stop\": \"near enough\"}'; read end; exit 3\n"));
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.err.find("warning: solver 'mine': 'sh' ended with status 3\n"), std::string::npos) << outcome.err;
+}
+
+// A setting that no solver has is a mistake, however many solvers there are.
+TEST_F(OwnSolver, ASettingThatNoSolverHasIsRefused) {
+  const std::vector<std::string> fit = {"fit", "data", "--model", "viscous"};
+  const std::vector<std::string> minimise = {"minimise", "--objective", "python3 " + examples + "objective.py", "--box",
+                                             "x=-2:2,y=-1:3"};
+  for (const std::vector<std::string>& command : {fit, minimise}) {
+    const auto set = [&](const std::string& solvers, const std::string& setting) {
+      std::vector<std::string> words = command;
+      words.insert(words.end(), {"--solver", solvers, "--set", setting, "--budget", "40", "--quiet", "--out", "out"});
+      return run(words);
+    };
+    for (const auto& [solvers, setting, says] :
+         {std::tuple{"pso,de", "populaton=5",
+                     "--set: none of pso, de has a setting 'populaton' (did you mean 'population'?), see `hysteron "
+                     "describe SOLVER`"},
+          {"pso,de", "ants=3", "--set: none of pso, de has a setting 'ants', see `hysteron describe SOLVER`"},
+          {"pso", "populaton=5",
+           "--set: 'pso' has no setting 'populaton' (did you mean 'population'?), see `hysteron describe pso`"}}) {
+      const Outcome outcome = set(solvers, setting);
+      EXPECT_EQ(outcome.status, 2) << command[0];
+      EXPECT_EQ(outcome.err, "error: " + std::string(says) + "\n");
+      EXPECT_FALSE(fs::exists(folder_ / "out"));
+    }
+    // One that one of them has goes to that one.
+    EXPECT_EQ(set("pso,random-search", "topology=0").status, 0) << command[0];
+    fs::remove_all(folder_ / "out");
+  }
 }
 
 TEST_F(OwnSolver, WrongCommandsAreRefused) {
@@ -258,6 +308,48 @@ TEST_F(Minimise, AnyFiniteValueIsACost) {
       EXPECT_EQ(one.at("without_cost"), 0);
     }
   }
+}
+
+TEST_F(Minimise, NegativeCostsAreMinimisedByEveryFamily) {
+  write(folder_ / "five.py",
+        "import json, sys\n"
+        "sys.stdin.readline()\n"
+        "for line in sys.stdin:\n"
+        "    points = json.loads(line)['evaluate']\n"
+        "    print(json.dumps({'costs': [x * x + (y - 1) ** 2 - 5 for x, y in points]}), flush=True)\n");
+  const Outcome outcome =
+      run({"minimise", "--objective", "python3 five.py", "--box", "x=-2:3,y=-1:4", "--solver",
+           "nlopt:LN_BOBYQA,nlopt:LN_COBYLA,nlopt:GN_DIRECT_L", "--budget", "500", "--quiet", "--out", "found.json"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const json found = json::parse(read(folder_ / "found.json"));
+  for (const json& one : found.at("runs")) EXPECT_NEAR(one.at("cost").get<double>(), -5.0, 1e-3) << one.at("solver");
+}
+
+TEST_F(Minimise, AnAnswerThatNobodyAskedForIsRefused) {
+  write(folder_ / "stale.py",
+        "import json, sys\n"
+        "sys.stdin.readline()\n"
+        "for k, line in enumerate(sys.stdin):\n"
+        "    costs = json.dumps({'costs': [1.0 for _ in json.loads(line)['evaluate']]})\n"
+        "    print(costs + ('\\n{\"costs\": [-1]}' if k == 0 else ''), flush=True)\n");
+  // Before the next question, and where there is none any more.
+  for (const char* budget : {"5", "1"}) {
+    const Outcome outcome = run({"minimise", "--objective", "python3 stale.py", "--box", "x=0:1", "--solver",
+                                 "nelder-mead", "--budget", budget, "--quiet", "--out", "found.json"});
+    EXPECT_EQ(outcome.status, 1);
+    EXPECT_EQ(outcome.err,
+              "error: the objective printed '{\"costs\": [-1]}' without being asked, expected one line for each "
+              "question\n");
+    EXPECT_FALSE(fs::exists(folder_ / "found.json"));
+  }
+}
+
+TEST_F(Minimise, AnObjectiveThatFailsAtItsEndIsTold) {
+  write(folder_ / "ends.sh", "read first\nwhile read points; do echo '{\"costs\": [1]}'; done\nexit 4\n");
+  const Outcome outcome = run({"minimise", "--objective", "sh ends.sh", "--box", "x=0:1", "--solver", "nelder-mead",
+                               "--budget", "1", "--quiet"});
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_EQ(outcome.err, "warning: the objective, asked by nelder-mead: 'sh' ended with status 4\n");
 }
 
 TEST_F(Minimise, WrongWordsAreRefused) {

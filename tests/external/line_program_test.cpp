@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <optional>
+#include <string>
 #include <thread>
 
 #include "core/error.hpp"
@@ -31,6 +33,33 @@ TEST(LineProgram, LinesGoBothWays) {
   LineProgram counts({"sh", "-c", "while read line; do echo; echo ${#line}; done"});
   counts.write(megabyte);
   EXPECT_EQ(counts.read(), std::to_string(megabyte.size()));
+}
+
+// Waits until it has printed something, or has had the time to.
+std::optional<std::string> unread(LineProgram& program) {
+  for (int k = 0; k < 500; ++k) {
+    if (auto line = program.unread()) return line;
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  return std::nullopt;
+}
+
+TEST(LineProgram, WhatWasPrintedUnaskedIsSeen) {
+  LineProgram twice({"sh", "-c", "read line; echo one; echo; echo two"});
+  EXPECT_EQ(twice.unread(), std::nullopt);
+  twice.write("");
+  EXPECT_EQ(twice.read(), "one");
+  EXPECT_EQ(unread(twice), "two");
+  LineProgram begun({"sh", "-c", "printf half; cat"});
+  EXPECT_EQ(unread(begun), "half");
+}
+
+TEST(LineProgram, HowItEndsIsSaid) {
+  EXPECT_EQ(LineProgram({"cat"}).end(), "");
+  EXPECT_EQ(LineProgram({"sh", "-c", "cat; exit 3"}).end(), "'sh' ended with status 3");
+  EXPECT_EQ(LineProgram({"sh", "-c", "cat; kill -9 $$"}).end(), "'sh' was ended by signal 9");
+  // What it prints at its end is nobody's, and no reason for it to fail.
+  EXPECT_EQ(LineProgram({"sh", "-c", "cat; seq 100000"}).end(), "");
 }
 
 TEST(LineProgram, AnEndIsAnErrorAndNoSignal) {
