@@ -1,12 +1,13 @@
 // Whether a load cell that saturates or is not connected is told, and told only where it is so (diagnose/doubts.hpp):
 //
-//   hysteron_clipped_ends [FOLDER...] [--campaigns 200] [--cavitation 60] [--seed 20270501] [--page
-//   results/clipped-ends.md]
+//   hysteron_clipped_ends [FOLDER...] [--campaigns 200] [--cavitation 60] [--friction 60]
+//     [--seed 20270501] [--page results/clipped-ends.md]
 //
 // FOLDER is a measured campaign. Beside these, campaigns of the challenge are made from the seed, with causes of all
-// levels, and such as hide a cavitation, whose force ends at a level too. Each is looked at as it is, where what is
-// told is false as far as is known; with its force cut off at a share of the largest one, under noise that is added
-// behind; and with one recording that holds the noise of its force alone.
+// levels, such as hide a cavitation, whose force ends at a level too, and dampers of friction and viscous damping as a
+// simulation writes them, coarse or fine, with noise and without any: their force turns at two levels. Each is looked
+// at as it is, where what is told is false as far as is known; with its force cut off at a share of the largest one,
+// under noise that is added behind; and with one recording that holds the noise of its force alone.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -14,6 +15,7 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -32,8 +34,8 @@ namespace {
 
 using namespace hysteron;
 
-enum Source : std::size_t { of_all_levels, with_cavitation, measured, sources };
-constexpr std::array<const char*, sources> names = {"all levels", "a cavitation", "measured"};
+enum Source : std::size_t { of_all_levels, with_cavitation, friction, measured, sources };
+constexpr std::array<const char*, sources> names = {"all levels", "a cavitation", "simulated friction", "measured"};
 
 struct Examined {
   std::string name;
@@ -42,6 +44,47 @@ struct Examined {
 };
 
 bool told(const std::vector<Recording>& recordings) { return !doubt_of_channels(recordings).empty(); }
+
+// F = c v + f_y tanh(v / v_y) on sines, of velocities that were known or are derived, to six digits; of three such
+// campaigns one has no noise.
+std::vector<Recording> simulated_friction(const Stream& stream) {
+  const auto between = [&](const char* what, double low, double high) {
+    return low * std::pow(high / low, stream.child(what).uniform(0));
+  };
+  const double yield = between("yield force", 50.0, 2000.0);
+  const double per_period = between("samples a period", 12.0, 300.0);
+  const double frequency = between("frequency", 0.2, 5.0);
+  const double rate = 2.0 * std::numbers::pi * frequency;
+  const double largest = between("amplitude", 2e-3, 3e-2);
+  const double damping = yield / (rate * largest) * between("viscous share", 0.05, 2.0);
+  const double width = rate * largest * between("width of the yield", 1e-4, 0.1);
+  const bool derived = stream.child("derived").uniform(0) < 0.5;
+  const double noise = stream.child("noisy").uniform(0) < 1.0 / 3.0 ? 0.0 : yield * between("noise", 1e-5, 2e-2);
+  const auto six_digits = [](double value) {
+    const double step = std::pow(10.0, std::floor(std::log10(std::max(std::fabs(value), 1e-12))) - 5.0);
+    return step * std::round(value / step);
+  };
+  std::vector<Recording> result;
+  for (const double share : {1.0, 0.6, 0.3}) {
+    const Stream own = stream.child(result.size());
+    Recording one;
+    one.file = fmt::format("sine {:.0f} mm", 1e3 * share * largest);
+    const auto count = static_cast<std::size_t>(8.0 * per_period);
+    for (std::size_t n = 0; n < count; ++n) {
+      const double time = static_cast<double>(n) / (frequency * per_period);
+      one.time.push_back(time);
+      one.displacement.push_back(six_digits(share * largest * std::sin(rate * time)));
+      one.velocity.push_back(share * largest * rate * std::cos(rate * time));
+    }
+    if (derived) one.velocity = derive_velocity(one.time, one.displacement);
+    for (std::size_t n = 0; n < count; ++n) {
+      const double velocity = one.velocity[n];
+      one.force.push_back(six_digits(damping * velocity + yield * std::tanh(velocity / width) + noise * own.normal(n)));
+    }
+    result.push_back(std::move(one));
+  }
+  return result;
+}
 
 // Of the largest force, beyond which it is cut off; of the noise of the force, what is added behind.
 struct Cut {
@@ -80,11 +123,12 @@ std::string page_of(const std::vector<Examined>& all, std::uint64_t seed, const 
   std::string text = fmt::format(
       "# Load cells that saturate, or are not connected\n\nMade by\n\n    {}\n\n"
       "Campaigns of `hysteron challenge` from a seed that nothing was chosen on, with causes of all levels and with a "
-      "cavitation, and the\nmeasured dampers that ship. Told: `diagnose` says that the recordings have a fault and "
+      "cavitation, dampers of\nfriction and viscous damping simulated from 12 to 300 samples a period, a third of them "
+      "without noise, and the measured dampers\nthat ship. Told: `diagnose` says that the recordings have a fault and "
       "gives no name. A force that is cut off at\na share of the largest one may reach that in a single recording, "
       "which is not told. Bounds: Clopper and Pearson, 95 %.\n\n"
-      "| | told, {} | told, {} | told, {} |\n|---|--:|--:|--:|\n",
-      command, names[of_all_levels], names[with_cavitation], names[measured]);
+      "| | told, {} |\n|---|{}\n",
+      command, fmt::join(names, " | told, "), "--:|--:|--:|--:|");
   const auto row = [&](const std::string& what, const auto& is_told) {
     std::array<int, sources> hits{};
     std::array<int, sources> trials{};
@@ -114,10 +158,14 @@ int run(int argc, char** argv) {
   std::string page;
   int campaigns = 200;
   int cavitation = 60;
+  int frictions = 60;
   std::uint64_t seed = 20270501;
   program.add_option("FOLDER", folders, "measured campaigns")->check(CLI::ExistingDirectory);
   program.add_option("--campaigns", campaigns, "made here")->check(CLI::Range(0, 9999))->capture_default_str();
   program.add_option("--cavitation", cavitation, "of them with a cavitation, besides")
+      ->check(CLI::Range(0, 9999))
+      ->capture_default_str();
+  program.add_option("--friction", frictions, "of them simulated with friction, besides")
       ->check(CLI::Range(0, 9999))
       ->capture_default_str();
   program.add_option("--seed", seed, "of these, and of what is put in")->capture_default_str();
@@ -126,18 +174,18 @@ int run(int argc, char** argv) {
 
   std::vector<Examined> all;
   std::string command = "build/release/bench/hysteron_clipped_ends";
-  const auto add = [&](const std::string& name, Source source, const std::filesystem::path& folder) {
-    all.push_back({name, source, load_campaign({folder.string()}).recordings});
+  const auto add = [&](const std::string& name, Source source, std::vector<Recording> recordings) {
+    all.push_back({name, source, std::move(recordings)});
     if (const std::string doubt = doubt_of_channels(all.back().recordings); !doubt.empty()) {
       fmt::print(stderr, "told: {}: {}\n", name, doubt);
     }
   };
   for (const std::string& folder : folders) {
     command += " " + folder;
-    add(std::filesystem::path(folder).filename().string(), measured, folder);
+    add(std::filesystem::path(folder).filename().string(), measured, load_campaign({folder}).recordings);
   }
-  command += fmt::format(" --campaigns {} --cavitation {} --seed {} --page results/clipped-ends.md", campaigns,
-                         cavitation, seed);
+  command += fmt::format(" --campaigns {} --cavitation {} --friction {} --seed {} --page results/clipped-ends.md",
+                         campaigns, cavitation, frictions, seed);
   const std::filesystem::path made =
       std::filesystem::temp_directory_path() / fmt::format("hysteron-clipped-ends-{}-{}", seed, campaigns);
   const auto make = [&](const std::vector<challenge::Task>& tasks, Source source) {
@@ -145,13 +193,18 @@ int run(int argc, char** argv) {
       const challenge::Concealed concealed = challenge::make_concealed(task, seed);
       const std::filesystem::path folder = made / concealed.name;
       challenge::write_recordings(concealed, folder.string(), seed);
-      add(fmt::format("{} ({}, {})", concealed.name, challenge::name_of(task.level), names[source]), source, folder);
+      add(fmt::format("{} ({}, {})", concealed.name, challenge::name_of(task.level), names[source]), source,
+          load_campaign({folder.string()}).recordings);
       std::filesystem::remove_all(folder);
     }
   };
   make(challenge::plan(campaigns, {}, {}, seed), of_all_levels);
   make(challenge::plan(cavitation, {}, {"cavitation"}, seed), with_cavitation);
   std::filesystem::remove_all(made);
+  for (int k = 0; k < frictions; ++k) {
+    const std::string name = fmt::format("friction {}", k);
+    add(name, friction, simulated_friction(Stream(seed).child(name)));
+  }
   bench::write_page(page, page_of(all, seed, command));
   return 0;
 }
