@@ -458,9 +458,8 @@ FitResult fit_campaign(const FitData& data, const FitRequest& request, const std
     });
     result.cost = predicted_nrmse(result.layout, result.terms, refer_to(campaign.recordings, result.fitted), objective);
     if (result.roles_given && !result.heldout.empty()) {
-      result.nrmse_heldout =
-          predicted_nrmse(result.layout, result.terms, refer_to(campaign.recordings, result.heldout), objective,
-                          refer_to(campaign.recordings, result.fitted));
+      result.nrmse_heldout = predicted_nrmse(result.layout, result.terms, refer_to(campaign.recordings, result.heldout),
+                                             objective, refer_to(campaign.recordings, result.fitted));
     }
   }
   // An error that is not finite is none; the recordings it comes from are named below.

@@ -79,8 +79,7 @@ TEST(Estimates, PooledErrorsOfFittedAndHeldOutRecordingsHaveOneNormaliser) {
                                   normaliser(campaign.recordings[2], Normalisation::max_abs));
   const std::vector<double> force =
       predict(result.layout.model(), result.layout.held(), result.terms, make_target(campaign.recordings[1], {}));
-  EXPECT_NEAR(*result.nrmse_heldout, score(force, campaign.recordings[1], Normalisation::max_abs).rmse / largest,
-              1e-9);
+  EXPECT_NEAR(*result.nrmse_heldout, score(force, campaign.recordings[1], Normalisation::max_abs).rmse / largest, 1e-9);
 }
 
 // Of derivatives that are not finite, as beside a jump of the force, nothing follows for the data.

@@ -141,8 +141,8 @@ struct Evidence {
   double augmented_compared = 0.0;
   Comparison augmented_over_base;
   std::vector<OtherLaw> other_laws;
-  std::vector<Signature> signatures;       // of what the base model leaves
-  std::vector<Signature> signatures_left;  // of what the augmented model leaves
+  std::vector<Signature> signatures;         // of what the base model leaves
+  std::vector<Signature> signatures_left;    // of what the augmented model leaves
   std::vector<ContrastLeft> contrasts_left;  // of candidates for which a contrast speaks
   // Where `model` took the place of `asked_for`: what was found behind that one. At most one.
   std::vector<Evidence> behind_asked = {};

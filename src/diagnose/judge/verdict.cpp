@@ -269,8 +269,7 @@ Verdict answer_of(const Evidence& evidence) {
   verdict.answer =
       verdict.missing >= suggested_from || !verdict.suggestions.empty() ? Answer::unattributed : Answer::complete;
   if (verdict.answer == Answer::unattributed) {
-    verdict.reason =
-        evidence.candidates.empty() ? "no effect that was tried explains the misfit" : likeliest(verdict);
+    verdict.reason = evidence.candidates.empty() ? "no effect that was tried explains the misfit" : likeliest(verdict);
   }
   return verdict;
 }
