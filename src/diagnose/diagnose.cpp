@@ -211,7 +211,7 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const Split& split
   }
 
   if (!options.candidates.empty()) {
-    add_note(diagnosis, "no other effects were tried than " + joined(options.candidates, " and "));
+    add_note(diagnosis, "only these effects were tried: " + joined(options.candidates, ", "));
   }
 
   SearchOptions searching;

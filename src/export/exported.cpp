@@ -214,17 +214,12 @@ double TestVector::allowed() const {
 
 TestVector test_vector(const ExportedModel& exported, const Recording& motion) {
   Recording recording = motion;
-  recording.start = start_of(recording);
+  recording.start = counts_from_start(exported.model) ? Start::from_nothing : start_of(recording);
   recording.force.clear();
   recording.earlier.clear();  // exported code begins cold and as new
   ObjectiveOptions options;
   options.tolerance = exported.tolerance;
-  Target target = make_target(recording, options, false);
-  if (counts_from_start(exported.model)) {
-    target.preroll = 0;
-    target.lead_in = {};
-    target.motion.lead = 0.0;
-  }
+  const Target target = make_target(recording, options, false);
   const std::vector<double> wanted = predict(exported.model, exported.held, exported.terms, target);
   if (const auto time = diverges_at(wanted, recording)) {
     throw WorkError(fmt::format(

@@ -36,6 +36,11 @@ std::string wider(const Parameter& card, bool upper) {
   return number_text(std::max(lower, card.limits.lower)) + ":" + number_text(std::min(higher, card.limits.upper));
 }
 
+// The end of its box that a parameter sits on.
+std::string end_text(const Parameter& card, bool upper) {
+  return number_text(upper ? card.box.upper : card.box.lower) + (card.unit == "1" ? "" : " " + std::string(card.unit));
+}
+
 // "at 0 A" of a node of a law; empty for a constant.
 std::string place_text(const Layout& layout, const ParameterLaw& law, std::size_t node, DriveKind drive_kind) {
   const ParameterLaw::Node at = law.node(node);
@@ -78,48 +83,60 @@ std::optional<double> cost_beyond_bounds(const Layout& layout, const Response& d
   return std::sqrt(std::clamp(square - gain, 0.0, square));
 }
 
-Message bounds_text(const Layout& layout, const Response& derivatives, const std::vector<double>& u,
-                    DriveKind drive_kind) {
-  std::vector<std::string> limits;
+EndsMet ends_met(const Layout& layout, const Response& derivatives, const std::vector<double>& u,
+                 DriveKind drive_kind) {
+  constexpr double least_shown = 0.005;  // of the NRMSE
+  EndsMet result;
   std::vector<std::string> ends;
-  Message wider_box("");
   std::set<std::string> widened;
   for (const ParameterLaw& law : layout.laws()) {
     const Parameter& card = layout.cards()[law.parameter];
     const std::string& name = layout.names()[law.parameter];
     for (std::size_t node = 0; node < law.count(); ++node) {
       const double position = u[law.first + node];
-      if (!on_bound(position)) continue;
       const bool upper = on_upper(position);
-      const std::string value =
-          number_text(upper ? card.box.upper : card.box.lower) + (card.unit == "1" ? "" : " " + std::string(card.unit));
-      const std::string place = place_text(layout, law, node, drive_kind);
-      if (is_limit(card, upper)) {
-        limits.push_back(name + " is " + value + place + ", the " + (upper ? "most" : "least") + " it can be");
-      } else {
-        ends.push_back(name + " (" + value + place + ")");
-        const std::string range = name + "=" + wider(card, upper);
-        if (widened.insert(range).second) wider_box += " " + Option::bounds + " " + range;
-      }
+      if (!on_bound(position) || is_limit(card, upper)) continue;
+      ends.push_back(name + " (" + end_text(card, upper) + place_text(layout, law, node, drive_kind) + ")");
+      const std::string range = name + "=" + wider(card, upper);
+      if (widened.insert(range).second) result.wider += " " + Option::bounds + " " + range;
+    }
+  }
+  if (ends.empty()) return result;
+  const bool one = ends.size() == 1;
+  result.text = joined(ends, " and ") + (one ? " is at the end of its" : " are at the ends of their") +
+                " search range" + (one ? "" : "s");
+  if (const std::optional<double> beyond = cost_beyond_bounds(layout, derivatives, u)) {
+    // A share: where steps are coarse the NRMSE of the derivatives is not that of the table.
+    const double falls = 1.0 - *beyond / derivatives.cost[0];
+    result.costs = falls >= least_shown;
+    result.text += result.costs
+                       ? ", beyond which the NRMSE would fall by about " + number_text(std::round(100.0 * falls)) + " %"
+                       : ", which costs no error that shows";
+  }
+  return result;
+}
+
+Message bounds_text(const Layout& layout, const Response& derivatives, const std::vector<double>& u,
+                    DriveKind drive_kind) {
+  std::vector<std::string> limits;
+  for (const ParameterLaw& law : layout.laws()) {
+    const Parameter& card = layout.cards()[law.parameter];
+    for (std::size_t node = 0; node < law.count(); ++node) {
+      const double position = u[law.first + node];
+      const bool upper = on_upper(position);
+      if (!on_bound(position) || !is_limit(card, upper)) continue;
+      limits.push_back(layout.names()[law.parameter] + " is " + end_text(card, upper) +
+                       place_text(layout, law, node, drive_kind) + ", the " + (upper ? "most" : "least") +
+                       " it can be");
     }
   }
   std::string text;
-  if (!limits.empty())
+  if (!limits.empty()) {
     text = joined(limits, " and ") + ": the recordings show none of it, or the others take its place";
-  if (!ends.empty()) {
-    const bool one = ends.size() == 1;
-    text += (text.empty() ? "" : "; ") + joined(ends, " and ") +
-            (one ? " is at the end of its" : " are at the ends of their") + " search range" + (one ? "" : "s");
-    if (const std::optional<double> beyond = cost_beyond_bounds(layout, derivatives, u)) {
-      // A share: where steps are coarse the NRMSE of the derivatives is not that of the table.
-      const double falls = 1.0 - *beyond / derivatives.cost[0];
-      text += falls < 0.005
-                  ? ", which costs no error that shows"
-                  : ", beyond which the NRMSE would fall by about " + number_text(std::round(100.0 * falls)) + " %";
-    }
-    return text + "; wider with" + wider_box;
   }
-  return text;
+  const EndsMet ends = ends_met(layout, derivatives, u, drive_kind);
+  if (ends.text.empty()) return text;
+  return text + (text.empty() ? "" : "; ") + ends.text + "; wider with" + ends.wider;
 }
 
 }  // namespace hysteron

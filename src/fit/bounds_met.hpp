@@ -23,6 +23,14 @@ bool is_limit(const Parameter& card, bool upper);
 std::optional<double> cost_beyond_bounds(const Layout& layout, const Response& derivatives,
                                          const std::vector<double>& u);
 
+// Which parameters sit on an end of their search range that is none of what they can be at all.
+struct EndsMet {
+  std::string text;    // what that costs in the error, for people; empty without any
+  bool costs = false;  // error that shows
+  Message wider = "";  // the options that widen the ranges
+};
+EndsMet ends_met(const Layout& layout, const Response& derivatives, const std::vector<double>& u, DriveKind drive_kind);
+
 // One sentence or two for people: which parameters are at the end of what they can be, which at the end of their search
 // range, what the range costs in the error, and the option that widens it. Empty where no parameter meets an end.
 Message bounds_text(const Layout& layout, const Response& derivatives, const std::vector<double>& u,

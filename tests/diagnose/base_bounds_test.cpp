@@ -27,7 +27,10 @@ std::string note_with(double most) {
 
 TEST(BaseBounds, OfARangeThatLeavesTheDamperOutAreTold) {
   const std::string note = note_with(1500.0);
-  EXPECT_TRUE(note.starts_with("c0 = 1500 N s/m of viscous sits on an end of the range searched")) << note;
+  EXPECT_TRUE(note.starts_with(
+      "in the fit of viscous alone c0 (1.5e+03 N s/m) is at the end of its search range, beyond which the "
+      "NRMSE would fall by about"))
+      << note;
   EXPECT_EQ(note_with(5000.0), "");
 }
 
