@@ -118,7 +118,8 @@ std::string noise_text(const Diagnosis& diagnosis, double error) {
                      diagnosis.noise_floor_heldout);
 }
 
-std::string sentence_of_errors(const Diagnosis& diagnosis) {
+// `behind_names`: the sentence before is that of the names, so that "it" is one of them.
+std::string sentence_of_errors(const Diagnosis& diagnosis, bool behind_names) {
   const Search& search = diagnosis.search;
   const double before = search.base.heldout;
   const double after = search.augmented.heldout;
@@ -127,9 +128,9 @@ std::string sentence_of_errors(const Diagnosis& diagnosis) {
   const std::vector<Named> names = listed(diagnosis.verdict);
   const auto causes = std::ranges::count_if(names, [](const Named& named) { return !named.in_place_of; });
   // What laws take off is not told of the effects.
-  std::string subject = !diagnosis.verdict.doubtful.empty() || causes == 0 ? "The augmented model"
-                        : causes == 1                                      ? "It"
-                                                                           : "Together they";
+  std::string subject = !diagnosis.verdict.doubtful.empty() || causes == 0 || !behind_names ? "The augmented model"
+                        : causes == 1                                                       ? "It"
+                                                                                            : "Together they";
   if (const std::string richer = search.richer_dependence(); !richer.empty()) {
     subject = "The augmented model, with " + richer + ",";
   }
@@ -272,11 +273,13 @@ std::vector<std::string> summary_of(const Diagnosis& diagnosis) {
     add(summary, sentence_of_grade(diagnosis, grade));
   }
   // Where the answer is that nothing is missing they would be those of chance.
+  std::string contrasts;
   if (verdict.answer != Answer::complete && diagnosis.evidence.doubt_of_data.empty()) {
-    add(summary, sentence_of_contrasts(diagnosis.evidence, listed(verdict)));
+    contrasts = sentence_of_contrasts(diagnosis.evidence, listed(verdict));
   }
+  add(summary, contrasts);
   add(summary, sentence_of_shapes(diagnosis));
-  add(summary, sentence_of_errors(diagnosis));
+  add(summary, sentence_of_errors(diagnosis, contrasts.empty()));
   add(summary, sentence_of_unknown(diagnosis));
   add(summary, sentence_of_place(diagnosis));
   if (!verdict.effects.empty()) {
