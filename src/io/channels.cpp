@@ -184,7 +184,12 @@ std::string list_of_channels() {
 class Assigner {
  public:
   Assigner(const std::vector<Column>& columns, const ReadOptions& options, const std::string& file, int line)
-      : columns_(columns), options_(options), file_(file), line_(line), taken_(columns.size(), false) {}
+      : columns_(columns),
+        options_(options),
+        file_(file),
+        line_(line),
+        taken_(columns.size(), false),
+        told_(columns.size(), false) {}
 
   Sources run() {
     for (const auto& [channel, value] : options_.columns) {
@@ -200,6 +205,7 @@ class Assigner {
     refuse_shared();
     for (std::size_t i = 0; i < columns_.size(); ++i) doubt_unit(i);
     for (int q = 0; q < quantity_count; ++q) doubt_without_unit(static_cast<Quantity>(q));
+    doubt_unread_current();
     for (const Quantity quantity : {Quantity::time, Quantity::displacement, Quantity::force}) {
       if (is_required(quantity)) require(quantity);
     }
@@ -424,6 +430,7 @@ class Assigner {
     if (is_required(*quantity)) (void)parse_unit(*quantity, unit, file_, line_);
     if (!options_.remark) return;
     const std::string channel(quantity_name(*quantity));
+    told_[i] = true;
     options_.remark({file_, Remark::Kind::dialect, "unit of " + channel,
                      in_quotes(columns_[i].text) + " is not read as the " + channel + ": " + in_quotes(unit) +
                          " is no unit, " + similar.front() + " is"});
@@ -448,6 +455,26 @@ class Assigner {
                            "=NAME chooses"});
       return;
     }
+  }
+
+  // Currents of several coils, or one that no last word names: a recording may do without a drive, and one that is
+  // left out without a word looks like a damper without any.
+  void doubt_unread_current() const {
+    const auto is_read = [&](Quantity quantity) { return sources_[static_cast<std::size_t>(quantity)].column >= 0; };
+    if (is_read(Quantity::current) || is_read(Quantity::voltage) || !options_.remark) return;
+    std::vector<std::string> found;
+    for (std::size_t i = 0; i < columns_.size(); ++i) {
+      const Column& column = columns_[i];
+      const bool of_unit = column.unit.empty() || find_unit(Quantity::current, column.unit).has_value();
+      if (!taken_[i] && !told_[i] && of_unit && has_word_of(Quantity::current, column.name))
+        found.push_back(in_quotes(column.text));
+    }
+    if (found.empty()) return;
+    options_.remark({file_, Remark::Kind::dialect, "no current",
+                     (found.size() == 1 ? found.front() + " may be the current and is not read"
+                                        : std::to_string(found.size()) + " columns may be the current (" + found[0] +
+                                              ", " + found[1] + ") and none is read") +
+                         "; " + Option::column + " current=NAME chooses"});
   }
 
   // A column whose name, or the last word of it, is nearly one of the channel, and whose unit may be.
@@ -487,6 +514,7 @@ class Assigner {
   const std::string& file_;
   int line_;
   std::vector<bool> taken_;
+  std::vector<bool> told_;  // of a unit that is none
   Sources sources_;
 };
 

@@ -87,7 +87,7 @@ std::vector<std::string> drive_assumed(const StoredModel& stored, const std::str
   if (first == recordings.end()) return {};
   const char* const drive_word = stored.drive == DriveKind::voltage ? "voltage" : "current";
   const auto count = static_cast<std::size_t>(std::ranges::count_if(recordings, lacks));
-  return {fmt::format("{}: no {} column, and parameters of {} follow the {}: taken as zero{}", first->file, drive_word,
+  return {fmt::format("{}: no {} is read, and parameters of {} follow the {}: taken as zero{}", first->file, drive_word,
                       path, drive_word, alike(count))};
 }
 

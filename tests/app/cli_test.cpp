@@ -574,7 +574,7 @@ TEST_F(Refusal, OfAVoltageWhereTheModelFollowsACurrent) {
   const Outcome none = run({"score", "fitted/model.json", "n.csv"});
   EXPECT_EQ(none.status, 0);
   EXPECT_EQ(none.err,
-            "warning: n.csv: no current column, and parameters of fitted/model.json follow the current: taken as "
+            "warning: n.csv: no current is read, and parameters of fitted/model.json follow the current: taken as "
             "zero\n");
 }
 

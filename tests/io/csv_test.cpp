@@ -66,6 +66,19 @@ TEST(Csv, ExportsOfRigsAreReadAsTheyAre) {
       "column displacement=NAME to choose");
 }
 
+TEST(Csv, CurrentsOfWhichNoneIsReadAreTold) {
+  std::string rows;
+  for (int n = 0; n < 10; ++n) rows += fmt::format("{},{},{},{},{}\n", n, n * n, 10 * n, 1, 2);
+  const std::string motion = "time [s],displacement [mm],force [N],";
+  EXPECT_EQ(remarks_of(motion + "coil 1 current [A],coil 2 current [A]\n" + rows),
+            "2 columns may be the current ('coil 1 current [A]', 'coil 2 current [A]') and none is read; column "
+            "current=NAME chooses\n");
+  EXPECT_EQ(remarks_of(motion + "current coil 1 [mA],lot\n" + rows),
+            "'current coil 1 [mA]' may be the current and is not read; column current=NAME chooses\n");
+  EXPECT_EQ(remarks_of(motion + "current [A],pump current [A]\n" + rows), "") << "one is named alone";
+  EXPECT_EQ(remarks_of(motion + "current cycle [min],lot\n" + rows), "") << "no unit of a current";
+}
+
 // What was asked for or worked out is nothing that was measured.
 TEST(Csv, MeasuredColumnsGoBeforeCommandedOnes) {
   std::string rows;
