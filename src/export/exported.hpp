@@ -69,6 +69,10 @@ struct TestVector {
   // Of the motion, where straight lines of it meet: later samples tell simulate of them, and exported code has none.
   std::size_t corners = 0;
 
+  // By how much the force moves, as a share of its largest, where the motion does by one part in 10^12: far more where
+  // the model jumps, as friction that sticks and slips does, the instant of which rounding decides.
+  double off_rounding = 0.0;
+
   // By which a replay may differ, as a share of the largest force.
   [[nodiscard]] double allowed() const;
 };

@@ -34,8 +34,15 @@ std::string name_of(const ExportRequest& request, const StoredModel& stored, con
 // By how much the exported code is expected to differ from simulate, and why; empty where it is not.
 std::string about_force(const TestVector& vector) {
   constexpr double rounding = 1e-6;
+  std::string jumps;
+  if (vector.off_rounding > rounding) {
+    jumps = fmt::format(
+        "Rounding decides when the model jumps on the motion of the test vector, as friction that sticks and slips "
+        "does: it moves the force by up to {:.2g} % of the largest, and a replay may differ by twice that.",
+        100.0 * vector.off_rounding);
+  }
   if (vector.off_simulate <= rounding && !vector.steps_limited) {
-    return "";
+    return jumps.empty() ? "" : wrapped(jumps);
   }
   std::string text = fmt::format(
       "{} the force differs from that of `simulate` by up to {:.2g} % of the largest force, on the motion of the test "
@@ -47,7 +54,7 @@ std::string about_force(const TestVector& vector) {
         "samples, which exported code does not have.",
         vector.corners == 1 ? "a corner" : fmt::format("{} corners", vector.corners));
   }
-  return wrapped(text);
+  return wrapped(jumps.empty() ? text : text + " " + jumps);
 }
 
 // Where the drive has to be known ahead; else empty.

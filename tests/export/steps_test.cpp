@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numbers>
 
 #include "core/error.hpp"
@@ -114,6 +115,22 @@ TEST_P(Steps, TheirOwnAreReplayedOnAnyMotion) {
     EXPECT_DOUBLE_EQ(vector.allowed(), 1e-6);
     expect_right_replay(exported, vector);
   }
+}
+
+// Friction that falls with speed behind a play sticks and slips.
+TEST(StepsBetweenSamples, WhereTheModelJumpsRoundingDecidesWhen) {
+  ExportedModel exported = model_of({"modified-bouc-wen", {"seal-friction", "clearance"}});
+  const std::map<std::string, double> values = {
+      {"seal-friction.fc", 100.0}, {"seal-friction.fb", 100.0}, {"clearance.gap", 1e-3}};
+  const std::vector<std::string> names = exported.model.parameter_names();
+  for (Term& term : exported.terms) {
+    const auto value = values.find(names[term.parameter]);
+    if (value != values.end() && term.drive_power == 0) term.value = value->second;
+  }
+  const TestVector vector = test_vector(exported, motion_for_testing());
+  EXPECT_GT(vector.off_rounding, 1e-6);
+  EXPECT_DOUBLE_EQ(vector.allowed(), 2.0 * vector.off_rounding);
+  expect_right_replay(exported, vector);
 }
 
 TEST(StepsBetweenSamples, CornersAreToldBySamplesThatExportedCodeDoesNotHave) {
