@@ -3,7 +3,7 @@
 import json
 
 from . import _hysteron, _table, _words
-from .model import Model, as_typed, refuse_numbers, save_files, warnings_of, with_campaign
+from .model import Model, as_typed, refuse_numbers, save_files, with_campaign
 from .recordings import as_recordings, taken_beside
 
 
@@ -71,6 +71,6 @@ def diagnose(recordings, model=None, *, by_current=None, by_frequency=None, by=N
     command.add("--most-effects", options["most_effects"], 5)
     command.add_common(options["seed"], options)
     result = _hysteron.diagnose(
-        recordings.core(), recordings.model, with_campaign(recordings, options), warnings_of(recordings), command.text(),
+        recordings.core(), recordings.model, with_campaign(recordings, options), recordings.warnings, command.text(),
         _words.observer(progress))
     return Diagnosis(result["files"], result["text"])

@@ -4,6 +4,7 @@ import numpy
 from sklearn.base import BaseEstimator, RegressorMixin
 from sklearn.utils.validation import check_is_fitted
 
+from . import _hysteron
 from . import recordings as _recordings
 from ._hysteron import InputError
 from .model import fit
@@ -61,6 +62,12 @@ class Damper(RegressorMixin, BaseEstimator):
 
     def _checked(self, X, *y):
         """X, and y where it is given, as arrays of finite numbers."""
+        if numpy.ma.isMaskedArray(X) and X.ndim == 2:
+            names = [one for one in self.columns or () if one is not Ellipsis]
+            for k in range(X.shape[1]):
+                _recordings.refuse_masked(f"X: {names[k] if k < len(names) else f'column {k}'}", X[:, k])
+        for forces in y:
+            _recordings.refuse_masked("y", forces)
         options = {"dtype": numpy.float64, "reset": bool(y)}
         if y:
             options.update(y_numeric=True, ensure_min_samples=2)
@@ -87,6 +94,9 @@ class Damper(RegressorMixin, BaseEstimator):
             if count > len(names):
                 raise InputError(f"X has {count} columns without names, expected columns=(...) that names them")
             names = names[:count]
+        for k, name in enumerate(names):
+            if name in names[:k]:
+                raise InputError(f"X has two columns named {name!r}, expected different names")
         return names
 
     def _split(self, X, y=None):
@@ -95,13 +105,15 @@ class Damper(RegressorMixin, BaseEstimator):
         number = data.pop("recording", None)
         rows = len(X)
         if self.interval is not None:
+            for name in filter(_hysteron.is_time, map(str, data)):
+                raise InputError(f"interval: X has a column {name!r}, expected either the interval or a column of time")
             data["time"] = float(self.interval) * numpy.arange(rows)
         if y is not None:
             data["force"] = y
         begins = numpy.zeros(rows, dtype=bool)
         begins[0] = True
         for name, values in data.items():
-            if str(name).split("[")[0].split("(")[0].strip().lower() in ("time", "t"):
+            if _hysteron.is_time(str(name)):
                 begins[1:] |= numpy.diff(values) <= 0
         if number is not None:
             begins[1:] |= numpy.diff(number) != 0

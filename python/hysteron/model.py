@@ -321,7 +321,7 @@ def fit(recordings, model=None, *, by_current=None, by_frequency=None, by=None, 
         command.add("--excitation", response["excitation"], "auto")
         command.add("--interpolation", response["interpolation"], "cubic")
     command.add_common(options["seed"], options)
-    warnings = warnings_of(recordings)
+    warnings = recordings.warnings
     result = _hysteron.fit(
         recordings.core(), recordings.model, with_campaign(recordings, options), warnings, command.text(), _words.observer(progress))
     _words.warn(result["warnings"][len(warnings):])
@@ -350,10 +350,3 @@ def refuse_numbers(recordings, what):
 def as_typed(recordings, options):
     """What a command line has to say: not what campaign.toml says to it."""
     return options if recordings.from_paths else with_campaign(recordings, options)
-
-
-def warnings_of(recordings):
-    warnings = list(recordings.warnings)
-    for one in recordings:
-        warnings += getattr(one, "warnings", ())
-    return warnings

@@ -20,8 +20,9 @@ class Recording:
     beside them, by name: values in SI units (one where it does not vary) and their unit. `file` names it in results, `sha256` is of the
     file's bytes."""
 
-    def __init__(self, core, role="", given=None):
+    def __init__(self, core, said, role="", given=None):
         self._core = core
+        self._said = said  # when it was read; recordings that were read together share it
         self.role = role  # "", "fit" or "validate"
         self._given = given  # names and arrays it was made of, for a file with the same bytes
 
@@ -84,7 +85,7 @@ class Recordings(collections.abc.Sequence):
     `warnings` what the reader remarked."""
 
     def __init__(self, recordings, model="", by_current=None, by_frequency=None, by=None, warnings=(), paths=None,
-                 options=(), at=None):
+                 options=(), at=None, together=False):
         self._recordings = tuple(recordings)
         self.model = model
         self.by_current = dict(by_current or {})
@@ -94,6 +95,7 @@ class Recordings(collections.abc.Sequence):
         self.warnings = tuple(warnings)
         self._paths = paths  # of a command line that reads the same; None: the files by name
         self._options = list(options)  # likewise
+        self._together = together  # `warnings` hold what they look like side by side
 
     def __len__(self):
         return len(self._recordings)
@@ -123,7 +125,17 @@ class Recordings(collections.abc.Sequence):
     def _part(self, chosen):
         return Recordings(
             chosen, self.model, self.by_current, self.by_frequency, self.by, self.warnings, options=self._options,
-            at=self.at)
+            at=self.at, together=self._together)
+
+    def laid_together(self):
+        """Of recordings that were not read together: what they look like side by side is a warning, too."""
+        if self._together:
+            return self
+        remarks, warnings = _hysteron.remarks_together([(one._core, one._said) for one in self._recordings])
+        _words.warn(text for text, _ in remarks)
+        return Recordings(
+            self._recordings, self.model, self.by_current, self.by_frequency, self.by, [*self.warnings, *warnings],
+            self._paths, self._options, self.at, together=True)
 
     from_paths = property(lambda self: self._paths is not None)
 
@@ -187,7 +199,7 @@ def as_recordings(value, need_force=False, conditions=(), taken=RECORDINGS_ALONE
         seen.add(one.file)
         if need_force and one.force is None:
             raise InputError(f"{one.file}: has no force, expected one to compare with")
-    return result
+    return result.laid_together()
 
 
 def as_recording(value, what, **read):
@@ -221,7 +233,7 @@ def _load(data, taken, columns=None, group="", skip=0, keep_samples=_hysteron.de
     skip = _words.whole("skip", skip, 0, 100000)
     keep_samples = _words.whole("keep_samples", keep_samples, 0, 1000000000)
     at = {str(key): str(value) for key, value in (at or {}).items()}
-    cores, roles, model, by_current, by_frequency, by, remarks = _hysteron.load(
+    cores, roles, model, by_current, by_frequency, by, remarks, said = _hysteron.load(
         paths, columns, group, skip, keep_samples, required(motion_only, excitation),
         [*_words.names("conditions", conditions), *at], at, bool(without_time), taken)
     _words.warn(text for text, _ in remarks)
@@ -234,14 +246,22 @@ def _load(data, taken, columns=None, group="", skip=0, keep_samples=_hysteron.de
     if without_time:
         command.words.append("--without-time")
     return Recordings(
-        (Recording(core, role) for core, role in zip(cores, roles)),
-        model, by_current, by_frequency, by, [warning for _, warning in remarks], paths, command.words, at,
+        (Recording(core, said, role) for core, role in zip(cores, roles)),
+        model, by_current, by_frequency, by, [warning for _, warning in remarks], paths, command.words, at, together=True,
     )
 
 
 def required(motion_only, excitation):
     """What a recording has to hold beside the time."""
     return "excitation" if excitation else "motion" if motion_only else "force"
+
+
+def refuse_masked(what, values):
+    """What a mask hides would be read as if it had been measured."""
+    masked = numpy.ma.count_masked(values) if isinstance(values, numpy.ma.MaskedArray) else 0
+    if masked:
+        raise InputError(f"{what} has {masked} masked value{'s' if masked > 1 else ''} of {values.size}, expected none: "
+                         "those samples removed from all columns, or the values filled")
 
 
 def recording(data=None, *, name="recording.csv", units=None, columns=None, role="",
@@ -272,6 +292,7 @@ def recording(data=None, *, name="recording.csv", units=None, columns=None, role
             if header in CHANNELS or header in units:
                 raise InputError(f"{file}: {header} holds no numbers, expected an array of numbers")
             continue  # as a column of words in a file
+        refuse_masked(f"{file}: {header}", data[key])
         if values.ndim != 1:
             raise InputError(f"{file}: {header} has {values.ndim} dimensions, expected one")
         if any(sign in header for sign in ",;\"\t\r\n") or header.startswith("#"):
@@ -290,17 +311,16 @@ def recording(data=None, *, name="recording.csv", units=None, columns=None, role
     if not arrays:
         raise InputError(f"{file}: no columns of numbers, expected at least time, displacement and force")
     columns = {str(key): str(value) for key, value in (columns or {}).items()}
-    core, remarks = _hysteron.recording(headers, arrays, file, columns, _words.whole("keep_samples", keep_samples, 0, 1000000000),
+    core, remarks, said = _hysteron.recording(headers, arrays, file, columns, _words.whole("keep_samples", keep_samples, 0, 1000000000),
         required(motion_only, excitation),
         _words.names("conditions", conditions), bool(without_time))
     _words.warn(text for text, _ in remarks)
-    result = Recording(core, role, (headers, arrays))
-    result.warnings = tuple(warning for _, warning in remarks)
-    return result
+    return Recording(core, said, role, (headers, arrays))
 
 
 def dataset(name, only="", seed=1):
     """A dataset that ships, see list("datasets"): what `hysteron generate NAME --only TEXT` writes, as Recordings."""
-    cores, roles, model, by_current, by_frequency, by, _ = _hysteron.dataset(
+    cores, roles, model, by_current, by_frequency, by, _, said = _hysteron.dataset(
         name, only, _words.whole("seed", seed, 0, 2**64 - 1))
-    return Recordings((Recording(core, role) for core, role in zip(cores, roles)), model, by_current, by_frequency, by)
+    return Recordings((Recording(core, said, role) for core, role in zip(cores, roles)), model, by_current, by_frequency, by,
+                      together=True)

@@ -4,6 +4,8 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <cstddef>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <set>
@@ -11,6 +13,7 @@
 #include <tuple>
 
 #include "arguments.hpp"
+#include "check/campaign.hpp"
 #include "core/error.hpp"
 #include "core/suggest.hpp"
 #include "datasets/dataset.hpp"
@@ -41,6 +44,19 @@ Remarks remarks_of(const std::vector<Remark>& remarks) {
   return result;
 }
 
+// What was said of recordings when they were read. Those that were read together share it.
+struct Said {
+  std::vector<Remark> of_each;
+  std::vector<Remark> side_by_side;  // and of their sampling: what remarks_on finds
+};
+using SaidPointer = std::shared_ptr<Said>;
+
+// As load_with_remarks puts them: those of remarks_on are last.
+SaidPointer said_of(const std::vector<Remark>& remarks, std::size_t of_each) {
+  const auto middle = remarks.begin() + static_cast<std::ptrdiff_t>(of_each);
+  return std::make_shared<Said>(Said{{remarks.begin(), middle}, {middle, remarks.end()}});
+}
+
 std::string word_of(Role role) { return role == Role::fit ? "fit" : role == Role::validate ? "validate" : ""; }
 
 Role role_of(const std::string& word) {
@@ -50,7 +66,7 @@ Role role_of(const std::string& word) {
   throw InputError("unknown role '" + word + "', expected 'fit' or 'validate'");
 }
 
-// Recordings, roles, model, laws by current, by frequency and by conditions, remarks.
+// Recordings, roles, model, laws by current, by frequency and by conditions, remarks, what was said.
 py::tuple tuple_of(Loaded loaded) {
   py::list recordings;
   py::list roles;
@@ -59,7 +75,8 @@ py::tuple tuple_of(Loaded loaded) {
     roles.append(word_of(loaded.campaign.roles[k]));
   }
   return py::make_tuple(recordings, roles, loaded.campaign.model, loaded.campaign.by_current,
-                        loaded.campaign.by_frequency, loaded.campaign.by, remarks_of(once_each(loaded.remarks)));
+                        loaded.campaign.by_frequency, loaded.campaign.by, remarks_of(once_each(loaded.remarks)),
+                        said_of(loaded.remarks, loaded.of_each));
 }
 
 // Names of conditions as readers take them, each once.
@@ -126,6 +143,7 @@ py::tuple recording(const std::vector<std::string>& names, const std::vector<Num
   const std::string text = csv_text(names, arrays);
   RecordingPointer result;
   std::vector<Remark> remarks;
+  std::size_t of_each = 0;
   {
     const py::gil_scoped_release released;
     ReadOptions options;
@@ -136,9 +154,58 @@ py::tuple recording(const std::vector<std::string>& names, const std::vector<Num
     options.conditions = conditions_named(conditions);
     options.without_time = without_time;
     options.remark = [&](const Remark& remark) { remarks.push_back(remark); };
-    result = std::make_shared<Recording>(recording_of_text(text, file, options));
+    std::vector<Recording> alone{recording_of_text(text, file, options)};
+    of_each = remarks.size();
+    const std::vector<Remark> more =
+        remarks_on(alone, options.displacement_required ? Moving::damper : Moving::excitation);
+    remarks.insert(remarks.end(), more.begin(), more.end());
+    result = std::make_shared<Recording>(std::move(alone.front()));
   }
-  return py::make_tuple(result, remarks_of(once_each(remarks)));
+  return py::make_tuple(result, remarks_of(once_each(remarks)), said_of(remarks, of_each));
+}
+
+// The readers name a file by its path.
+bool is_of(const Remark& remark, const Recording& recording) {
+  return remark.file == recording.file || remark.file.ends_with("/" + recording.file);
+}
+
+bool same(const Remark& one, const Remark& other) {
+  return one.file == other.file && one.key == other.key && one.text.plain() == other.text.plain();
+}
+
+// Recordings that come together in a command, each with what was said of it. What they look like side by side was said
+// of those that were read together, and is found here for others. The remarks that are new, and all as warnings of a
+// result file.
+py::tuple remarks_together(const std::vector<std::pair<RecordingPointer, SaidPointer>>& given) {
+  std::vector<Remark> fresh;
+  std::vector<std::string> warnings;
+  {
+    const py::gil_scoped_release released;
+    std::vector<Recording> recordings;
+    std::vector<Remark> all;
+    std::vector<Remark> before;
+    for (const auto& [recording, said] : given) {
+      recordings.push_back(*recording);
+      const auto of_it = [&](const Remark& remark) { return is_of(remark, *recording); };
+      std::ranges::copy_if(said->of_each, std::back_inserter(all), of_it);
+      std::ranges::copy_if(said->side_by_side, std::back_inserter(before), of_it);
+    }
+    const bool read_together =
+        std::ranges::all_of(given, [&](const auto& one) { return one.second == given.front().second; });
+    std::vector<Remark> now = before;
+    if (!read_together) {
+      // Without a displacement nothing moves a damper.
+      const bool moving =
+          std::ranges::none_of(recordings, [](const Recording& one) { return one.displacement.empty(); });
+      now = remarks_on(recordings, moving ? Moving::damper : Moving::excitation);
+      std::ranges::copy_if(now, std::back_inserter(fresh), [&](const Remark& remark) {
+        return std::ranges::none_of(before, [&](const Remark& one) { return same(one, remark); });
+      });
+    }
+    all.insert(all.end(), now.begin(), now.end());
+    for (const Remark& remark : once_each(all)) warnings.push_back(warning_of(remark));
+  }
+  return py::make_tuple(remarks_of(once_each(fresh)), warnings);
 }
 
 py::tuple dataset(const std::string& id, const std::string& only, std::uint64_t seed) {
@@ -230,6 +297,7 @@ Campaign campaign_of(const std::vector<std::pair<RecordingPointer, std::string>>
 }
 
 void add_recordings(py::module_& module) {
+  py::class_<Said, SaidPointer>(module, "Said");
   py::class_<Recording, RecordingPointer>(module, "Recording")
       .def_readonly("file", &Recording::file)
       .def_readonly("sha256", &Recording::sha256)
@@ -250,10 +318,13 @@ void add_recordings(py::module_& module) {
   module.def("load", &load);
   module.def("recording", &recording);
   module.def("dataset", &dataset);
+  module.def("remarks_together", &remarks_together);
   module.def("csv_text", [](const std::vector<std::string>& names, const std::vector<Numbers>& columns) {
     return py::bytes(csv_text(names, columns));
   });
   module.def("condition_name", &condition_name);
+  module.def("is_time",
+             [](const std::string& column) { return quantity_of_column(split_column(column)) == Quantity::time; });
   module.def("look_beside", [](const std::string& folder) { look_beside(folder); });
 }
 

@@ -73,10 +73,11 @@ Loaded load_with_remarks(const std::vector<std::string>& data, ReadOptions optio
     refuse_of_none(Option::skip, &InputFormat::lines, "lines", "a text file or a workbook", campaign.recordings, data);
   }
   if (required == Required::motion_and_force) std::ranges::for_each(campaign.recordings, refuse_excitation_as_force);
+  const std::size_t of_each = remarks.size();
   const std::vector<Remark> of_campaign =
       remarks_on(campaign.recordings, required == Required::nothing ? Moving::excitation : Moving::damper);
   remarks.insert(remarks.end(), of_campaign.begin(), of_campaign.end());
-  return {std::move(campaign), std::move(remarks)};
+  return {std::move(campaign), std::move(remarks), of_each};
 }
 
 std::vector<Remark> once_each(const std::vector<Remark>& remarks) {

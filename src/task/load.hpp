@@ -1,6 +1,7 @@
 // Reading recordings to work on, with what the readers remark of them.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,7 @@ enum class Required { motion_and_force, motion, nothing };
 struct Loaded {
   Campaign campaign;
   std::vector<Remark> remarks;
+  std::size_t of_each = 0;  // the remarks of the readers, which are first; those of remarks_on follow
 };
 // As load_campaign, with the channels required; `options.remark` is not called. Recordings of too few samples a period,
 // of another unit than the others, and copies are remarked too.

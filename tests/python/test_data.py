@@ -151,6 +151,52 @@ class Data(InFolder):
             model = hysteron.fit(one, "viscous", budget=50)
         self.assertTrue(any("displacement" in text for text in model.warnings))
 
+    def said(self, work):
+        """What it gives, and the warnings."""
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            result = work()
+        return result, [str(one.message) for one in caught if issubclass(one.category, hysteron.HysteronWarning)]
+
+    def test_recordings_that_come_together_are_looked_at_side_by_side(self):
+        made = []
+        for k in range(5):
+            time, displacement, force, _ = sine(1.0 + 0.3 * k, 0.01 + 1e-3 * k, 0.0, seed=k)
+            made.append(hysteron.recording(time=time, displacement=displacement, force=force * (1000 if k == 2 else 1), name=f"m{k}"))
+        made.append(hysteron.recording(time=made[1].time, displacement=made[1].displacement, force=made[1].force, name="m5"))
+        (self.folder / "made").mkdir()
+        for one in made:
+            one.save(f"made/{one.file}")
+        together, expected = self.said(lambda: hysteron.load("made"))
+        self.assertTrue(any("factor of a thousand" in text for text in expected), expected)
+        self.assertTrue(any("holds the same bytes as m1.csv" in text for text in expected), expected)
+        program_fit = hysteron.fit(together, "viscous", budget=50).fit_json["warnings"]
+        alone = [hysteron.load(f"made/m{k}.csv")[0] for k in range(6)]
+        for given in (made, alone, hysteron.Recordings(made)):
+            model, told = self.said(lambda: hysteron.fit(given, "viscous", budget=50))
+            self.assertEqual(told[:len(expected)], expected)
+            self.assertEqual(model.fit_json["warnings"], program_fit)
+            for work in (lambda: model.score(given), lambda: hysteron.compare(model, given)):
+                self.assertEqual([text for text in self.said(work)[1] if text in expected], expected)
+        # What was said of recordings that were loaded together is not said again.
+        model, told = self.said(lambda: hysteron.fit(list(together), "viscous", budget=50))
+        self.assertEqual([text for text in told if text in expected], [])
+        self.assertEqual(model.fit_json["warnings"], program_fit)
+        more = hysteron.load("data/r0.csv")[0]
+        self.assertEqual([text for text in self.said(lambda: model.score([*together, more]))[1] if "same bytes" in text], [])
+
+    def test_too_few_samples_a_period(self):
+        time = numpy.arange(161) / 40.0
+        displacement = 0.01 * numpy.sin(2 * numpy.pi * 3.9 * time)
+        given = {"time": time, "displacement": displacement, "force": 800 * numpy.gradient(displacement, time)}
+        one, told = self.said(lambda: hysteron.recording(**given, name="few"))
+        one.save("few.csv")
+        self.assertTrue(any("samples a period" in text for text in told), told)
+        file, of_file = self.said(lambda: hysteron.load("few.csv"))
+        self.assertEqual(told, of_file)
+        self.assertEqual(hysteron.fit(one, "viscous", budget=50).fit_json["warnings"],
+                         hysteron.fit(file, "viscous", budget=50).fit_json["warnings"])
+
     def test_without_pandas(self):
         script = ("import sys; sys.modules['pandas'] = None\nimport hysteron\n"
                   "model = hysteron.fit('data', 'viscous', budget=50)\n"
@@ -190,6 +236,21 @@ class Errors(InFolder):
         self.refuses("furlong", hysteron.recording, **good, units={"displacement": "furlong"})
         self.refuses("no column", hysteron.recording, **good, units={"disp": "mm"})
         self.refuses("called recording.csv", hysteron.fit, [hysteron.recording(**good)] * 2, "viscous")
+
+    def test_of_masked_values(self):
+        time, displacement, force, _ = sine(2.0, 0.01, 0.0)
+        good = {"time": time, "displacement": displacement, "force": force}
+        three = numpy.isin(numpy.arange(400), (5, 6, 7))
+        for name, values in good.items():
+            wrong = {**good, name: numpy.ma.masked_array(values, mask=three)}
+            expected = f"^recording.csv: {name} has 3 masked values of 400, expected none: those samples removed"
+            self.refuses(expected, hysteron.recording, **wrong)
+            self.refuses(expected, hysteron.recording, wrong)
+        self.refuses("force has 1 masked value of 400", hysteron.recording,
+                     **{**good, "force": numpy.ma.masked_array(force, mask=numpy.arange(400) == 9)})
+        whole = hysteron.recording(**{**good, "force": numpy.ma.masked_array(force, mask=numpy.zeros(400, bool))})
+        numpy.testing.assert_array_equal(whole.force, force)
+        hysteron.recording({**good, "remark": numpy.ma.masked_array(["a word"] * 400, mask=three)})
 
     def test_of_arguments(self):
         for pattern, arguments in (

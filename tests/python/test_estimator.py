@@ -92,6 +92,21 @@ class Estimator(unittest.TestCase):
             hysteron.Damper("viscous").fit(numpy.column_stack([X, y]), y)
         with self.assertRaisesRegex(hysteron.InputError, "2 names and 3 columns"):
             hysteron.Damper("viscous", columns=("time", "displacement")).fit(X, y)
+        with self.assertRaisesRegex(hysteron.InputError, "^interval: X has a column 'time', expected either"):
+            hysteron.Damper("viscous", columns=("time", "displacement", "current"), interval=1e-3).fit(X, y)
+        with self.assertRaisesRegex(hysteron.InputError, "^interval: X has a column 'Zeit \\[s\\]'"):
+            frame = pandas.DataFrame(X, columns=("Zeit [s]", "Weg [m]", "current"))
+            hysteron.Damper("viscous", interval=1e-3).fit(frame, y)
+        with self.assertRaisesRegex(hysteron.InputError, r"^X has two columns named 'displacement \[mm\]', expected"):
+            hysteron.Damper("viscous", columns=("time", "displacement [mm]", "displacement [mm]")).fit(X, y)
+        masked = numpy.ma.masked_array(X, mask=numpy.zeros(X.shape, bool))
+        masked[3:5, 1] = numpy.ma.masked
+        with self.assertRaisesRegex(hysteron.InputError, "^X: displacement has 2 masked values of 1600"):
+            hysteron.Damper("viscous", columns=("time", "displacement", "current")).fit(masked, y)
+        with self.assertRaisesRegex(hysteron.InputError, "^X: column 1 has 2 masked values of 1600"):
+            hysteron.Damper("viscous").fit(masked, y)
+        with self.assertRaisesRegex(hysteron.InputError, "^y has 1 masked value of 1600"):
+            hysteron.Damper("viscous").fit(X, numpy.ma.masked_array(y, mask=numpy.arange(len(y)) == 7))
         self.assertEqual(clone(hysteron.Damper("viscous", budget=7)).get_params()["budget"], 7)
 
 
