@@ -214,6 +214,15 @@ TEST(Contrast, AGainThatChangesEvenlyWithThePlaceIsNoLossOnOneSide) {
   EXPECT_TRUE(side == nullptr || std::fabs(side->z) < 2.0);
 }
 
+TEST(Contrast, ABoreThatIsWiderAtBothEndsAlikeIsNoLossOnOneSide) {
+  const auto found = scene_of([](const Recording& r, const std::vector<double>& f, std::size_t n) {
+                       const double place = r.displacement[n] / 0.015;
+                       return -0.3 * f[n] * place * place;
+                     }).found();
+  const Contrast* side = find(found, ContrastKind::side_loss);
+  EXPECT_TRUE(side == nullptr || std::fabs(side->z) < 2.0);
+}
+
 // A force of the place alone, whatever its shape, takes nothing off a force.
 TEST(Contrast, AStepOfTheForceAtAPlaceIsNoLossOnOneSide) {
   const auto found = scene_of([](const Recording& r, const auto&, std::size_t n) {

@@ -174,17 +174,26 @@ void add_motion_contrasts(std::span<const Track> tracks, std::size_t placebos, s
   }
   contrast(Kind::middle_loss, in_middle, base + Columns{vv, a, sign, stretch} + of_place);
 
-  // Likewise on one side of a place. A gain that changes evenly with the place is that of a lever.
+  // Likewise on one side of a place. A gain that changes evenly with the place is that of a lever, and what is lost at
+  // both ends alike is lost on no side.
   Columns on_one_side;
+  Columns at_both_ends;
   for (const double border : borders) {
     const auto beyond = [=](const Track& t, std::size_t n) {
       return std::tanh((t.x[n] - centre - border * half) / (border_width * half));
     };
     on_one_side.push_back(add([=](const Track& t, std::size_t n) { return -t.simulated[n] * beyond(t, n); }));
     of_place.push_back(add(beyond));
+    if (border > 0.0) {
+      const auto short_of = [=](const Track& t, std::size_t n) {
+        return std::tanh((t.x[n] - centre + border * half) / (border_width * half));
+      };
+      at_both_ends.push_back(
+          add([=](const Track& t, std::size_t n) { return t.simulated[n] * (short_of(t, n) - beyond(t, n)); }));
+    }
   }
   of_place.push_back(add([=](const Track& t, std::size_t n) { return t.simulated[n] * (t.x[n] - centre); }));
-  contrast(Kind::side_loss, on_one_side, base + Columns{vv, a, sign, stretch} + of_place);
+  contrast(Kind::side_loss, on_one_side, base + Columns{vv, a, sign, stretch} + of_place + at_both_ends);
 
   Columns second;
   for (const double yield : yields) {
