@@ -20,9 +20,9 @@ class Recording:
     beside them, by name: values in SI units (one where it does not vary) and their unit. `file` names it in results, `sha256` is of the
     file's bytes."""
 
-    def __init__(self, core, said, role="", given=None):
+    def __init__(self, core, reading_remarks, role="", given=None):
         self._core = core
-        self._said = said  # when it was read; recordings that were read together share it
+        self._reading_remarks = reading_remarks  # when it was read; recordings that were read together share it
         self.role = role  # "", "fit" or "validate"
         self._given = given  # names and arrays it was made of, for a file with the same bytes
 
@@ -131,7 +131,7 @@ class Recordings(collections.abc.Sequence):
         """Of recordings that were not read together: what they look like side by side is a warning, too."""
         if self._together:
             return self
-        remarks, warnings = _hysteron.remarks_together([(one._core, one._said) for one in self._recordings])
+        remarks, warnings = _hysteron.remarks_together([(one._core, one._reading_remarks) for one in self._recordings])
         _words.warn(text for text, _ in remarks)
         return Recordings(
             self._recordings, self.model, self.by_current, self.by_frequency, self.by, [*self.warnings, *warnings],
@@ -233,7 +233,7 @@ def _load(data, taken, columns=None, group="", skip=0, keep_samples=_hysteron.de
     skip = _words.whole("skip", skip, 0, 100000)
     keep_samples = _words.whole("keep_samples", keep_samples, 0, 1000000000)
     at = {str(key): str(value) for key, value in (at or {}).items()}
-    cores, roles, model, by_current, by_frequency, by, remarks, said = _hysteron.load(
+    cores, roles, model, by_current, by_frequency, by, remarks, reading_remarks = _hysteron.load(
         paths, columns, group, skip, keep_samples, required(motion_only, excitation),
         [*_words.names("conditions", conditions), *at], at, bool(without_time), taken)
     _words.warn(text for text, _ in remarks)
@@ -246,7 +246,7 @@ def _load(data, taken, columns=None, group="", skip=0, keep_samples=_hysteron.de
     if without_time:
         command.words.append("--without-time")
     return Recordings(
-        (Recording(core, said, role) for core, role in zip(cores, roles)),
+        (Recording(core, reading_remarks, role) for core, role in zip(cores, roles)),
         model, by_current, by_frequency, by, [warning for _, warning in remarks], paths, command.words, at, together=True,
     )
 
@@ -311,16 +311,16 @@ def recording(data=None, *, name="recording.csv", units=None, columns=None, role
     if not arrays:
         raise InputError(f"{file}: no columns of numbers, expected at least time, displacement and force")
     columns = {str(key): str(value) for key, value in (columns or {}).items()}
-    core, remarks, said = _hysteron.recording(headers, arrays, file, columns, _words.whole("keep_samples", keep_samples, 0, 1000000000),
+    core, remarks, reading_remarks = _hysteron.recording(headers, arrays, file, columns, _words.whole("keep_samples", keep_samples, 0, 1000000000),
         required(motion_only, excitation),
         _words.names("conditions", conditions), bool(without_time))
     _words.warn(text for text, _ in remarks)
-    return Recording(core, said, role, (headers, arrays))
+    return Recording(core, reading_remarks, role, (headers, arrays))
 
 
 def dataset(name, only="", seed=1):
     """A dataset that ships, see list("datasets"): what `hysteron generate NAME --only TEXT` writes, as Recordings."""
-    cores, roles, model, by_current, by_frequency, by, _, said = _hysteron.dataset(
+    cores, roles, model, by_current, by_frequency, by, _, reading_remarks = _hysteron.dataset(
         name, only, _words.whole("seed", seed, 0, 2**64 - 1))
-    return Recordings((Recording(core, said, role) for core, role in zip(cores, roles)), model, by_current, by_frequency, by,
+    return Recordings((Recording(core, reading_remarks, role) for core, role in zip(cores, roles)), model, by_current, by_frequency, by,
                       together=True)

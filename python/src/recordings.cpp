@@ -44,17 +44,17 @@ Remarks remarks_of(const std::vector<Remark>& remarks) {
   return result;
 }
 
-// What was said of recordings when they were read. Those that were read together share it.
-struct Said {
+// Remarks on recordings from when they were read. Those that were read together share it.
+struct ReadingRemarks {
   std::vector<Remark> of_each;
   std::vector<Remark> side_by_side;  // and of their sampling: what remarks_on finds
 };
-using SaidPointer = std::shared_ptr<Said>;
+using ReadingRemarksPointer = std::shared_ptr<ReadingRemarks>;
 
 // As load_with_remarks puts them: those of remarks_on are last.
-SaidPointer said_of(const std::vector<Remark>& remarks, std::size_t of_each) {
+ReadingRemarksPointer reading_remarks_of(const std::vector<Remark>& remarks, std::size_t of_each) {
   const auto middle = remarks.begin() + static_cast<std::ptrdiff_t>(of_each);
-  return std::make_shared<Said>(Said{{remarks.begin(), middle}, {middle, remarks.end()}});
+  return std::make_shared<ReadingRemarks>(ReadingRemarks{{remarks.begin(), middle}, {middle, remarks.end()}});
 }
 
 std::string word_of(Role role) { return role == Role::fit ? "fit" : role == Role::validate ? "validate" : ""; }
@@ -66,7 +66,7 @@ Role role_of(const std::string& word) {
   throw InputError("unknown role '" + word + "', expected 'fit' or 'validate'");
 }
 
-// Recordings, roles, model, laws by current, by frequency and by conditions, remarks, what was said.
+// Recordings, roles, model, laws by current, by frequency and by conditions, remarks, those of reading.
 py::tuple tuple_of(Loaded loaded) {
   py::list recordings;
   py::list roles;
@@ -76,7 +76,7 @@ py::tuple tuple_of(Loaded loaded) {
   }
   return py::make_tuple(recordings, roles, loaded.campaign.model, loaded.campaign.by_current,
                         loaded.campaign.by_frequency, loaded.campaign.by, remarks_of(once_each(loaded.remarks)),
-                        said_of(loaded.remarks, loaded.of_each));
+                        reading_remarks_of(loaded.remarks, loaded.of_each));
 }
 
 // Names of conditions as readers take them, each once.
@@ -161,7 +161,7 @@ py::tuple recording(const std::vector<std::string>& names, const std::vector<Num
     remarks.insert(remarks.end(), more.begin(), more.end());
     result = std::make_shared<Recording>(std::move(alone.front()));
   }
-  return py::make_tuple(result, remarks_of(once_each(remarks)), said_of(remarks, of_each));
+  return py::make_tuple(result, remarks_of(once_each(remarks)), reading_remarks_of(remarks, of_each));
 }
 
 // The readers name a file by its path.
@@ -173,10 +173,10 @@ bool same(const Remark& one, const Remark& other) {
   return one.file == other.file && one.key == other.key && one.text.plain() == other.text.plain();
 }
 
-// Recordings that come together in a command, each with what was said of it. What they look like side by side was said
+// Recordings that come together in a command, each with its reading remarks. What they look like side by side was told
 // of those that were read together, and is found here for others. The remarks that are new, and all as warnings of a
 // result file.
-py::tuple remarks_together(const std::vector<std::pair<RecordingPointer, SaidPointer>>& given) {
+py::tuple remarks_together(const std::vector<std::pair<RecordingPointer, ReadingRemarksPointer>>& given) {
   std::vector<Remark> fresh;
   std::vector<std::string> warnings;
   {
@@ -184,11 +184,11 @@ py::tuple remarks_together(const std::vector<std::pair<RecordingPointer, SaidPoi
     std::vector<Recording> recordings;
     std::vector<Remark> all;
     std::vector<Remark> before;
-    for (const auto& [recording, said] : given) {
+    for (const auto& [recording, reading] : given) {
       recordings.push_back(*recording);
       const auto of_it = [&](const Remark& remark) { return is_of(remark, *recording); };
-      std::ranges::copy_if(said->of_each, std::back_inserter(all), of_it);
-      std::ranges::copy_if(said->side_by_side, std::back_inserter(before), of_it);
+      std::ranges::copy_if(reading->of_each, std::back_inserter(all), of_it);
+      std::ranges::copy_if(reading->side_by_side, std::back_inserter(before), of_it);
     }
     const bool read_together =
         std::ranges::all_of(given, [&](const auto& one) { return one.second == given.front().second; });
@@ -297,7 +297,7 @@ Campaign campaign_of(const std::vector<std::pair<RecordingPointer, std::string>>
 }
 
 void add_recordings(py::module_& module) {
-  py::class_<Said, SaidPointer>(module, "Said");
+  py::class_<ReadingRemarks, ReadingRemarksPointer>(module, "ReadingRemarks");
   py::class_<Recording, RecordingPointer>(module, "Recording")
       .def_readonly("file", &Recording::file)
       .def_readonly("sha256", &Recording::sha256)
