@@ -168,7 +168,8 @@ TEST_F(OutsideNames, OfADriveThatChangesNothingOrIsMissedAreTold) {
   without.replace(without.find(",current [A]"), 12, "");
   write(folder_ / "motion.csv", without);
   const std::string zero =
-      "warning: motion.csv: no current is read, and parameters of fitted/model.json follow the current: taken as zero\n";
+      "warning: motion.csv: no current is read, and parameters of fitted/model.json follow the current: taken as "
+      "zero\n";
   EXPECT_EQ(run({"export", "fitted/model.json", "--to", "python", "--out", "a.py", "--motion", "motion.csv"}).err,
             zero);
   EXPECT_EQ(run({"export", "fitted/model.json", "--to", "python", "--out", "a.py", "--motion", "data/r1.csv"}).err, "");
