@@ -185,8 +185,8 @@ py::tuple remarks_together(const std::vector<std::pair<RecordingPointer, Reading
     std::vector<Remark> all;
     std::vector<Remark> before;
     for (const auto& [recording, reading] : given) {
-      recordings.push_back(*recording);
-      const auto of_it = [&](const Remark& remark) { return is_of(remark, *recording); };
+      const Recording& one = recordings.emplace_back(*recording);
+      const auto of_it = [&one](const Remark& remark) { return is_of(remark, one); };
       std::ranges::copy_if(reading->of_each, std::back_inserter(all), of_it);
       std::ranges::copy_if(reading->side_by_side, std::back_inserter(before), of_it);
     }

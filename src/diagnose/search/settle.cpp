@@ -75,9 +75,10 @@ Found taken_out(const Course& course, const Extension& part) {
 // A first look has few rounds, which a series element spends in a curved valley between its size and the law's own
 // stiffness; the model that it is compared with has arrived. Rivals that were refitted go on until they have too.
 void arrive(const Course& course, const Found& found, std::vector<Tried>& rivals) {
-  const auto refitted = std::ranges::stable_partition(rivals, [](const Tried& rival) { return rival.fit.has_value(); });
+  const auto end_of_refitted =
+      std::stable_partition(rivals.begin(), rivals.end(), [](const Tried& rival) { return rival.fit.has_value(); });
   std::vector<Fit> fits;
-  for (auto rival = rivals.begin(); rival != refitted.begin(); ++rival) {
+  for (auto rival = rivals.begin(); rival != end_of_refitted; ++rival) {
     fits.push_back(*rival->fit);
   }
   fits = course.bench.polished(fits, fitting_rounds);
