@@ -184,12 +184,12 @@ void add_motion_contrasts(std::span<const Track> tracks, std::size_t placebos, s
     };
     on_one_side.push_back(add([=](const Track& t, std::size_t n) { return -t.simulated[n] * beyond(t, n); }));
     of_place.push_back(add(beyond));
-    if (border > 0.0) {
-      const auto short_of = [=](const Track& t, std::size_t n) {
+    if (border > 0.0) {  // which the border opposite makes a pair
+      const auto beyond_opposite = [=](const Track& t, std::size_t n) {
         return std::tanh((t.x[n] - centre + border * half) / (border_width * half));
       };
       at_both_ends.push_back(
-          add([=](const Track& t, std::size_t n) { return t.simulated[n] * (short_of(t, n) - beyond(t, n)); }));
+          add([=](const Track& t, std::size_t n) { return t.simulated[n] * (beyond_opposite(t, n) - beyond(t, n)); }));
     }
   }
   of_place.push_back(add([=](const Track& t, std::size_t n) { return t.simulated[n] * (t.x[n] - centre); }));

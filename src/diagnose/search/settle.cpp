@@ -72,24 +72,6 @@ Found taken_out(const Course& course, const Extension& part) {
   return found;
 }
 
-// A first look has few rounds, which a series element spends in a curved valley between its size and the law's own
-// stiffness; the model that it is compared with has arrived. Rivals that were refitted go on until they have too.
-void arrive(const Course& course, const Found& found, std::vector<Tried>& rivals) {
-  const auto end_of_refitted =
-      std::stable_partition(rivals.begin(), rivals.end(), [](const Tried& rival) { return rival.fit.has_value(); });
-  std::vector<Fit> fits;
-  for (auto rival = rivals.begin(); rival != end_of_refitted; ++rival) {
-    fits.push_back(*rival->fit);
-  }
-  fits = course.bench.polished(fits, fitting_rounds);
-  for (std::size_t k = 0; k < fits.size(); ++k) {
-    if (fits[k].cost < rivals[k].fit->cost) {
-      const double squares = rivals[k].gain + squared(rivals[k].fit->cost);
-      rivals[k] = weighed(rivals[k].part, fits[k], squares, found.without.dimension(), course.independent);
-    }
-  }
-}
-
 // What is set in the place of a part: what came closest, and its relatives among the candidates. A rival is judged from
 // the best start it can have: the damper's parameters without the effect, and with it.
 std::vector<Tried> rivals_of(const Course& course, const Found& found, const std::vector<Extension>& candidates,
@@ -136,7 +118,8 @@ std::vector<Tried> rivals_of(const Course& course, const Found& found, const std
                 [&](const Tried& rival) { return std::ranges::find(promising, rival.part) != promising.end(); });
   std::ranges::move(stage(course.bench, found.without, promising, course.independent, &course.current, promising, {}),
                     std::back_inserter(rivals));
-  arrive(course, found, rivals);
+  // The rounds of a first refit end short in the curved valley between a series element and the law's own stiffness.
+  polish(course.bench, rivals, rivals.size(), found.without.dimension(), course.independent);
   return rivals;
 }
 

@@ -115,6 +115,25 @@ Tried weighed(const Extension& part, const Fit& fit, double squares_before, std:
           fit};
 }
 
+void polish(const Workbench& bench, std::vector<Tried>& tried, std::size_t most, std::size_t dimension_before,
+            double independent) {
+  std::vector<Tried*> refitted;
+  std::vector<Fit> fits;
+  for (Tried& one : tried) {
+    if (one.fit && fits.size() < most) {
+      refitted.push_back(&one);
+      fits.push_back(*one.fit);
+    }
+  }
+  fits = bench.polished(fits, fitting_rounds);
+  for (std::size_t k = 0; k < fits.size(); ++k) {
+    Tried& one = *refitted[k];
+    if (fits[k].cost < one.fit->cost) {
+      one = weighed(one.part, fits[k], one.gain + squared(one.fit->cost), dimension_before, independent);
+    }
+  }
+}
+
 std::vector<Tried> stage(const Workbench& bench, const Fit& before, const std::vector<Extension>& candidates,
                          double independent, const Fit* also, const std::vector<Extension>& always,
                          const std::function<void(double share)>& done) {
@@ -170,19 +189,7 @@ std::vector<Tried> stage(const Workbench& bench, const Fit& before, const std::v
     counting.add();
   });
   std::ranges::stable_sort(result, better);
-  std::vector<Fit> best;
-  for (const Tried& tried : result) {
-    if (tried.fit && best.size() < (elements > 0 ? 1 : survivors)) {
-      best.push_back(*tried.fit);
-    }
-  }
-  best = bench.polished(best, fitting_rounds);
-  for (std::size_t k = 0; k < best.size(); ++k) {
-    if (best[k].cost < result[k].fit->cost) {
-      const double squares = result[k].gain + squared(result[k].fit->cost);
-      result[k] = weighed(result[k].part, best[k], squares, before.dimension(), independent);
-    }
-  }
+  polish(bench, result, elements > 0 ? 1 : survivors, before.dimension(), independent);
   std::ranges::stable_sort(result, better);
   return result;
 }

@@ -40,6 +40,10 @@ std::vector<Extension> joint_law_candidates(const Workbench& bench, const Hypoth
 Tried weighed(const Extension& part, const Fit& fit, double squares_before, std::size_t dimension_before,
               double independent);
 
+// The first `most` of `tried` that were refitted, fitted on with the rounds of a fit that is compared with others.
+void polish(const Workbench& bench, std::vector<Tried>& tried, std::size_t most, std::size_t dimension_before,
+            double independent);
+
 // All candidates behind `before`, the promising ones refitted: best first, those refitted before the others. Members of
 // `always` are refitted whatever their score, but behind a series element, where the four best scores take all places:
 // refits cost most there. The base's parameters start from those of `before` and, where given, of `also`. `done` is
