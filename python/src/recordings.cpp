@@ -66,7 +66,8 @@ Role role_of(const std::string& word) {
   throw InputError("unknown role '" + word + "', expected 'fit' or 'validate'");
 }
 
-// Recordings, roles, model, laws by current, by frequency and by conditions, remarks, those of reading.
+// Recordings, roles, model, laws by current, by frequency and by conditions, remarks, and these as each
+// recording keeps them.
 py::tuple tuple_of(Loaded loaded) {
   py::list recordings;
   py::list roles;

@@ -39,7 +39,7 @@ std::vector<Remark> remarks_on_switched_drives(const std::vector<Recording>& rec
     const bool voltage = recording.drive_kind == DriveKind::voltage;
     result.push_back({recording.file, Remark::Kind::implausible, "switched drive",
                       fmt::format("the {0} goes between {2:.3g} {1} and {3:.3g} {1} within a few samples and counts as "
-                                  "constant at its mean, {4:.3g} {1}: record 16 or more samples of each level",
+                                  "constant at its mean, {4:.3g} {1}: record more than eight samples of each level",
                                   voltage ? "voltage" : "current", voltage ? "V" : "A", low, high, mean)});
   }
   return result;

@@ -466,8 +466,9 @@ class Assigner {
     for (std::size_t i = 0; i < columns_.size(); ++i) {
       const Column& column = columns_[i];
       const bool of_unit = column.unit.empty() || find_unit(Quantity::current, column.unit).has_value();
-      if (!taken_[i] && !told_[i] && of_unit && has_word_of(Quantity::current, column.name))
+      if (!taken_[i] && !told_[i] && of_unit && has_word_of(Quantity::current, column.name)) {
         found.push_back(in_quotes(column.text));
+      }
     }
     if (found.empty()) return;
     options_.remark({file_, Remark::Kind::dialect, "no current",
@@ -514,7 +515,7 @@ class Assigner {
   const std::string& file_;
   int line_;
   std::vector<bool> taken_;
-  std::vector<bool> told_;  // of a unit that is none
+  std::vector<bool> told_;  // columns of which a remark says that their unit is none
   Sources sources_;
 };
 

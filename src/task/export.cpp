@@ -34,27 +34,27 @@ std::string name_of(const ExportRequest& request, const StoredModel& stored, con
 // By how much the exported code is expected to differ from simulate, and why; empty where it is not.
 std::string about_force(const TestVector& vector) {
   constexpr double rounding = 1e-6;
-  std::string jumps;
+  std::vector<std::string> sentences;
+  if (vector.off_simulate > rounding || vector.steps_limited) {
+    sentences.push_back(fmt::format(
+        "{} the force differs from that of `simulate` by up to {:.2g} % of the largest force, on the motion of the "
+        "test vector.",
+        vector.steps_limited ? "In these steps" : "Marched from one sample to the next", 100.0 * vector.off_simulate));
+    if (vector.corners > 0) {
+      sentences.push_back(
+          fmt::format("That motion has {}, where straight lines of it meet: `simulate` is told of them by later "
+                      "samples, which exported code does not have.",
+                      vector.corners == 1 ? "a corner" : fmt::format("{} corners", vector.corners)));
+    }
+  }
   if (vector.off_rounding > rounding) {
-    jumps = fmt::format(
-        "Rounding decides when the model jumps on the motion of the test vector, as friction that sticks and slips "
-        "does: it moves the force by up to {:.2g} % of the largest, and a replay may differ by twice that.",
-        100.0 * vector.off_rounding);
+    sentences.push_back(fmt::format(
+        "The model jumps on the motion of the test vector, as friction that sticks and slips does, at instants that "
+        "rounding decides: that moves the force by up to {:.2g} % of the largest, and a replay may differ by twice as "
+        "much.",
+        100.0 * vector.off_rounding));
   }
-  if (vector.off_simulate <= rounding && !vector.steps_limited) {
-    return jumps.empty() ? "" : wrapped(jumps);
-  }
-  std::string text = fmt::format(
-      "{} the force differs from that of `simulate` by up to {:.2g} % of the largest force, on the motion of the test "
-      "vector.",
-      vector.steps_limited ? "In these steps" : "Marched from one sample to the next", 100.0 * vector.off_simulate);
-  if (vector.corners > 0) {
-    text += fmt::format(
-        " That motion has {}, where straight lines of it meet: `simulate` is told of them by later "
-        "samples, which exported code does not have.",
-        vector.corners == 1 ? "a corner" : fmt::format("{} corners", vector.corners));
-  }
-  return wrapped(jumps.empty() ? text : text + " " + jumps);
+  return sentences.empty() ? "" : wrapped(fmt::format("{}", fmt::join(sentences, " ")));
 }
 
 // Where the drive has to be known ahead; else empty.
