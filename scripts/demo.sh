@@ -4,7 +4,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 scripts/setup.sh
-echo "building (about a quarter of an hour on two cores the first time)" >&2
+echo "building (about twenty minutes on two cores the first time)" >&2
 cmake --preset release >build-demo.log 2>&1 &&
   cmake --build --preset release --target hysteron >>build-demo.log 2>&1 ||
   { tail -n 30 build-demo.log >&2; echo "error: the build failed, see build-demo.log" >&2; exit 1; }
