@@ -10,6 +10,9 @@ namespace hysteron {
 
 inline constexpr std::size_t fewest_on_a_side = 2;  // five points: a cubic with one to spare
 
+// Standard deviations of its noise that of a million samples none reaches.
+inline constexpr double beyond_noise = 5.0;
+
 // Slopes of a stretch without corners, per second; `side` samples on each side of the window, of `median_step` s each.
 // `noise` of the samples, standard deviation: near an end it bounds the window and the degree.
 void local_cubic_slopes(std::span<const double> time, std::span<const double> displacement, double side,

@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "io/local_cubic.hpp"
+#include "io/local_window.hpp"
 
 namespace hysteron {
 namespace {
@@ -166,6 +167,26 @@ Line line_through(std::span<const double> t, std::span<const double> x, std::siz
   return line;
 }
 
+// What a sample differs by from a line beside it, over what the line's own residual or the noise explains; the line is
+// the one through samples [first, last].
+double off_line(std::span<const double> t, std::span<const double> x, std::size_t first, std::size_t last,
+                std::size_t sample, double noise) {
+  const Line line = line_through(t, x, first, last);
+  const auto count = static_cast<double>(last - first + 1);
+  double spread = 0.0;
+  for (std::size_t i = first; i <= last; ++i) spread += (t[i] - line.middle) * (t[i] - line.middle);
+  const double away = t[sample] - line.middle;
+  const double deviation = std::max(noise, line.residual) * std::sqrt(1.0 + 1.0 / count + away * away / spread);
+  return std::abs(x[sample] - line.value - line.slope * away) / deviation;
+}
+
+// Whether more than the sample nearest to a corner behind sample `last` is off its line on either side.
+bool is_rounded(std::span<const double> t, std::span<const double> x, std::size_t last, std::size_t reach,
+                double noise) {
+  return std::max(off_line(t, x, last + 1 - reach, last - 2, last - 1, noise),
+                  off_line(t, x, last + 3, last + reach, last + 2, noise)) > beyond_noise;
+}
+
 struct Corner {
   std::size_t last;  // sample before it
   double time;       // s
@@ -176,9 +197,9 @@ struct Corner {
 // Corners of a displacement made of straight lines, as of triangle waves and ramps. `side` is the half window that
 // would round them. A corner is where the lines through `reach` samples before and after it meet between these samples,
 // bend by a good part of the speed, and miss their samples by so little of the bend that no arc as smooth as the window
-// fits (an arc of constant curvature misses by 0.037 of it).
+// fits (an arc of constant curvature misses by 0.037 of it), nor one of four samples and more.
 std::vector<Corner> corners_of(std::span<const double> t, std::span<const double> x, std::size_t side,
-                               double median_step) {
+                               double median_step, double noise) {
   constexpr double least_bend = 0.2;  // of the peak speed
   constexpr double straight = 0.006;  // residual over bend times reach
   // Noise shifts the ends of lines through eight samples and more, and with them where they meet, by a residual over
@@ -212,6 +233,7 @@ std::vector<Corner> corners_of(std::span<const double> t, std::span<const double
     const double meet = (left.value - right.value - left.slope * left.middle + right.slope * right.middle) / bend;
     const double slack = 0.5 * (t[i + 1] - t[i]);
     if (meet < t[i] - slack || meet > t[i + 1] + slack) continue;
+    if (is_rounded(t, x, i, reach, std::max(noise, digits * slack * std::abs(bend)))) continue;
     const double doubt = std::max(residuals * std::max(left.residual, right.residual) / std::abs(bend), digits * slack);
     const Corner corner{i, meet, doubt, 0.5 * (left.slope + right.slope)};
     if (!result.empty() && i - result.back().last < reach) {
@@ -231,15 +253,16 @@ double median_step_of(std::span<const double> time) {
   return quantile(steps, 0.5);
 }
 
-// Slopes of y over windows of `side` samples on each side that do not reach across corners.
-std::vector<double> slopes_between(const std::vector<Corner>& corners, std::span<const double> time,
-                                   std::span<const double> y, double side, double median_step, double noise) {
+// Slopes of y by `slopes_of` over windows of `side` samples on each side that do not reach across corners.
+std::vector<double> slopes_between(const std::vector<Corner>& corners, decltype(local_cubic_slopes)& slopes_of,
+                                   std::span<const double> time, std::span<const double> y, double side,
+                                   double median_step, double noise) {
   std::vector<double> slopes(time.size(), 0.0);
   std::size_t first = 0;
   const auto derive_to = [&](std::size_t last) {
     const std::size_t count = last + 1 - first;
-    local_cubic_slopes(time.subspan(first, count), y.subspan(first, count), side, median_step, noise,
-                       std::span(slopes).subspan(first, count));
+    slopes_of(time.subspan(first, count), y.subspan(first, count), side, median_step, noise,
+              std::span(slopes).subspan(first, count));
     first = last + 1;
   };
   for (const Corner& corner : corners) derive_to(corner.last);
@@ -278,9 +301,10 @@ std::vector<double> derive_velocity(std::span<const double> time, std::span<cons
 
   const double median_step = median_step_of(time);
   const double side = n > 7 ? samples_on_a_side(time, displacement, median_step) : 2.0;
-  const std::vector<Corner> corners = corners_of(time, displacement, static_cast<std::size_t>(side), median_step);
-  std::vector<double> velocity =
-      slopes_between(corners, time, displacement, side, median_step, channel_noise(time, displacement));
+  const std::vector<Corner> corners =
+      corners_of(time, displacement, static_cast<std::size_t>(side), median_step, channel_noise(time, displacement));
+  std::vector<double> velocity = slopes_between(corners, local_window_slopes, time, displacement, side, median_step,
+                                                channel_noise(time, displacement));
   // A sample on the corner has the speed of neither side: with the mean, the motion between samples does not overshoot.
   // One beside it, as far as can be told, has that of its own side.
   for (const Corner& corner : corners) {
@@ -306,7 +330,8 @@ std::vector<double> derive_acceleration(std::span<const double> time, std::span<
   if (n < 2) return std::vector<double>(n, 0.0);
   const double step = median_step_of(time);
   const double of_velocity = n > 7 ? samples_on_a_side(time, displacement, step) : 2.0;
-  const std::vector<Corner> corners = corners_of(time, displacement, static_cast<std::size_t>(of_velocity), step);
+  const std::vector<Corner> corners =
+      corners_of(time, displacement, static_cast<std::size_t>(of_velocity), step, channel_noise(time, displacement));
   // For the windows beside a corner the sample on it belongs to neither line. A sensor of the velocity rounds it.
   std::vector<double> beside(velocity.begin(), velocity.end());
   for (const Corner& corner : corners) {
@@ -321,7 +346,7 @@ std::vector<double> derive_acceleration(std::span<const double> time, std::span<
   const double end_noise = measured ? channel_noise(time, velocity)
                                     : std::sqrt(2.0 * 9.375) * channel_noise(time, displacement) / (step * of_velocity);
   const auto slopes_over = [&](double side) {
-    std::vector<double> slopes = slopes_between(corners, time, beside, side, step, end_noise);
+    std::vector<double> slopes = slopes_between(corners, local_cubic_slopes, time, beside, side, step, end_noise);
     for (const Corner& corner : corners) {
       for (std::size_t i = std::max<std::size_t>(corner.last, 2) - 1; i < std::min(corner.last + 3, n - 1); ++i) {
         slopes[i] = (velocity[i + 1] - velocity[i - 1]) / (time[i + 1] - time[i - 1]);

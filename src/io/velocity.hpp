@@ -10,8 +10,9 @@
 // of quantum/sqrt(12) and a robust estimate from sixth differences. The window never exceeds a twelfth of the dominant
 // period (gain error 1e-5), a sixth (1.5e-4) when the noise would otherwise be above 1 % of the peak velocity. The
 // period is the short one (tenth percentile) between the recording's own reversals, so sweeps keep their fast end.
-// Corners between straight lines (ideal triangle waves, ramps) divide the recording, and no window reaches across them;
-// corners that are rounded, or drowned in noise, are smoothed over one half window on each side.
+// Corners between straight lines (ideal triangle waves, ramps) divide the recording, and no window reaches across them.
+// Where a motion turns within a window and more sharply than noise explains, as at corners that are rounded, the window
+// is shorter (local_window.hpp); corners drowned in noise are smoothed over one half window on each side.
 #pragma once
 
 #include <span>
@@ -22,7 +23,8 @@ namespace hysteron {
 // m/s from s and m; time strictly increasing, any spacing. O(N w) with w the samples of a window, at most 1001.
 [[nodiscard]] std::vector<double> derive_velocity(std::span<const double> time, std::span<const double> displacement);
 
-// Standard deviation of the noise of derive_velocity, m/s, away from ends and corners; 0 for fewer than 8 samples.
+// Standard deviation of the noise of derive_velocity, m/s, away from ends, corners and sharp turns; 0 for fewer than 8
+// samples.
 [[nodiscard]] double derived_velocity_noise(std::span<const double> time, std::span<const double> displacement);
 
 // m/s^2: slopes of local cubics through the velocity. Of a measured velocity the window is the one whose expected error

@@ -225,6 +225,68 @@ double root_mean_square_error(const std::vector<double>& a, const std::vector<do
   return std::sqrt(sum / static_cast<double>(a.size()));
 }
 
+// A triangle wave of 3 Hz and 120 mm/s whose corners are arcs of `arc` seconds, and its velocity.
+struct Rounded {
+  double displacement;
+  double velocity;
+};
+Rounded rounded_triangle(double t, double arc) {
+  constexpr double speed = 0.12;
+  constexpr double half = 1.0 / 6.0;
+  const double in = std::fmod(t, 2.0 * half);
+  const double sign = in < half ? 1.0 : -1.0;
+  const double since = std::fmod(in, half);
+  const double acceleration = 2.0 * speed / arc;
+  // Displacement from mid-stroke; an arc is half before and half after a reversal.
+  const double to_corner = std::min(since, half - since);
+  const double direction = since < half / 2.0 ? -1.0 : 1.0;
+  const double straight = speed * (half / 2.0 - to_corner);
+  if (to_corner >= arc / 2.0) return {sign * direction * straight, sign * speed};
+  const double into = arc / 2.0 - to_corner;
+  return {sign * direction * (straight - 0.5 * acceleration * into * into), sign * (speed - acceleration * into)};
+}
+
+TEST(Velocity, RoundedCornersAreAsSharpAsTheSamplesTell) {
+  // Sampled at 500 Hz in steps of 2 um, whose noise asks for nine samples; six are in an arc.
+  const auto t = uniform(500, 3.0);
+  std::vector<double> x;
+  for (const double at : t) x.push_back(2e-6 * std::round(rounded_triangle(at, 0.012).displacement / 2e-6));
+  const auto v = derive_velocity(t, x);
+  double squares = 0.0;
+  for (std::size_t i = 10; i + 10 < t.size(); ++i) {
+    const double error = v[i] - rounded_triangle(t[i], 0.012).velocity;
+    EXPECT_LT(std::abs(error), 0.012) << t[i];
+    squares += error * error / static_cast<double>(t.size() - 20);
+  }
+  EXPECT_LT(std::sqrt(squares), 0.002);
+}
+
+TEST(Velocity, AGlitchDoesNotShortenTheWindow) {
+  const auto t = uniform(500, 4.0);
+  const Stream stream(7);
+  std::vector<double> x;
+  for (std::size_t i = 0; i < t.size(); ++i) x.push_back(0.01 * std::sin(2.0 * pi * t[i]) + 5e-6 * stream.normal(i));
+  const auto before = derive_velocity(t, x);
+  x[990] += 4e-4;
+  const auto v = derive_velocity(t, x);
+  // The five samples of the shortest window would make 133 mm/s of it.
+  for (std::size_t i = 970; i < 1010; ++i) EXPECT_NEAR(v[i], before[i], 0.02) << i;
+}
+
+TEST(Velocity, NoiseAloneIsSmoothedByTheLongestWindow) {
+  const auto t = uniform(1000, 60.0);
+  const Stream stream(8);
+  std::vector<double> x;
+  for (std::size_t i = 0; i < t.size(); ++i) x.push_back(0.01 * std::sin(2.0 * pi * t[i]) + 2e-6 * stream.normal(i));
+  const auto v = derive_velocity(t, x);
+  double squares = 0.0;
+  for (std::size_t i = 100; i + 100 < t.size(); ++i) {
+    const double error = v[i] - 0.02 * pi * std::cos(2.0 * pi * t[i]);
+    squares += error * error / static_cast<double>(t.size() - 200);
+  }
+  EXPECT_NEAR(std::sqrt(squares) / derived_velocity_noise(t, x), 1.0, 0.03);
+}
+
 TEST(Acceleration, OfANoisyMeasuredVelocityIsSmoothedWithoutPhaseError) {
   const double w = 2.0 * pi * 3.0;
   const auto t = uniform(1000, 3.0);

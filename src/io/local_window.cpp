@@ -1,0 +1,94 @@
+#include "io/local_window.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "io/local_cubic.hpp"
+
+namespace hysteron {
+namespace {
+
+// Standard deviation of the difference between the slopes of two windows around one sample, for unit noise and spacing.
+double deviation_between(std::size_t longer, std::size_t shorter) {
+  std::vector<double> weights = uniform_weights(longer);
+  const std::vector<double> inner = uniform_weights(shorter);
+  for (std::size_t j = 0; j < inner.size(); ++j) weights[longer - shorter + j] -= inner[j];
+  double squares = 0.0;
+  for (const double weight : weights) squares += weight * weight;
+  return std::sqrt(squares);
+}
+
+// The noise about each place by what samples differ by from the quintic through their six neighbours. It may be more
+// than that of the whole, as where time stamps are jittered and the motion is fast, at a glitch, or in a vibration that
+// the samples hardly resolve.
+class NoiseNearby {
+ public:
+  NoiseNearby(std::span<const double> time, std::span<const double> displacement)
+      : time_(time), displacement_(displacement), squares_(time.size(), unknown) {}
+
+  // Standard deviation, m, of the noise of samples [first, last].
+  double of(std::size_t first, std::size_t last) {
+    const std::size_t begin = std::max(first, reach);
+    const std::size_t end = std::min(last + 1, time_.size() - reach);
+    double sum = 0.0;
+    for (std::size_t i = begin; i < end; ++i) {
+      if (squares_[i] == unknown) squares_[i] = squared_noise(i);
+      sum += squares_[i];
+    }
+    return std::sqrt(sum / static_cast<double>(end - begin));
+  }
+
+ private:
+  static constexpr double unknown = -1.0;
+  static constexpr std::size_t reach = 3;
+
+  [[nodiscard]] double squared_noise(std::size_t i) const {
+    double difference = 0.0;
+    double variance = 1.0;
+    for (std::size_t k = i - reach; k <= i + reach; ++k) {
+      if (k == i) continue;
+      double weight = 1.0;
+      for (std::size_t m = i - reach; m <= i + reach; ++m) {
+        if (m != i && m != k) weight *= (time_[i] - time_[m]) / (time_[k] - time_[m]);
+      }
+      difference += weight * (displacement_[k] - displacement_[i]);
+      variance += weight * weight;
+    }
+    return difference * difference / variance;
+  }
+
+  std::span<const double> time_;
+  std::span<const double> displacement_;
+  std::vector<double> squares_;
+};
+
+}  // namespace
+
+void local_window_slopes(std::span<const double> time, std::span<const double> displacement, double side,
+                         double median_step, double noise, std::span<double> velocity) {
+  local_cubic_slopes(time, displacement, side, median_step, noise, velocity);
+  const auto longest = static_cast<std::size_t>(side);
+  const std::size_t n = time.size();
+  if (longest <= fewest_on_a_side || n <= 2 * longest) return;
+  NoiseNearby nearby(time, displacement);
+  std::vector<std::size_t> taken(n, longest);
+  std::vector<double> slopes(n);
+  for (std::size_t shorter = longest; shorter > fewest_on_a_side;) {
+    shorter = std::max(fewest_on_a_side, shorter / 2);
+    local_cubic_slopes(time, displacement, static_cast<double>(shorter), median_step, noise, slopes);
+    std::vector<double> explained(longest + 1, -1.0);  // by noise of one metre, by the window that was taken
+    for (std::size_t i = longest; i + longest < n; ++i) {
+      double& of_noise = explained[taken[i]];
+      if (of_noise < 0.0) of_noise = beyond_noise * deviation_between(taken[i], shorter) / median_step;
+      const double difference = std::abs(slopes[i] - velocity[i]);
+      if (difference > of_noise * noise && difference > of_noise * nearby.of(i - taken[i], i + taken[i])) {
+        velocity[i] = slopes[i];
+        taken[i] = shorter;
+      }
+    }
+  }
+}
+
+}  // namespace hysteron
