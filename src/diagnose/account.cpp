@@ -16,8 +16,6 @@
 namespace hysteron {
 namespace {
 
-// The held-out recordings show an effect that takes this much off their error.
-constexpr double shown_by_judges = 0.98;
 // Times the noise floor above which more is left than an estimate of the noise is wrong by.
 constexpr double clear_of_floor = 1.2;
 
@@ -162,7 +160,7 @@ std::string sentence_of(const Diagnosis& diagnosis, const Named& named,
   const Fit& without = without_of(diagnosis, named);
   if (!has_fit(diagnosis, named)) {
     text += ", which was not refitted";
-  } else if (with.heldout < shown_by_judges * without.heldout) {
+  } else if (held_out_shows(without.heldout, with.heldout)) {
     text += fmt::format(", which takes the held-out NRMSE from {:.3g} to {:.3g} (noise floor {:.2g})", without.heldout,
                         with.heldout, diagnosis.noise_floor_heldout);
   } else {
@@ -203,8 +201,10 @@ std::string sentence_of_robustness(const Named& named, std::string_view it) {
       share, share);
 }
 
+bool held_out_shows(double before, double after) { return after < 0.98 * before; }
+
 std::string_view what_shapes_do(const Diagnosis& diagnosis) {
-  return diagnosis.search.augmented.heldout < diagnosis.search.base.heldout ? "predict" : "fit";
+  return held_out_shows(diagnosis.search.base.heldout, diagnosis.search.augmented.heldout) ? "predict" : "fit";
 }
 
 std::vector<Rejected> rejected_of(const Diagnosis& diagnosis) {

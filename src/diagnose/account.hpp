@@ -27,7 +27,10 @@ std::string sizes_text(const std::vector<ParameterInterval>& parameters, std::si
 std::string sentence_of(const Diagnosis& diagnosis, const Named& named,
                         const std::vector<ParameterInterval>& parameters);
 
-// "predict" or, where the augmented model predicts held-out recordings no better than the base model, "fit": what
+// Whether held-out recordings show what takes their error from `before` to `after`: less than a fiftieth is chance.
+bool held_out_shows(double before, double after);
+
+// "predict" or, where the augmented model predicts held-out recordings hardly better than the base model, "fit": what
 // shapes that are no causes do better.
 std::string_view what_shapes_do(const Diagnosis& diagnosis);
 

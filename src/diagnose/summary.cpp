@@ -150,6 +150,10 @@ std::string sentence_of_errors(const Diagnosis& diagnosis, bool behind_names) {
   if (from == to) {
     return fmt::format("{} {} the held-out error at {} ({}).", subject, many ? "leave" : "leaves", from, noise);
   }
+  if (!held_out_shows(before, after) && !held_out_shows(after, before)) {
+    return fmt::format("{} hardly {} the held-out error: {} before, {} after ({}).", subject,
+                       many ? "change" : "changes", from, to, noise);
+  }
   return fmt::format("{} {} the held-out error from {} to {} ({}).", subject,
                      after < before ? (many ? "take" : "takes") : (many ? "raise" : "raises"), from, to, noise);
 }

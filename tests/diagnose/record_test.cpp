@@ -229,6 +229,13 @@ TEST(Record, SaysOfNoEffectWhatALawDoes) {
             std::string::npos)
       << richer;
   EXPECT_NE(richer.find("80 % goes with a richer dependence of c0 and f0 on the drive."), std::string::npos) << richer;
+  // The item on an effect says of the same figures that held-out recordings do not show it.
+  changed.search.base.heldout = 0.0531;
+  changed.search.augmented.heldout = 0.0525;
+  changed.summary = summary_of(changed);
+  EXPECT_NE(paragraph(changed).find(" hardly changes the held-out error: 0.053 before, 0.052 after ("),
+            std::string::npos)
+      << paragraph(changed);
   // What a name and a shape both explain counts in the share of each.
   changed = *diagnosis;
   changed.verdict.unknown_share = 0.2;
