@@ -1,13 +1,14 @@
 #!/usr/bin/env python3
 """Diagnoses campaigns at their own sampling rate and decimated, and says how far the answers agree.
 
-    scripts/decimated.py CHALLENGE OUT [--binary build/release/hysteron] [--every 2 4 8] [--first N] [--jobs N]
-                         [--page results/decimation.md]
+    scripts/decimated.py OUT [--campaigns N] [--seed N] [--binary build/release/hysteron] [--every 2 4 8] [--first N]
+                         [--jobs N] [--page results/decimation.md] [--label COMMIT]
 
-CHALLENGE is an --out of `hysteron challenge --generate-only`. Every k-th row of each recording is kept; a campaign is
-decimated no further than to 60 samples of its fastest recording's period, below which the motion itself is lost. The
-decision is the verdict with the names that have no rival. Evidence is the gain of the strongest effect and the block
-score of the augmented over the base model. Rerun the command to resume.
+OUT/challenge holds the campaigns, made by `hysteron challenge --generate-only` where they are not there yet; the first N
+that can be decimated at all are diagnosed. Every k-th row of each recording is kept; a campaign is decimated no further
+than to 60 samples of its fastest recording's period, below which the motion itself is lost. The decision is the verdict
+with the names that have no rival. Evidence is the gain of the strongest effect and the block score of the augmented over
+the base model. Rerun the command to resume.
 """
 import argparse
 import concurrent.futures
@@ -77,18 +78,27 @@ def evidence(diagnosis):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("challenge", type=Path)
     parser.add_argument("out", type=Path)
+    parser.add_argument("--campaigns", type=int, default=150)
+    parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--binary", type=Path, default=root / "build/release/hysteron")
     parser.add_argument("--every", type=int, nargs="+", default=[2, 4, 8])
     parser.add_argument("--first", type=int, default=40)
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--page", type=Path)
+    parser.add_argument("--label", help="commit that the program was built from; default: the one checked out")
     options = parser.parse_args()
-    campaigns = sorted(p for p in options.challenge.iterdir() if (p / "campaign.toml").exists())[: options.first]
+    challenge = options.out / "challenge"
+    made = ["challenge", "--out", challenge, "--campaigns", options.campaigns, "--seed", options.seed, "--generate-only"]
+    subprocess.run([str(word) for word in [options.binary, *made, "--quiet"]], check=True, stdout=subprocess.DEVNULL)
+    campaigns = sorted(p for p in challenge.iterdir() if (p / "campaign.toml").exists())
     tasks = []
+    taken = 0
     for campaign in campaigns:
         period = min(samples_of_a_period(file) for file in campaign.glob("*.csv"))
+        if taken == options.first or period / min(options.every) < fewest_of_a_period:
+            continue
+        taken += 1
         for every in [1, *options.every]:
             if every == 1 or period / every >= fewest_of_a_period:
                 data = options.out / "data" / f"{campaign.name}-{every}"
@@ -105,15 +115,18 @@ def main():
             answers[jobs[job]] = job.result()
             print(f"\r{done} of {len(jobs)} diagnosed", end="", file=sys.stderr, flush=True)
     print(file=sys.stderr)
-    version = subprocess.run([str(options.binary), "--version"], capture_output=True, text=True).stdout.strip()
+    commit = options.label or subprocess.run(
+        ["git", "describe", "--always", "--dirty=-changed"], capture_output=True, text=True, cwd=root
+    ).stdout.strip()
+    words = f"--campaigns {options.campaigns} --seed {options.seed} --first {options.first}"
     lines = [
         "# The same campaigns at lower sampling rates",
         "",
-        f"Made by `scripts/decimated.py {options.challenge.name} OUT --first {options.first}` with {version}; the campaigns by",
-        "`hysteron challenge --generate-only`. Only every k-th sample of each recording is kept, as long as that leaves",
-        f"{fewest_of_a_period} samples of the shortest period. Decision: the verdict with the names that have no rival. Evidence",
-        "kept: of campaigns with an effect in the model at both rates, those in which the strongest effect's gain, or the",
-        "block score, differs by less than 20 %.",
+        f"Made by `scripts/decimated.py OUT {words} --page results/decimation.md` at",
+        f"{commit}. Only every k-th sample of each recording is kept, as long as that leaves {fewest_of_a_period} samples of the",
+        f"shortest period; {taken} of the {len(campaigns)} campaigns can be decimated so and were diagnosed. Decision: the verdict with the",
+        "names that have no rival. Evidence kept: of campaigns with an effect in the model at both rates, those in which the",
+        "strongest effect's gain, or the block score, differs by less than 20 %.",
         "",
         "| every | campaigns | same decision | same strongest effect | gain within 20 % | block score within 20 % |",
         "|--:|--:|--:|--:|--:|--:|",
