@@ -158,6 +158,22 @@ std::string sentence_of_errors(const Diagnosis& diagnosis, bool behind_names) {
                      after < before ? (many ? "take" : "takes") : (many ? "raise" : "raises"), from, to, noise);
 }
 
+// Of the other law that needs no effect to describe the recordings as well; empty without one.
+std::string sentence_of_law_alone(const Diagnosis& diagnosis) {
+  const Evidence& evidence = diagnosis.evidence;
+  if (evidence.candidates.empty() || !evidence.doubt_of_data.empty()) {
+    return {};
+  }
+  const auto best = std::ranges::min_element(evidence.other_laws, {}, &OtherLaw::squares);
+  if (best == evidence.other_laws.end() || best->has_what_was_found || best->squares > evidence.augmented_compared) {
+    return {};
+  }
+  return fmt::format(
+      "But {} alone describes the recordings as well: they do not tell whether {} lacks {} or is the wrong "
+      "law.",
+      best->model, evidence.model, evidence.candidates.size() == 1 ? "an effect" : "effects");
+}
+
 std::string sentence_of_unknown(const Diagnosis& diagnosis) {
   const Verdict& verdict = diagnosis.verdict;
   if (verdict.answer == Answer::complete) {
@@ -284,6 +300,7 @@ std::vector<std::string> summary_of(const Diagnosis& diagnosis) {
   add(summary, contrasts);
   add(summary, sentence_of_shapes(diagnosis));
   add(summary, sentence_of_errors(diagnosis, contrasts.empty()));
+  add(summary, sentence_of_law_alone(diagnosis));
   add(summary, sentence_of_unknown(diagnosis));
   add(summary, sentence_of_place(diagnosis));
   if (!verdict.effects.empty()) {

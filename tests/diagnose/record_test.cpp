@@ -236,6 +236,19 @@ TEST(Record, SaysOfNoEffectWhatALawDoes) {
   EXPECT_NE(paragraph(changed).find(" hardly changes the held-out error: 0.053 before, 0.052 after ("),
             std::string::npos)
       << paragraph(changed);
+  // A law that needs no effect is told.
+  ASSERT_FALSE(changed.evidence.other_laws.empty());
+  EXPECT_EQ(paragraph(changed).find("alone describes the recordings as well"), std::string::npos);
+  OtherLaw& other = changed.evidence.other_laws.front();
+  other.squares = 0.9 * changed.evidence.augmented_compared;
+  other.has_what_was_found = false;
+  changed.summary = summary_of(changed);
+  EXPECT_NE(paragraph(changed).find("But " + other.model +
+                                    " alone describes the recordings as well: they do not tell "
+                                    "whether " +
+                                    changed.evidence.model + " lacks an effect or is the wrong law."),
+            std::string::npos)
+      << paragraph(changed);
   // What a name and a shape both explain counts in the share of each.
   changed = *diagnosis;
   changed.verdict.unknown_share = 0.2;
