@@ -21,9 +21,29 @@ _XFAIL_CHECKS = {
 }
 
 
-class Damper(RegressorMixin, BaseEstimator):
-    """Force of a damper (y, in N) from its motion (X), rows in time order.
+_COUNT = "count of rows [s]"  # a name that no y has
 
+
+def _in_newtons(y):
+    """How many N a 1 of y is, by the unit in its name: what the reader makes of such a column that counts."""
+    columns = getattr(y, "columns", ())  # of a DataFrame
+    name = columns[0] if len(columns) == 1 else getattr(y, "name", None)
+    if not isinstance(name, str) or not name.strip():
+        return 1.0
+    _recordings.refuse_name("y", name)
+    count = numpy.arange(16.0)
+    try:
+        read, *_ = _hysteron.recording(
+            [_COUNT, name], [count, count], "y", {"time": _COUNT, "force": name}, 0, "excitation", [], False)
+    except InputError as error:
+        raise InputError(f"y {name!r}: {str(error).partition(': ')[2]}") from None
+    return read.force[1]
+
+
+class Damper(RegressorMixin, BaseEstimator):
+    """Force of a damper (y) from its motion (X), rows in time order.
+
+    y: in N, or in the unit that the name of a Series says ("force [kN]"), for fit and for score; predictions are in N.
     columns: the columns of X, as in the header of a CSV file ("time", "displacement [mm]", "current [A]", ...);
     "recording" is a number that tells recordings apart, and a last ... (Ellipsis) stands for columns that are not used.
     Default: the names of a DataFrame, else time, displacement, and the current as a third. interval: seconds between
@@ -47,18 +67,23 @@ class Damper(RegressorMixin, BaseEstimator):
         self.threads = threads
 
     def fit(self, X, y):
+        newtons = _in_newtons(y)
         X, y = self._checked(X, y)
         self.model_ = fit(
-            self._split(X, y), self.model, by_current=self.by_current, by_frequency=self.by_frequency,
+            self._split(X, newtons * y), self.model, by_current=self.by_current, by_frequency=self.by_frequency,
             effects=self.effects, solver=self.solver, budget=self.budget, seed=self.seed, fix=self.fix,
             bounds=self.bounds, settings=self.settings, threads=self.threads)
         return self
 
     def predict(self, X):
-        """Force in N, a value per row."""
+        """Force in N, whatever the unit of y was, a value per row."""
         check_is_fitted(self)
         X = self._checked(X)
         return numpy.concatenate([self.model_.simulate(one) for one in self._split(X)])
+
+    def score(self, X, y, sample_weight=None):
+        """R^2 of the prediction; y as in fit."""
+        return super().score(X, _in_newtons(y) * numpy.asarray(y), sample_weight)
 
     def _checked(self, X, *y):
         """X, and y where it is given, as arrays of finite numbers."""

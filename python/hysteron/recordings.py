@@ -82,20 +82,24 @@ class Recording:
 
 class Recordings(collections.abc.Sequence):
     """Recordings that belong together. `model`, `by_current`, `by_frequency` and `by` are what campaign.toml says,
-    `warnings` what the reader remarked."""
+    `warnings` what the reader remarked of them and, of recordings that were not read together, what they look like side
+    by side."""
 
-    def __init__(self, recordings, model="", by_current=None, by_frequency=None, by=None, warnings=(), paths=None,
-                 options=(), at=None, together=False):
+    def __init__(self, recordings, model="", by_current=None, by_frequency=None, by=None, warnings=None, paths=None,
+                 options=(), at=None):
         self._recordings = tuple(recordings)
         self.model = model
         self.by_current = dict(by_current or {})
         self.by_frequency = dict(by_frequency or {})
         self.by = dict(by or {})
         self.at = dict(at or {})
-        self.warnings = tuple(warnings)
         self._paths = paths  # of a command line that reads the same; None: the files by name
         self._options = list(options)  # likewise
-        self._together = together  # `warnings` hold what they look like side by side
+        remarks = ()
+        if warnings is None:
+            remarks, warnings = _hysteron.remarks_together([(one._core, one._reading_remarks) for one in self._recordings])
+        self.warnings = tuple(warnings)
+        self._untold = [text for text, _ in remarks]  # of `warnings`, what was not told when they were read
 
     def __len__(self):
         return len(self._recordings)
@@ -123,19 +127,15 @@ class Recordings(collections.abc.Sequence):
         return self._part(chosen)
 
     def _part(self, chosen):
-        return Recordings(
-            chosen, self.model, self.by_current, self.by_frequency, self.by, self.warnings, options=self._options,
-            at=self.at, together=self._together)
+        part = Recordings(chosen, self.model, self.by_current, self.by_frequency, self.by, options=self._options, at=self.at)
+        names = tuple(f"{os.path.basename(one.file)}: " for one in self._recordings)
+        of_none = [text for text in self.warnings if not text.startswith(names)]  # but of a campaign.toml
+        part.warnings = (*of_none, *part.warnings)
+        return part
 
-    def laid_together(self):
-        """Of recordings that were not read together: what they look like side by side is a warning, too."""
-        if self._together:
-            return self
-        remarks, warnings = _hysteron.remarks_together([(one._core, one._reading_remarks) for one in self._recordings])
-        _words.warn(text for text, _ in remarks)
-        return Recordings(
-            self._recordings, self.model, self.by_current, self.by_frequency, self.by, [*self.warnings, *warnings],
-            self._paths, self._options, self.at, together=True)
+    def tell(self):
+        """Warns of what recordings that were not read together look like side by side."""
+        _words.warn(self._untold)
 
     from_paths = property(lambda self: self._paths is not None)
 
@@ -199,7 +199,8 @@ def as_recordings(value, need_force=False, conditions=(), taken=RECORDINGS_ALONE
         seen.add(one.file)
         if need_force and one.force is None:
             raise InputError(f"{one.file}: has no force, expected one to compare with")
-    return result.laid_together()
+    result.tell()
+    return result
 
 
 def as_recording(value, what, **read):
@@ -247,7 +248,7 @@ def _load(data, taken, columns=None, group="", skip=0, keep_samples=_hysteron.de
         command.words.append("--without-time")
     return Recordings(
         (Recording(core, reading_remarks, role) for core, role in zip(cores, roles)),
-        model, by_current, by_frequency, by, [warning for _, warning in remarks], paths, command.words, at, together=True,
+        model, by_current, by_frequency, by, [warning for _, warning in remarks], paths, command.words, at,
     )
 
 
@@ -262,6 +263,11 @@ def refuse_masked(what, values):
     if masked:
         raise InputError(f"{what} has {masked} masked value{'s' if masked > 1 else ''} of {values.size}, expected none: "
                          "those samples removed from all columns, or the values filled")
+
+
+def refuse_name(what, header):
+    if any(sign in header for sign in ",;\"\t\r\n") or header.startswith("#"):
+        raise InputError(f"{what}: the column name {header!r} cannot stand in a CSV file, expected no commas, quotes or line ends")
 
 
 def recording(data=None, *, name="recording.csv", units=None, columns=None, role="",
@@ -295,8 +301,7 @@ def recording(data=None, *, name="recording.csv", units=None, columns=None, role
         refuse_masked(f"{file}: {header}", data[key])
         if values.ndim != 1:
             raise InputError(f"{file}: {header} has {values.ndim} dimensions, expected one")
-        if any(sign in header for sign in ",;\"\t\r\n") or header.startswith("#"):
-            raise InputError(f"{file}: the column name {header!r} cannot stand in a CSV file, expected no commas, quotes or line ends")
+        refuse_name(file, header)
         if arrays and len(values) != len(arrays[0]):
             raise InputError(f"{file}: {header} has {len(values)} values and {headers[0]} has {len(arrays[0])}, expected the same number")
         finite = numpy.isfinite(values)
@@ -322,5 +327,4 @@ def dataset(name, only="", seed=1):
     """A dataset that ships, see list("datasets"): what `hysteron generate NAME --only TEXT` writes, as Recordings."""
     cores, roles, model, by_current, by_frequency, by, _, reading_remarks = _hysteron.dataset(
         name, only, _words.whole("seed", seed, 0, 2**64 - 1))
-    return Recordings((Recording(core, reading_remarks, role) for core, role in zip(cores, roles)), model, by_current, by_frequency, by,
-                      together=True)
+    return Recordings((Recording(core, reading_remarks, role) for core, role in zip(cores, roles)), model, by_current, by_frequency, by)

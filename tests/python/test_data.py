@@ -185,6 +185,53 @@ class Data(InFolder):
         more = hysteron.load("data/r0.csv")[0]
         self.assertEqual([text for text in self.said(lambda: model.score([*together, more]))[1] if "same bytes" in text], [])
 
+    def test_a_part_has_the_remarks_on_its_recordings(self):
+        (self.folder / "odd").mkdir()
+        for k in range(4):
+            time, displacement, force, current = sine(1.0 + 0.3 * k, 0.01 + 1e-3 * k, 0.0, seed=k)
+            given = {"time": time, "displacement": displacement, "force": (1000 if k == 2 else 1) * force,
+                     "coil current [A]" if k == 1 else "current": current}
+            self.said(lambda: hysteron.recording(given, name=f"r{k}").save(f"odd/r{k}.csv"))
+        (self.folder / "odd" / "Campaign.toml").write_text('schema = "hysteron.campaign/1"\n')
+        recordings, _ = self.said(lambda: hysteron.load("odd"))
+        of_file = {name: [text for text in recordings.warnings if text.startswith(name)]
+                   for name in ("Campaign.toml", "r0.csv", "r1.csv", "r2.csv", "r3.csv")}
+        for name in ("Campaign.toml", "r2.csv"):
+            self.assertEqual(len(of_file[name]), 1, recordings.warnings)
+        self.assertEqual(sum(map(len, of_file.values())), len(recordings.warnings))
+        self.assertEqual(sorted(recordings[:].warnings), sorted(recordings.warnings))
+        for part, name in ((recordings[2:3], "r2.csv"), (recordings.only("r3"), "r3.csv"), (recordings[1:][1:2], "r2.csv")):
+            self.assertEqual([*part.warnings], of_file["Campaign.toml"] + of_file[name])
+        model, told = self.said(lambda: hysteron.fit(recordings[3:], "viscous", budget=50))
+        self.assertEqual([text for text in model.warnings if "r2.csv" in text], [])
+        self.assertEqual([text for text in told if "r2.csv" in text or "Campaign.toml" in text], [])
+
+    def test_a_part_counts_its_own_recordings_alike(self):
+        (self.folder / "fast").mkdir()
+        for k in range(4):
+            time = numpy.arange(161) / 40.0
+            displacement = 0.01 * numpy.sin(2 * numpy.pi * (3.9 + 0.01 * k) * time)
+            self.said(lambda: hysteron.recording(time=time, displacement=displacement, name=f"r{k}",
+                                                 force=800 * numpy.gradient(displacement, time)).save(f"fast/r{k}.csv"))
+        recordings, _ = self.said(lambda: hysteron.load("fast"))
+        for part, first, alike in ((recordings, "r0.csv", "(3 more recordings alike)"),
+                                   (recordings[2:], "r2.csv", "(1 more recording alike)")):
+            text, = [text for text in part.warnings if "samples a period" in text]
+            self.assertTrue(text.startswith(first) and text.endswith(alike), text)
+
+    def test_remarks_of_recordings_that_were_not_read_together(self):
+        given = [hysteron.load(f"data/r{k}.csv")[0] for k in range(3)]
+        (self.folder / "data" / "copy.csv").write_bytes((self.folder / "data" / "r1.csv").read_bytes())
+        given.append(hysteron.load("data/copy.csv")[0])
+        recordings, told = self.said(lambda: hysteron.Recordings(given))
+        self.assertEqual(told, [])
+        copy, = [text for text in recordings.warnings if "the same bytes as r1.csv" in text]
+        self.assertNotIn(copy, recordings[2:].warnings)
+        self.assertIn(copy, recordings[1:].warnings)
+        for part, times in ((recordings, 1), (recordings[1:], 1), (recordings[2:], 0)):
+            model, told = self.said(lambda: hysteron.fit(part, "viscous", budget=50))
+            self.assertEqual((told.count(copy), model.fit_json["warnings"].count(copy)), (times, times))
+
     def test_too_few_samples_a_period(self):
         time = numpy.arange(161) / 40.0
         displacement = 0.01 * numpy.sin(2 * numpy.pi * 3.9 * time)

@@ -74,6 +74,28 @@ class Estimator(unittest.TestCase):
         self.assertEqual(len(damper.model_.json["fitted_on"]), 4)
         self.assertGreater(damper.score(frame, y), 0.9)
 
+    def test_a_name_says_the_unit(self):
+        X, y, _ = campaign()
+        damper = hysteron.Damper("bingham", by_current={"c0": 1, "fc": 1}, budget=300).fit(X, y)
+        predicted = damper.predict(X)
+        for name, factor in (("force [kN]", 1e-3), ("target (kN)", 1e-3), ("Kraft in kN", 1e-3), ("force [N]", 1), ("y", 1)):
+            named = pandas.Series(factor * y, name=name)
+            other = clone(damper).fit(X, named)
+            numpy.testing.assert_allclose(other.predict(X), predicted, rtol=1e-6, atol=1e-6)
+            self.assertAlmostEqual(other.score(X, named), damper.score(X, y), delta=1e-9)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # scikit-learn's, of a column in place of a row
+            frame = clone(damper).fit(X, pandas.DataFrame({"force [kN]": 1e-3 * y}))
+        numpy.testing.assert_allclose(frame.predict(X), predicted, rtol=1e-6, atol=1e-6)
+        for name, expected in (
+                ("force [mm]", r"^y 'force \[mm\]': unknown unit 'mm' of force, expected one of N, "),
+                ("force [KN]", r"^y 'force \[KN\]': unknown unit 'KN' of force \(did you mean kN\?\), expected"),
+                ("force, kN", "^y: the column name 'force, kN' cannot stand in a CSV file, expected no commas")):
+            for work in (clone(damper).fit, damper.score):
+                with self.assertRaisesRegex(hysteron.InputError, expected) as caught:
+                    work(X, pandas.Series(y, name=name))
+                self.assertNotIn("\n", str(caught.exception))
+
     def test_selection(self):
         X, y, groups = campaign()
         damper = hysteron.Damper("bingham", by_current={"c0": 1, "fc": 1}, budget=300)
