@@ -19,6 +19,7 @@
 #include "diagnose/signal/noise.hpp"
 #include "diagnose/signal/thin.hpp"
 #include "diagnose/summary.hpp"
+#include "diagnose/without_tones.hpp"
 #include "diagnose/workbenches.hpp"
 #include "io/outliers.hpp"
 
@@ -190,7 +191,7 @@ std::string note_of_apart(const Campaign& campaign) {
 }
 
 std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const Split& split, const DiagnoseOptions& options,
-                                    const SearchProgress& told) {
+                                    const std::optional<Tone>& taken_out, const SearchProgress& told) {
   // A search that takes something back does again what it has done: nobody is told less than before.
   double reached = 0.0;
   const SearchProgress progress = [&](double share, const std::string& stage) {
@@ -223,12 +224,14 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const Split& split
   searching.told = told_by_channels(fine.split().fit, searching.candidates);
   searching.laws = options.laws;
   searching.stands = options.stands;
-  Judgement judgement = behind_asked_or_better({diagnosis.bench, quick, fine, benches.every, searching, doubt},
-                                               options.model, within(progress, 0.0, 0.9), diagnosis.notes);
+  Judgement judgement =
+      behind_asked_or_better({diagnosis.bench, quick, fine, benches.every, searching, doubt, taken_out}, options.model,
+                             within(progress, 0.0, 0.9), diagnosis.notes);
   diagnosis.search = std::move(judgement.search);
   diagnosis.asked = std::move(judgement.asked);
   diagnosis.surprises = std::move(judgement.surprising);
   diagnosis.tone = judgement.tone;
+  diagnosis.tone_taken_out = taken_out.has_value();
   diagnosis.tone_doubts = judgement.tone_doubts;
   diagnosis.too_few_values = judgement.too_few_values;
   diagnosis.belonging = std::move(judgement.belonging);
@@ -308,13 +311,27 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& recorded, const DiagnoseOpti
                                     const SearchProgress& progress) {
   Campaign campaign = without_apart(recorded);
   const std::string cleaned = without_outliers(campaign);
-  const Split split = split_of(campaign);
-  const auto noted = [&](std::unique_ptr<Diagnosis> result) {
-    add_note(*result, cleaned);
-    add_note(*result, note_of_apart(recorded));
-    return result;
+  Split split = split_of(campaign);
+  std::unique_ptr<Diagnosis> result = diagnose(campaign, split, options, std::nullopt, progress);
+  std::string cleared;
+  std::optional<Tone> taken_out;
+  if (result->tone && result->evidence.doubt_of_data.empty()) {
+    WithoutTones without = without_tones(campaign, result->search.augmented, result->bench);
+    if (!without.tones.empty()) {
+      campaign = std::move(without.campaign);
+      split = split_of(campaign);
+      taken_out = without.tones.front();
+      cleared = sentence_of(without.tones);
+      result = diagnose(campaign, split, options, taken_out,
+                        within(progress, 0.0, 1.0, fmt::format("without {:.3g} Hz: ", taken_out->frequency)));
+    }
+  }
+  const auto noted = [&](std::unique_ptr<Diagnosis> finished) {
+    add_note(*finished, cleaned);
+    add_note(*finished, cleared);
+    add_note(*finished, note_of_apart(recorded));
+    return finished;
   };
-  std::unique_ptr<Diagnosis> result = diagnose(campaign, split, options, progress);
   if (!split.by_program || result->surprises.empty()) {
     return noted(std::move(result));
   }
@@ -322,7 +339,7 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& recorded, const DiagnoseOpti
   Split other = split_of(campaign, result->surprises);
   other.how +=
       " (first others, of which " + joined(result->surprises, " and ") + " showed what the fitted ones did not)";
-  return noted(diagnose(campaign, other, options, within(progress, 0.0, 1.0, "with others held out: ")));
+  return noted(diagnose(campaign, other, options, taken_out, within(progress, 0.0, 1.0, "with others held out: ")));
 }
 
 }  // namespace hysteron

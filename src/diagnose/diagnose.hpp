@@ -30,7 +30,8 @@ struct Diagnosis {
   Workbench bench;
   Search search;
   std::optional<Belonging> belonging;  // groups of the recordings, where some stand out
-  std::optional<Tone> tone;            // that what is left of the fitted recordings holds, N
+  std::optional<Tone> tone;            // that the recordings, or what is left of the fitted ones, hold, N
+  bool tone_taken_out = false;         // whether it was, of their forces, before effects were looked for
   bool tone_doubts = false;            // whether it is what doubt_of_completeness of the evidence says
   bool too_few_values = false;         // likewise, that nothing can be told
   std::optional<ColumnTold> column;    // that the parameters follow and no model uses

@@ -56,10 +56,11 @@ Judgement judge_search(Search found, const Searching& searching, const SearchPro
       [&](double share) { weighing(0.5 + 0.3 * share); }};
   weighing(0.4);
   result.surprising = surprises(bench, result.search.augmented);
-  result.tone = tone_left(result.search, bench);
+  result.tone = searching.taken_out ? searching.taken_out : tone_left(result.search, bench);
   weighing(0.5);
   result.evidence = evidence_of(result.search, fine, known);
-  const Doubt doubt = doubt_of_completeness(result.search, fine, result.surprising, result.tone);
+  const Doubt doubt =
+      doubt_of_completeness(result.search, fine, result.surprising, result.tone, searching.taken_out.has_value());
   result.evidence.doubt_of_completeness = doubt.why;
   result.tone_doubts = doubt.of_tone;
   result.too_few_values = doubt.too_few;

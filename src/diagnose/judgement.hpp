@@ -37,7 +37,8 @@ struct Searching {
   const Workbench& fine;
   const Workbench& every;
   SearchOptions options;
-  std::string doubt_of_data;  // why no name can be given on these recordings, known before any search
+  std::string doubt_of_data;      // why no name can be given on these recordings, known before any search
+  std::optional<Tone> taken_out;  // of their forces, the strongest, N
 };
 
 // Behind `asked`. Where another damper law does as well without any effect, what is missing behind that one is looked

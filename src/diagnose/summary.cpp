@@ -13,6 +13,12 @@
 #include "diagnose/shown.hpp"
 
 namespace hysteron {
+// It is more often the rig's than the damper's.
+bool only_a_tone(const Diagnosis& diagnosis) {
+  const Verdict& verdict = diagnosis.verdict;
+  return diagnosis.tone_doubts && verdict.effects.empty() && verdict.suggestions.empty() && verdict.doubtful.empty();
+}
+
 namespace {
 
 constexpr std::size_t most_sizes = 2;  // of an effect, in its sentence
@@ -179,6 +185,9 @@ std::string sentence_of_unknown(const Diagnosis& diagnosis) {
   if (verdict.answer == Answer::complete) {
     return {};
   }
+  if (only_a_tone(diagnosis) && diagnosis.tone_taken_out && !structured(diagnosis.search.misfit)) {
+    return "Without the tone only noise is left.";
+  }
   const std::string richer = diagnosis.search.richer_dependence();
   const std::string instead = law_instead(diagnosis.search);
   constexpr double printed = 0.005;  // less is printed as 0 %
@@ -261,12 +270,6 @@ void add(std::vector<std::string>& summary, const std::string& sentence) {
 }
 
 }  // namespace
-
-// It is more often the rig's than the damper's.
-bool only_a_tone(const Diagnosis& diagnosis) {
-  const Verdict& verdict = diagnosis.verdict;
-  return diagnosis.tone_doubts && verdict.effects.empty() && verdict.suggestions.empty() && verdict.doubtful.empty();
-}
 
 std::vector<std::string> summary_of(const Diagnosis& diagnosis) {
   const Verdict& verdict = diagnosis.verdict;

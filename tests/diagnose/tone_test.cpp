@@ -84,8 +84,26 @@ TEST(Tone, MustBeInMostRecordingsAtOneFrequency) {
                         0.0)));
 }
 
-TEST(Tone, IsTheReasonWhyNothingIsCalledComplete) {
-  Campaign campaign = testing::campaign_with({}, {}, 0.01);
+TEST(Tone, OfOneRecordingIsASineByLeastSquares) {
+  const auto tone = [](std::size_t which, double t, double) {
+    return 1.5 * std::sin(two_pi * 49.93 * t + static_cast<double>(which));
+  };
+  const std::vector<Leftover> with = leftovers(tone, 0.5);
+  const auto told = tone_of(with);
+  ASSERT_TRUE(told);
+  for (std::size_t which = 0; which < with.size(); ++which) {
+    const auto sine = sine_of(with[which], told->frequency);
+    ASSERT_TRUE(sine);
+    EXPECT_NEAR(sine->frequency, 49.93, 0.01);
+    for (const double t : {0.1, 2.0, 5.9}) EXPECT_NEAR(sine->at(t), tone(which, t, 0.0), 0.25) << which << " " << t;
+  }
+  const std::vector<Leftover> of_the_motion =
+      leftovers([](std::size_t, double, double force) { return 3.0 * force * force * force; }, 0.0);
+  EXPECT_FALSE(sine_of(of_the_motion.front(), 3.0 * 0.7)) << "the third harmonic of the motion";
+}
+
+// A tone of its own phase in every recording, of so much of the largest force.
+Campaign with_hum(Campaign campaign, double part) {
   double largest = 0.0;
   double sampling = 1e300;
   for (const Recording& recording : campaign.recordings) {
@@ -94,16 +112,44 @@ TEST(Tone, IsTheReasonWhyNothingIsCalledComplete) {
       largest = std::max(largest, std::fabs(force));
     }
   }
+  double phase = 0.5;
   for (Recording& recording : campaign.recordings) {
+    phase += 1.0;
     for (std::size_t n = 0; n < recording.size(); ++n) {
-      recording.force[n] += 0.03 * largest * std::sin(two_pi * 0.2137 * sampling * recording.time[n] + 0.5);
+      recording.force[n] += part * largest * std::sin(two_pi * 0.2137 * sampling * recording.time[n] + phase);
     }
   }
-  const auto diagnosis = testing::diagnosis_of(campaign, testing::few);
+  return campaign;
+}
+
+bool says(const std::vector<std::string>& texts, std::string_view words) {
+  return std::ranges::any_of(texts, [&](const std::string& text) { return text.find(words) != std::string::npos; });
+}
+
+TEST(Tone, IsTheReasonWhyNothingIsCalledComplete) {
+  const Campaign quiet = testing::campaign_with({}, {}, 0.01);
+  const auto diagnosis = testing::diagnosis_of(with_hum(quiet, 0.03), testing::few);
   EXPECT_EQ(diagnosis->verdict.answer, Answer::unattributed);
   ASSERT_TRUE(diagnosis->tone);
-  EXPECT_NEAR(diagnosis->tone->amplitude, 0.03 * largest, 0.003 * largest);
   EXPECT_EQ(diagnosis->verdict.reason.find(sentence_of(*diagnosis->tone)), 0U) << diagnosis->verdict.reason;
+  EXPECT_TRUE(says(diagnosis->notes, " N) was taken out of the force before effects were looked for"));
+  EXPECT_TRUE(says(diagnosis->summary, "Without the tone only noise is left."));
+  const auto without = testing::diagnosis_of(quiet, testing::few);
+  EXPECT_NEAR(diagnosis->search.base.cost, without->search.base.cost, 0.02 * without->search.base.cost);
+}
+
+// What is smaller than the hum is found beside it as without it.
+TEST(Tone, HidesNoEffect) {
+  const Campaign quiet = testing::campaign_with({"inertia"}, {{"inertia.m", 8.0}}, 0.01);
+  const auto without = testing::diagnosis_of(quiet, testing::few);
+  const auto with = testing::diagnosis_of(with_hum(quiet, 0.1), testing::few);
+  ASSERT_EQ(without->verdict.effects.size(), 1U);
+  ASSERT_EQ(with->verdict.effects.size(), 1U);
+  EXPECT_EQ(with->verdict.effects.front().id, "inertia");
+  EXPECT_NEAR(with->verdict.effects.front().confidence, without->verdict.effects.front().confidence, 0.01);
+  EXPECT_NEAR(with->search.augmented.cost, without->search.augmented.cost, 0.02 * without->search.augmented.cost);
+  ASSERT_TRUE(with->tone);
+  EXPECT_TRUE(says(with->notes, sentence_of(*with->tone)));
 }
 
 }  // namespace

@@ -129,6 +129,45 @@ struct Pair {
   double squares = 0.0;  // mean of the squared residual
 };
 
+Pair pair_of(const Leftover& one) {
+  const std::size_t parts = std::min(one.time.size(), most_samples);
+  const double duration = one.time.back() - one.time.front();
+  Pair pair;
+  pair.residual = spectrum_of(uniform(one.time, one.residual, parts), duration);
+  pair.force = spectrum_of(uniform(one.time, one.force, parts), duration);
+  for (const double value : one.residual) {
+    pair.squares += value * value / static_cast<double>(one.residual.size());
+  }
+  return pair;
+}
+
+// The sine of one frequency by least squares, and the squares that it takes off.
+struct Fitted {
+  Sine sine;
+  double taken = 0.0;
+};
+Fitted fitted(const Leftover& one, double frequency) {
+  double cc = 0.0;
+  double cs = 0.0;
+  double ss = 0.0;
+  double rc = 0.0;
+  double rs = 0.0;
+  for (std::size_t n = 0; n < one.time.size(); ++n) {
+    const double phase = 2.0 * std::numbers::pi * frequency * one.time[n];
+    const double c = std::cos(phase);
+    const double s = std::sin(phase);
+    cc += c * c;
+    cs += c * s;
+    ss += s * s;
+    rc += one.residual[n] * c;
+    rs += one.residual[n] * s;
+  }
+  const double determinant = cc * ss - cs * cs;
+  Fitted result{{frequency, (rc * ss - rs * cs) / determinant, (rs * cc - rc * cs) / determinant}};
+  result.taken = result.sine.cosine * rc + result.sine.sine * rs;
+  return result;
+}
+
 }  // namespace
 
 std::optional<Tone> tone_of(const std::vector<Leftover>& leftovers) {
@@ -137,15 +176,7 @@ std::optional<Tone> tone_of(const std::vector<Leftover>& leftovers) {
     if (one.time.size() < 2) {
       continue;
     }
-    const std::size_t parts = std::min(one.time.size(), most_samples);
-    const double duration = one.time.back() - one.time.front();
-    Pair pair;
-    pair.residual = spectrum_of(uniform(one.time, one.residual, parts), duration);
-    pair.force = spectrum_of(uniform(one.time, one.force, parts), duration);
-    for (const double value : one.residual) {
-      pair.squares += value * value / static_cast<double>(one.residual.size());
-    }
-    pairs.push_back(std::move(pair));
+    pairs.push_back(pair_of(one));
   }
   if (pairs.size() < 2) {
     return std::nullopt;  // one motion tells nothing of others
@@ -187,6 +218,42 @@ std::optional<Tone> tone_of(const std::vector<Leftover>& leftovers) {
     }
   }
   return best;
+}
+
+double Sine::at(double time) const {
+  const double phase = 2.0 * std::numbers::pi * frequency * time;
+  return cosine * std::cos(phase) + sine * std::sin(phase);
+}
+
+std::optional<Sine> sine_of(const Leftover& leftover, double frequency) {
+  if (leftover.time.size() < 2) {
+    return std::nullopt;
+  }
+  const Pair pair = pair_of(leftover);
+  const auto at = static_cast<std::size_t>(std::lround(frequency / pair.residual.step));
+  if (at >= pair.residual.power.size() || is_of_the_motion(pair.residual, pair.force, at)) {
+    return std::nullopt;
+  }
+  // The squares taken off have one summit within half a cycle over the recording on either side.
+  constexpr double golden = 0.61803398874989485;
+  constexpr int steps = 40;
+  const double half_cycle = 0.5 / (leftover.time.back() - leftover.time.front());
+  double low = frequency - half_cycle;
+  double high = frequency + half_cycle;
+  Fitted left = fitted(leftover, high - golden * (high - low));
+  Fitted right = fitted(leftover, low + golden * (high - low));
+  for (int k = 0; k < steps; ++k) {
+    if (left.taken > right.taken) {
+      high = right.sine.frequency;
+      right = left;
+      left = fitted(leftover, high - golden * (high - low));
+    } else {
+      low = left.sine.frequency;
+      left = right;
+      right = fitted(leftover, low + golden * (high - low));
+    }
+  }
+  return left.sine;
 }
 
 }  // namespace hysteron

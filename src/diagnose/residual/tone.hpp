@@ -26,4 +26,17 @@ struct Tone {
 // recording are not looked at. results/tones.md has what it tells of tones put into recordings.
 std::optional<Tone> tone_of(const std::vector<Leftover>& leftovers);
 
+// cosine cos(2 pi frequency t) + sine sin(2 pi frequency t), in the unit of the residual; t is a recording's time, s.
+struct Sine {
+  double frequency = 0.0;  // Hz
+  double cosine = 0.0;
+  double sine = 0.0;
+
+  [[nodiscard]] double at(double time) const;
+};
+
+// The sine by least squares within half a cycle over the recording of the frequency of a tone that other recordings
+// show: this one may be too short to show it. Nothing where its motion may have made it.
+std::optional<Sine> sine_of(const Leftover& leftover, double frequency);
+
 }  // namespace hysteron

@@ -1,0 +1,61 @@
+#include "diagnose/without_tones.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+
+#include "core/joined.hpp"
+#include "diagnose/residual/leftover.hpp"
+
+namespace hysteron {
+namespace {
+
+constexpr std::size_t most_tones = 4;
+
+}  // namespace
+
+WithoutTones without_tones(const Campaign& campaign, const Fit& fit, const Workbench& bench) {
+  WithoutTones result{campaign, {}};
+  std::vector<Recording>& recordings = result.campaign.recordings;
+  std::vector<Residual> residuals;
+  for (const Recording& recording : campaign.recordings) {
+    residuals.push_back(bench.residual(fit, recording));
+  }
+  std::vector<Leftover> leftovers = leftovers_of(recordings, residuals, std::vector<double>(recordings.size(), 1.0));
+  while (leftovers.size() == recordings.size() && result.tones.size() < most_tones) {
+    const std::optional<Tone> tone = tone_of(leftovers);
+    if (!tone) {
+      break;
+    }
+    for (std::size_t k = 0; k < recordings.size(); ++k) {
+      const std::optional<Sine> sine = sine_of(leftovers[k], tone->frequency);
+      if (!sine) {
+        continue;
+      }
+      for (std::size_t n = 0; n < leftovers[k].time.size(); ++n) {
+        leftovers[k].residual[n] -= sine->at(leftovers[k].time[n]);
+      }
+      // What is left is the predicted force less the recorded one.
+      for (std::size_t n = 0; n < recordings[k].size(); ++n) {
+        recordings[k].force[n] += sine->at(recordings[k].time[n]);
+      }
+    }
+    result.tones.push_back(*tone);
+  }
+  return result;
+}
+
+std::string sentence_of(const std::vector<Tone>& tones) {
+  std::vector<std::string> parts;
+  for (const Tone& tone : tones) {
+    parts.push_back(fmt::format("{:.3g} Hz ({:.2g} N)", tone.frequency, tone.amplitude));
+  }
+  return fmt::format(
+      "{} of {} {} taken out of the force before effects were looked for (table and plots of the recordings still hold "
+      "{})",
+      parts.size() == 1 ? "a tone" : "tones", joined(parts, " and "), parts.size() == 1 ? "was" : "were",
+      parts.size() == 1 ? "it" : "them");
+}
+
+}  // namespace hysteron
