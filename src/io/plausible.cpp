@@ -16,7 +16,9 @@
 #include "core/lower_case.hpp"
 #include "core/robust.hpp"
 #include "io/channel_faults.hpp"
+#include "io/frozen_moments.hpp"
 #include "io/held_ends.hpp"
+#include "io/lost_samples.hpp"
 #include "io/mains_hum.hpp"
 #include "io/motion_faults.hpp"
 #include "io/outliers.hpp"
@@ -264,10 +266,10 @@ void tell_of_straight_pieces(const Recording& recording, Remarks& remarks) {
   }
 }
 
-// Samples that are lost, a counter that overflowed, glitches unless those beyond the range are told, channels slower
-// than the log, and a velocity that is none.
+// Leaps unless they are behind a frozen moment, a counter that overflowed, glitches unless those beyond the range are
+// told, channels slower than the log, and a velocity that is none.
 void tell_of_motion(const Recording& recording, const Sources& sources, const std::optional<Wrap>& wrap,
-                    bool glitches_told, Remarks& remarks) {
+                    const std::optional<FrozenMoments>& frozen, bool glitches_told, Remarks& remarks) {
   const std::vector<double>& time = recording.time;
   if (wrap) {
     remarks.tell(
@@ -279,7 +281,8 @@ void tell_of_motion(const Recording& recording, const Sources& sources, const st
                     wrap->after + 1, time[wrap->after], 1e3 * wrap->behind, 1e3 * wrap->before, wrap->count,
                     wrap->count == 1 ? "" : "s", 1e3 * wrap->range));
     glitches_told = true;
-  } else if (const auto leap = leap_of(time, recording.displacement)) {
+  } else if (const auto leap = leap_of(time, recording.displacement);
+             leap && !(frozen && leap->after == frozen->last)) {
     remarks.tell("leap", fmt::format("the displacement leaps by {:.3g} mm between {:.4g} and {:.4g} s, far beyond its "
                                      "steps before and after: lost samples or two records joined look so; cut there",
                                      1e3 * leap->size, time[leap->after], time[leap->after + 1]));
@@ -430,7 +433,8 @@ void tell_of_held_end(const Recording& recording, Remarks& remarks) {
 }
 
 // A channel that stays while the other one goes on.
-void tell_of_motion_and_force(const Recording& recording, Remarks& remarks) {
+void tell_of_motion_and_force(const Recording& recording, const std::optional<FrozenMoments>& moments,
+                              Remarks& remarks) {
   const auto tell_frozen = [&](const std::string& name, double value, const std::string& unit, const Stretch& stretch,
                                const std::string& other) {
     if (stretch.count == recording.size()) {
@@ -451,7 +455,9 @@ void tell_of_motion_and_force(const Recording& recording, Remarks& remarks) {
       frozen && recording.force[frozen->first] != 0.0) {
     tell_frozen("force", recording.force[frozen->first], "N", *frozen, "motion");
   }
-  if (const auto frozen = frozen_stretch_of(recording.displacement, recording.force)) {
+  if (moments) remarks.tell("frozen moments", sentence_of(*moments, recording));
+  if (const auto frozen = frozen_stretch_of(recording.displacement, recording.force);
+      frozen && !(moments && moments->first == frozen->first)) {
     // A drive that is switched changes the force of a damper at rest.
     std::vector<double> drive;
     if (!recording.drive.empty()) {
@@ -553,7 +559,10 @@ void remark_on_sizes(const Recording& recording, const Sources& sources, const s
                                out.size()));
     }
   }
-  tell_of_motion(recording, sources, wrap, glitches_told, remarks);
+  // A mass may rest while the force on it changes, and swing under one that does not.
+  const bool of_damper = options.force_required && !recording.force.empty();
+  const std::optional<FrozenMoments> frozen = of_damper ? frozen_moments_of(recording) : std::nullopt;
+  tell_of_motion(recording, sources, wrap, frozen, glitches_told, remarks);
   if (const auto end = flat_end_of(recording.force);
       end && !placeholder_of(recording.force) && !(end->in_noise && force_noise_is_of_motion(recording))) {
     remarks.tell("flat end",
@@ -578,9 +587,9 @@ void remark_on_sizes(const Recording& recording, const Sources& sources, const s
                     recording.time[first ? silence->count - 1 : silence->first], first ? "then" : "before that",
                     recording.force[first ? silence->count : silence->first - 1], first ? "on late" : "off early"));
   }
-  // A mass may rest while the force on it changes, and swing under one that does not.
-  if (options.force_required && !recording.force.empty()) {
-    tell_of_motion_and_force(recording, remarks);
+  if (of_damper) {
+    tell_of_motion_and_force(recording, frozen, remarks);
+    if (const auto lost = lost_samples_of(recording)) remarks.tell("lost samples", sentence_of(*lost, recording));
     tell_of_held_end(recording, remarks);
     tell_of_rectified(recording, remarks);
     tell_of_hum(recording, remarks);
