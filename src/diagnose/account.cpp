@@ -317,7 +317,7 @@ void note_verdict(Diagnosis& diagnosis) {
   }
   const bool tone_is_reason =
       diagnosis.tone_doubts && verdict.answer == Answer::unattributed && diagnosis.evidence.doubt_of_data.empty();
-  if (diagnosis.tone && !tone_is_reason) {
+  if (diagnosis.tone && !tone_is_reason && !diagnosis.tone_taken_out) {
     diagnosis.notes.push_back(sentence_of(*diagnosis.tone));
   }
   for (const DriftOfParameter& before : diagnosis.drift_of_base.parameters) {

@@ -77,12 +77,9 @@ std::string sentence_of(const Tone& tone) {
 }
 
 Doubt doubt_of_completeness(const Search& search, const Workbench& fine, const std::vector<std::string>& surprising,
-                            const std::optional<Tone>& tone, bool tone_was_taken_out) {
+                            const std::optional<Tone>& tone) {
   if (!surprising.empty()) {
     return {sentence_of_surprises(surprising, structured(search.misfit))};
-  }
-  if (tone && tone_was_taken_out) {
-    return {sentence_of(*tone), true, false};
   }
   const Misfit& left = search.misfit;
   const auto parameters = static_cast<double>(search.augmented.dimension());

@@ -21,14 +21,14 @@ std::optional<Tone> tone_left(const Search& search, const Workbench& bench);
 std::string sentence_of(const Tone& tone);
 
 // Why more than noise is left though no effect helps: a held-out recording, or the residual's bond to the force, shows
-// it, or a tone does that was taken out of the forces. Empty where nothing does.
+// it. Empty where nothing does.
 struct Doubt {
   std::string why;
   bool of_tone = false;
   bool too_few = false;  // values to tell at all whether anything is missing
 };
 Doubt doubt_of_completeness(const Search& search, const Workbench& fine, const std::vector<std::string>& surprising,
-                            const std::optional<Tone>& tone, bool tone_was_taken_out);
+                            const std::optional<Tone>& tone);
 
 // Why no name can be given: the recorded velocity is not that of the displacement, and effects would explain a fault of
 // the data. Empty where it is.

@@ -56,12 +56,19 @@ Judgement judge_search(Search found, const Searching& searching, const SearchPro
       [&](double share) { weighing(0.5 + 0.3 * share); }};
   weighing(0.4);
   result.surprising = surprises(bench, result.search.augmented);
-  result.tone = searching.taken_out ? searching.taken_out : tone_left(result.search, bench);
+  result.tone = tone_left(result.search, bench);
   weighing(0.5);
   result.evidence = evidence_of(result.search, fine, known);
-  const Doubt doubt =
-      doubt_of_completeness(result.search, fine, result.surprising, result.tone, searching.taken_out.has_value());
+  Doubt doubt = doubt_of_completeness(result.search, fine, result.surprising, result.tone);
   result.evidence.doubt_of_completeness = doubt.why;
+  // What was taken out of the forces is the reason where there is no other.
+  if (searching.taken_out) {
+    result.tone = searching.taken_out;
+    if (verdict_of(result.evidence).answer == Answer::complete) {
+      doubt = {sentence_of(*result.tone), true, false};
+      result.evidence.doubt_of_completeness = doubt.why;
+    }
+  }
   result.tone_doubts = doubt.of_tone;
   result.too_few_values = doubt.too_few;
   result.evidence.doubt_of_data = searching.doubt_of_data;

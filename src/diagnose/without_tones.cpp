@@ -51,11 +51,12 @@ std::string sentence_of(const std::vector<Tone>& tones) {
   for (const Tone& tone : tones) {
     parts.push_back(fmt::format("{:.3g} Hz ({:.2g} N)", tone.frequency, tone.amplitude));
   }
+  const bool one = parts.size() == 1;
   return fmt::format(
-      "{} of {} {} taken out of the force before effects were looked for (table and plots of the recordings still hold "
-      "{})",
-      parts.size() == 1 ? "a tone" : "tones", joined(parts, " and "), parts.size() == 1 ? "was" : "were",
-      parts.size() == 1 ? "it" : "them");
+      "{} of {}, as of a machine, the mains or a sensor, {} taken out of the force before effects were looked for "
+      "(table "
+      "and plots of the recordings still hold {})",
+      one ? "a tone" : "tones", joined(parts, " and "), one ? "was" : "were", one ? "it" : "them");
 }
 
 }  // namespace hysteron

@@ -19,7 +19,7 @@ struct WithoutTones {
 // By what `fit` leaves of every recording.
 WithoutTones without_tones(const Campaign& campaign, const Fit& fit, const Workbench& bench);
 
-// "tones of 50 Hz (25 N) and 150 Hz (3.0 N) were taken out of ...".
+// "tones of 50 Hz (25 N) and 150 Hz (3.0 N), as of a machine, ..., were taken out of the force ...".
 std::string sentence_of(const std::vector<Tone>& tones);
 
 }  // namespace hysteron

@@ -132,7 +132,7 @@ TEST(Tone, IsTheReasonWhyNothingIsCalledComplete) {
   EXPECT_EQ(diagnosis->verdict.answer, Answer::unattributed);
   ASSERT_TRUE(diagnosis->tone);
   EXPECT_EQ(diagnosis->verdict.reason.find(sentence_of(*diagnosis->tone)), 0U) << diagnosis->verdict.reason;
-  EXPECT_TRUE(says(diagnosis->notes, " N) was taken out of the force before effects were looked for"));
+  EXPECT_TRUE(says(diagnosis->notes, " was taken out of the force before effects were looked for"));
   EXPECT_TRUE(says(diagnosis->summary, "Without the tone only noise is left."));
   const auto without = testing::diagnosis_of(quiet, testing::few);
   EXPECT_NEAR(diagnosis->search.base.cost, without->search.base.cost, 0.02 * without->search.base.cost);
@@ -148,8 +148,7 @@ TEST(Tone, HidesNoEffect) {
   EXPECT_EQ(with->verdict.effects.front().id, "inertia");
   EXPECT_NEAR(with->verdict.effects.front().confidence, without->verdict.effects.front().confidence, 0.01);
   EXPECT_NEAR(with->search.augmented.cost, without->search.augmented.cost, 0.02 * without->search.augmented.cost);
-  ASSERT_TRUE(with->tone);
-  EXPECT_TRUE(says(with->notes, sentence_of(*with->tone)));
+  EXPECT_TRUE(says(with->notes, " was taken out of the force before effects were looked for"));
 }
 
 }  // namespace
