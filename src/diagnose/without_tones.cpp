@@ -11,7 +11,7 @@
 namespace hysteron {
 namespace {
 
-constexpr std::size_t most_tones = 4;
+constexpr std::size_t most_tones = 4;  // bounds the work: what mains or a pump make is a tone and few harmonics
 
 }  // namespace
 
