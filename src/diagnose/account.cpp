@@ -16,6 +16,8 @@
 namespace hysteron {
 namespace {
 
+// Held-out recordings show what leaves this part of their error, or less.
+constexpr double shown_by_judges = 0.98;
 // Times the noise floor above which more is left than an estimate of the noise is wrong by.
 constexpr double clear_of_floor = 1.2;
 
@@ -201,7 +203,7 @@ std::string sentence_of_robustness(const Named& named, std::string_view it) {
       share, share);
 }
 
-bool held_out_shows(double before, double after) { return after < 0.98 * before; }
+bool held_out_shows(double before, double after) { return after < shown_by_judges * before; }
 
 std::string_view what_shapes_do(const Diagnosis& diagnosis) {
   return held_out_shows(diagnosis.search.base.heldout, diagnosis.search.augmented.heldout) ? "predict" : "fit";
