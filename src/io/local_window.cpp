@@ -10,6 +10,9 @@
 namespace hysteron {
 namespace {
 
+// A window that takes so many times its usual time holds a gap.
+constexpr double longest_within = 1.5;
+
 // Standard deviation of the difference between the slopes of two windows around one sample, for unit noise and spacing.
 double deviation_between(std::size_t longer, std::size_t shorter) {
   std::vector<double> weights = uniform_weights(longer);
@@ -80,6 +83,9 @@ void local_window_slopes(std::span<const double> time, std::span<const double> d
     local_cubic_slopes(time, displacement, static_cast<double>(shorter), median_step, noise, slopes);
     std::vector<double> explained(longest + 1, -1.0);  // by noise of one metre, by the window that was taken
     for (std::size_t i = longest; i + longest < n; ++i) {
+      // Beside a gap the cubic is off its centre, and passes on more noise than that.
+      const double within = time[i + taken[i]] - time[i - taken[i]];
+      if (within > longest_within * 2.0 * static_cast<double>(taken[i]) * median_step) continue;
       double& of_noise = explained[taken[i]];
       if (of_noise < 0.0) of_noise = beyond_noise * deviation_between(taken[i], shorter) / median_step;
       const double difference = std::abs(slopes[i] - velocity[i]);

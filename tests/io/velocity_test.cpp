@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "core/random.hpp"
+#include "io/local_cubic.hpp"
+#include "io/local_window.hpp"
 
 namespace hysteron {
 namespace {
@@ -271,6 +273,22 @@ TEST(Velocity, AGlitchDoesNotShortenTheWindow) {
   const auto v = derive_velocity(t, x);
   // The five samples of the shortest window would make 133 mm/s of it.
   for (std::size_t i = 970; i < 1010; ++i) EXPECT_NEAR(v[i], before[i], 0.02) << i;
+}
+
+TEST(Velocity, AGapDoesNotShortenTheWindow) {
+  // Of 100 samples 30 are lost, and the cubic beside them passes on several times the noise.
+  std::vector<double> t;
+  for (int i = 0; i < 20000; ++i) {
+    if (i % 100 >= 30) t.push_back(0.002 * i);
+  }
+  const Stream stream(9);
+  std::vector<double> x;
+  for (std::size_t i = 0; i < t.size(); ++i) x.push_back(0.01 * std::sin(2.0 * pi * t[i]) + 5e-6 * stream.normal(i));
+  std::vector<double> whole(t.size());
+  std::vector<double> local(t.size());
+  local_cubic_slopes(t, x, 16.0, 0.002, 5e-6, whole);
+  local_window_slopes(t, x, 16.0, 0.002, 5e-6, local);
+  for (std::size_t i = 0; i < t.size(); ++i) EXPECT_EQ(local[i], whole[i]) << t[i];
 }
 
 TEST(Velocity, NoiseAloneIsSmoothedByTheLongestWindow) {
