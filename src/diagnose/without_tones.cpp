@@ -9,12 +9,6 @@
 #include "diagnose/residual/leftover.hpp"
 
 namespace hysteron {
-namespace {
-
-constexpr std::size_t most_tones = 4;  // bounds the work: what mains or a pump make is a tone and few harmonics
-
-}  // namespace
-
 WithoutTones without_tones(const Campaign& campaign, const Fit& fit, const Workbench& bench) {
   WithoutTones result{campaign, {}};
   std::vector<Recording>& recordings = result.campaign.recordings;
@@ -23,16 +17,16 @@ WithoutTones without_tones(const Campaign& campaign, const Fit& fit, const Workb
     residuals.push_back(bench.residual(fit, recording));
   }
   std::vector<Leftover> leftovers = leftovers_of(recordings, residuals, std::vector<double>(recordings.size(), 1.0));
-  while (leftovers.size() == recordings.size() && result.tones.size() < most_tones) {
+  // Each takes at least a tenth of what is left, so that they come to an end.
+  while (leftovers.size() == recordings.size()) {
     const std::optional<Tone> tone = tone_of(leftovers);
-    if (!tone) {
-      break;
-    }
-    for (std::size_t k = 0; k < recordings.size(); ++k) {
+    bool taken = false;
+    for (std::size_t k = 0; tone && k < recordings.size(); ++k) {
       const std::optional<Sine> sine = sine_of(leftovers[k], tone->frequency);
       if (!sine) {
         continue;
       }
+      taken = true;
       for (std::size_t n = 0; n < leftovers[k].time.size(); ++n) {
         leftovers[k].residual[n] -= sine->at(leftovers[k].time[n]);
       }
@@ -40,6 +34,9 @@ WithoutTones without_tones(const Campaign& campaign, const Fit& fit, const Workb
       for (std::size_t n = 0; n < recordings[k].size(); ++n) {
         recordings[k].force[n] += sine->at(recordings[k].time[n]);
       }
+    }
+    if (!taken) {
+      break;
     }
     result.tones.push_back(*tone);
   }

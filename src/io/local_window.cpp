@@ -5,7 +5,9 @@
 #include <cstddef>
 #include <vector>
 
+#include "core/squared.hpp"
 #include "io/local_cubic.hpp"
+#include "io/neighbours.hpp"
 
 namespace hysteron {
 namespace {
@@ -33,11 +35,11 @@ class NoiseNearby {
 
   // Standard deviation, m, of the noise of samples [first, last].
   double of(std::size_t first, std::size_t last) {
-    const std::size_t begin = std::max(first, reach);
-    const std::size_t end = std::min(last + 1, time_.size() - reach);
+    const std::size_t begin = std::max(first, quintic_reach);
+    const std::size_t end = std::min(last + 1, time_.size() - quintic_reach);
     double sum = 0.0;
     for (std::size_t i = begin; i < end; ++i) {
-      if (squares_[i] == unknown) squares_[i] = squared_noise(i);
+      if (squares_[i] == unknown) squares_[i] = squared(off_neighbours(time_, displacement_, i));
       sum += squares_[i];
     }
     return std::sqrt(sum / static_cast<double>(end - begin));
@@ -45,22 +47,6 @@ class NoiseNearby {
 
  private:
   static constexpr double unknown = -1.0;
-  static constexpr std::size_t reach = 3;
-
-  [[nodiscard]] double squared_noise(std::size_t i) const {
-    double difference = 0.0;
-    double variance = 1.0;
-    for (std::size_t k = i - reach; k <= i + reach; ++k) {
-      if (k == i) continue;
-      double weight = 1.0;
-      for (std::size_t m = i - reach; m <= i + reach; ++m) {
-        if (m != i && m != k) weight *= (time_[i] - time_[m]) / (time_[k] - time_[m]);
-      }
-      difference += weight * (displacement_[k] - displacement_[i]);
-      variance += weight * weight;
-    }
-    return difference * difference / variance;
-  }
 
   std::span<const double> time_;
   std::span<const double> displacement_;

@@ -28,8 +28,8 @@ constexpr double rounding = 1e-7;
 constexpr double near = 0.35;
 // More rows lost at once are a gap, which is told as a leap (io/motion_faults.hpp).
 constexpr double most_at_once = 3.0;
-// Of a million such steps of the 62 measured recordings and 566 of a challenge one was longer by a whole step, and 297
-// were off by anything else. One row that is lost does next to nothing to a fit.
+// Of measured recordings hardly a step is longer by a whole one, and many times as many are off by anything else. One
+// row that is lost does next to nothing to a fit.
 constexpr std::size_t fewest_places = 3;
 constexpr double most_others = 0.25;
 

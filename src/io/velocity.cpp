@@ -10,6 +10,7 @@
 
 #include "io/local_cubic.hpp"
 #include "io/local_window.hpp"
+#include "io/neighbours.hpp"
 
 namespace hysteron {
 namespace {
@@ -53,23 +54,9 @@ double quantum_of(std::span<const double> x, double range) {
 
 // Standard deviation of the displacement noise: each sample against the quintic through its six neighbours, by median.
 double noise_of(std::span<const double> t, std::span<const double> x) {
-  constexpr std::array<std::ptrdiff_t, 6> neighbours = {-3, -2, -1, 1, 2, 3};
   std::vector<double> errors;
   errors.reserve(x.size());
-  for (std::size_t i = 3; i + 3 < x.size(); ++i) {
-    const auto at = [&](std::ptrdiff_t k) { return static_cast<std::size_t>(static_cast<std::ptrdiff_t>(i) + k); };
-    double difference = 0.0;
-    double variance = 1.0;
-    for (const auto j : neighbours) {
-      double weight = 1.0;
-      for (const auto k : neighbours) {
-        if (k != j) weight *= (t[i] - t[at(k)]) / (t[at(j)] - t[at(k)]);
-      }
-      difference += weight * (x[at(j)] - x[i]);
-      variance += weight * weight;
-    }
-    errors.push_back(std::abs(difference) / std::sqrt(variance));
-  }
+  for (std::size_t i = quintic_reach; i + quintic_reach < x.size(); ++i) errors.push_back(off_neighbours(t, x, i));
   return 1.4826 * quantile(errors, 0.5);
 }
 
@@ -301,10 +288,11 @@ std::vector<double> derive_velocity(std::span<const double> time, std::span<cons
 
   const double median_step = median_step_of(time);
   const double side = n > 7 ? samples_on_a_side(time, displacement, median_step) : 2.0;
+  const double noise = channel_noise(time, displacement);
   const std::vector<Corner> corners =
-      corners_of(time, displacement, static_cast<std::size_t>(side), median_step, channel_noise(time, displacement));
-  std::vector<double> velocity = slopes_between(corners, local_window_slopes, time, displacement, side, median_step,
-                                                channel_noise(time, displacement));
+      corners_of(time, displacement, static_cast<std::size_t>(side), median_step, noise);
+  std::vector<double> velocity =
+      slopes_between(corners, local_window_slopes, time, displacement, side, median_step, noise);
   // A sample on the corner has the speed of neither side: with the mean, the motion between samples does not overshoot.
   // One beside it, as far as can be told, has that of its own side.
   for (const Corner& corner : corners) {

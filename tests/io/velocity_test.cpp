@@ -263,11 +263,18 @@ TEST(Velocity, RoundedCornersAreAsSharpAsTheSamplesTell) {
   EXPECT_LT(std::sqrt(squares), 0.002);
 }
 
+// 1 Hz, 10 mm, and noise.
+std::vector<double> noisy_sine(const std::vector<double>& t, double deviation, std::uint64_t seed) {
+  const Stream stream(seed);
+  std::vector<double> x;
+  for (std::size_t i = 0; i < t.size(); ++i)
+    x.push_back(0.01 * std::sin(2.0 * pi * t[i]) + deviation * stream.normal(i));
+  return x;
+}
+
 TEST(Velocity, AGlitchDoesNotShortenTheWindow) {
   const auto t = uniform(500, 4.0);
-  const Stream stream(7);
-  std::vector<double> x;
-  for (std::size_t i = 0; i < t.size(); ++i) x.push_back(0.01 * std::sin(2.0 * pi * t[i]) + 5e-6 * stream.normal(i));
+  auto x = noisy_sine(t, 5e-6, 7);
   const auto before = derive_velocity(t, x);
   x[990] += 4e-4;
   const auto v = derive_velocity(t, x);
@@ -281,9 +288,7 @@ TEST(Velocity, AGapDoesNotShortenTheWindow) {
   for (int i = 0; i < 20000; ++i) {
     if (i % 100 >= 30) t.push_back(0.002 * i);
   }
-  const Stream stream(9);
-  std::vector<double> x;
-  for (std::size_t i = 0; i < t.size(); ++i) x.push_back(0.01 * std::sin(2.0 * pi * t[i]) + 5e-6 * stream.normal(i));
+  const auto x = noisy_sine(t, 5e-6, 9);
   std::vector<double> whole(t.size());
   std::vector<double> local(t.size());
   local_cubic_slopes(t, x, 16.0, 0.002, 5e-6, whole);
@@ -293,9 +298,7 @@ TEST(Velocity, AGapDoesNotShortenTheWindow) {
 
 TEST(Velocity, NoiseAloneIsSmoothedByTheLongestWindow) {
   const auto t = uniform(1000, 60.0);
-  const Stream stream(8);
-  std::vector<double> x;
-  for (std::size_t i = 0; i < t.size(); ++i) x.push_back(0.01 * std::sin(2.0 * pi * t[i]) + 2e-6 * stream.normal(i));
+  const auto x = noisy_sine(t, 2e-6, 8);
   const auto v = derive_velocity(t, x);
   double squares = 0.0;
   for (std::size_t i = 100; i + 100 < t.size(); ++i) {

@@ -1,8 +1,10 @@
 #include "diagnose/residual/tone.hpp"
 
 #include <algorithm>
+#include <boost/math/tools/minima.hpp>
 #include <cmath>
 #include <complex>
+#include <limits>
 #include <numbers>
 #include <unsupported/Eigen/FFT>
 
@@ -234,26 +236,14 @@ std::optional<Sine> sine_of(const Leftover& leftover, double frequency) {
   if (at >= pair.residual.power.size() || is_of_the_motion(pair.residual, pair.force, at)) {
     return std::nullopt;
   }
-  // The squares taken off have one summit within half a cycle over the recording on either side.
-  constexpr double golden = 0.61803398874989485;
-  constexpr int steps = 40;
+  // The squares taken off have one summit within half a cycle over the recording on either side. Its place is known to
+  // the root of the precision of these squares.
   const double half_cycle = 0.5 / (leftover.time.back() - leftover.time.front());
-  double low = frequency - half_cycle;
-  double high = frequency + half_cycle;
-  Fitted left = fitted(leftover, high - golden * (high - low));
-  Fitted right = fitted(leftover, low + golden * (high - low));
-  for (int k = 0; k < steps; ++k) {
-    if (left.taken > right.taken) {
-      high = right.sine.frequency;
-      right = left;
-      left = fitted(leftover, high - golden * (high - low));
-    } else {
-      low = left.sine.frequency;
-      left = right;
-      right = fitted(leftover, low + golden * (high - low));
-    }
-  }
-  return left.sine;
+  const double best = boost::math::tools::brent_find_minima(
+                          [&](double hertz) { return -fitted(leftover, hertz).taken; }, frequency - half_cycle,
+                          frequency + half_cycle, std::numeric_limits<double>::digits / 2)
+                          .first;
+  return fitted(leftover, best).sine;
 }
 
 }  // namespace hysteron
