@@ -5,6 +5,7 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "core/random.hpp"
@@ -265,6 +266,27 @@ TEST(Velocity, RoundedCornersAreAsSharpAsTheSamplesTell) {
       squares += error * error / static_cast<double>(t.size() - 20);
     }
     EXPECT_LT(std::sqrt(squares), 0.002) << arc;
+  }
+}
+
+TEST(Velocity, ACornerThatAServoRoundsIsNone) {
+  // Reversals of 120 mm/s smoothed by a Gaussian, so that lines through eight samples nearly fit on both sides.
+  const auto t = uniform(500, 3.0);
+  const Stream stream(6);
+  constexpr double half = 1.0 / 6.0;
+  for (const auto& [width, noise] : {std::pair(1.5e-3, 2e-7), std::pair(2e-3, 1e-6)}) {
+    std::vector<double> x;
+    std::vector<double> exact;
+    for (std::size_t i = 0; i < t.size(); ++i) {
+      const double reversals = std::round(t[i] / half);
+      const double z = (t[i] - reversals * half) / (std::sqrt(2.0) * width);
+      const double way = std::fmod(reversals, 2.0) == 0.0 ? 0.12 : -0.12;
+      exact.push_back(way * std::erf(z));
+      x.push_back(way * width * std::sqrt(2.0) * (z * std::erf(z) + std::exp(-z * z) / std::sqrt(pi)) -
+                  way * half / 2.0 + noise * stream.normal(i));
+    }
+    const auto v = derive_velocity(t, x);
+    for (std::size_t i = 10; i + 10 < t.size(); ++i) EXPECT_NEAR(v[i], exact[i], 0.014) << width << " " << t[i];
   }
 }
 
