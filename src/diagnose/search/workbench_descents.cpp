@@ -11,7 +11,7 @@ namespace {
 
 // Rounds after which only the best starts go on.
 constexpr int race_rounds = 2;
-// A descent whose squared cost fell by less than this part of itself in two rounds running has arrived, as far as a
+// A descent whose squared cost fell by less than this part of itself in two steps running has arrived, as far as a
 // comparison of hypotheses can tell.
 constexpr double arrived = 1e-4;
 
@@ -30,7 +30,7 @@ Workbench::Reached Workbench::reached(const Layout& layout, const Objective& obj
     std::unique_ptr<Solver> solver;
     std::vector<double> best;
     double cost = diverged_cost;
-    int idle = 0;  // rounds running in which next to nothing was gained
+    int idle = 0;  // steps running that were taken and gained next to nothing
   };
   std::vector<Run> runs;
   for (const std::vector<double>& start : starts) {
@@ -74,7 +74,8 @@ Workbench::Reached Workbench::reached(const Layout& layout, const Objective& obj
                                    values.begin() + static_cast<std::ptrdiff_t>((i + 1) * width));
       };
       const double gained = squared(run.cost) - squared(answer.cost[i]);
-      run.idle = gained < arrived * squared(run.cost) ? run.idle + 1 : 0;
+      // A step that is taken back shortens the next one; it does not tell that there is nothing to gain.
+      if (gained >= 0.0) run.idle = gained < arrived * squared(run.cost) ? run.idle + 1 : 0;
       if (answer.cost[i] < run.cost) {
         run.cost = answer.cost[i];
         run.best = requests[asked[i]].points;
