@@ -90,17 +90,28 @@ std::string sentence_of_shapes(const Diagnosis& diagnosis) {
   std::vector<std::string> shapes;
   // A probability is that of recordings without a fault.
   const bool faulty = !diagnosis.evidence.doubt_of_data.empty();
+  std::vector<std::string> had;
   for (std::size_t k = 0; k < doubtful.size(); ++k) {
     const std::string shape = with_sizes(doubtful[k].id, diagnosis.shapes[k]);
-    shapes.push_back(faulty ? shape : fmt::format("{} ({})", shape, probability_text(doubtful[k].confidence)));
+    if (candidate_of(doubtful[k], diagnosis.evidence).had_by_law) {
+      had.push_back(shape);
+    } else {
+      shapes.push_back(faulty ? shape : fmt::format("{} ({})", shape, probability_text(doubtful[k].confidence)));
+    }
   }
+  const std::string of_the_law =
+      had.empty()
+          ? std::string{}
+          : fmt::format("The augmented model also has {}, beside what {} has of its own: nothing of {} is missing.",
+                        joined(had, " and "), diagnosis.evidence.model, had.size() == 1 ? "it" : "them");
   if (shapes.empty()) {
-    return {};
+    return of_the_law;
   }
   return fmt::format("{}: {}; {} {} better.", faulty ? "Not named for that" : "Too uncertain to name",
                      fmt::format("{}", fmt::join(shapes, "; ")),
                      shapes.size() == 1 ? "it is a shape that" : "they are shapes that",
-                     std::string(what_shapes_do(diagnosis)) + (shapes.size() == 1 ? "s" : ""));
+                     std::string(what_shapes_do(diagnosis)) + (shapes.size() == 1 ? "s" : "")) +
+         (of_the_law.empty() ? "" : " " + of_the_law);
 }
 
 // "modified-bouc-wen, which includes a series dashpot,": what the cards say that it has and the law asked for lacks.

@@ -65,6 +65,14 @@ TEST(DetectionLimits, FollowFromForces) {
   }
 }
 
+// A Bouc-Wen law has a spring, a dashpot and an offset in parallel; its hysteresis is no friction, and it is no mass.
+TEST(HadByTheLaw, IsWhatItHasInTheSameForm) {
+  const Base base = base_of();
+  const std::vector<std::string> had = had_by_the_law(
+      base.bench, base.fit, {"coulomb-friction", "inertia", "linear-stiffness", "offset-force", "viscous-damping"});
+  EXPECT_EQ(had, (std::vector<std::string>{"linear-stiffness", "offset-force", "viscous-damping"}));
+}
+
 // The middle of all strokes, around which a weak range is looked for, is a place where no rod was.
 TEST(DetectionLimits, SayThatNoRecordingComesWhereAnEffectIsLookedFor) {
   const Base base = base_of(0.1);

@@ -102,6 +102,18 @@ TEST(Robustness, IsThatOfCinelliAndHazlett) {
   EXPECT_NEAR(robustness_value(10.0), 0.92, 0.005);
 }
 
+// However much it takes off: as a shape it stays in the augmented model.
+TEST(Verdict, DoesNotNameWhatTheLawHasOfItsOwn) {
+  Evidence evidence = plain();
+  ASSERT_EQ(verdict_of(evidence).answer, Answer::missing_physics);
+  evidence.candidates.front().had_by_law = true;
+  const Verdict verdict = verdict_of(evidence);
+  EXPECT_TRUE(verdict.effects.empty());
+  EXPECT_TRUE(verdict.suggestions.empty());
+  ASSERT_EQ(verdict.doubtful.size(), 1U);
+  EXPECT_EQ(verdict.doubtful.front().confidence, 0.0);
+}
+
 TEST(Grade, FollowsTheProbability) {
   EXPECT_EQ(grade_of(0.95), Grade::established);
   EXPECT_EQ(grade_of(0.949), Grade::supported);

@@ -16,7 +16,7 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Signature, id, what, unit, value, std_error, 
                                    recordings, speaks_for, sign, of_all)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(GainBehindLaw, law, share)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Candidate, id, gain, score, sizes, gain_alone, gain_of_relative, contenders,
-                                   behind_laws, parameters, on_bound, as_channels, of_law, signatures)
+                                   behind_laws, parameters, on_bound, as_channels, of_law, had_by_law, signatures)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(OtherLaw, model, squares, has_what_was_found, has)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ContrastLeft, effect, signature, instead, law, z)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FirstLook, id, gain, refitted)
@@ -57,6 +57,7 @@ void complete(nlohmann::json& evidence) {
     }
     candidate.emplace("sizes", nlohmann::json::array());
     candidate.emplace("of_law", false);
+    candidate.emplace("had_by_law", false);
     candidate.emplace("behind_laws", nlohmann::json::array());
   }
   for (nlohmann::json& row : evidence.at("contrasts_left")) {

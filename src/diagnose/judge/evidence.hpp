@@ -99,6 +99,7 @@ struct Candidate {
   int on_bound = 0;          // of these, at an end of their box
   bool as_channels = false;  // told by the channels without a model, or a lag of one and as large as they show
   bool of_law = false;       // a part of the model's law, which the law asked for lacks
+  bool had_by_law = false;   // the law has it of its own and imitates it wholly: nothing of it can be missing
   // Of what the model with everything but it leaves, refitted: other effects no longer cover what it does.
   std::vector<Signature> signatures;
 };

@@ -29,10 +29,15 @@ bool is_told_by_channels(const Candidate& candidate) {
 // alike by itself and hardly less sure.
 std::vector<Named> named(std::size_t index, const Evidence& evidence) {
   const Candidate& candidate = evidence.candidates[index];
-  std::vector<const Contender*> others = equally_good(candidate);
   Named first;
   first.id = candidate.id;
   first.candidate = index;
+  first.share_of_misfit =
+      std::clamp(candidate.gain / std::max(evidence_of_base(candidate, evidence).base.excess(), 1e-300), 0.0, 1.0);
+  if (candidate.had_by_law) {
+    return {first};
+  }
+  std::vector<const Contender*> others = equally_good(candidate);
   first.alone = alone_table().probability(alone_features_of(candidate, evidence), candidate.id);
   if (is_told_by_channels(candidate)) {
     first.alone = std::max(first.alone, channel_probability());
@@ -51,8 +56,6 @@ std::vector<Named> named(std::size_t index, const Evidence& evidence) {
   first.confidence = others.empty() ? first.alone : of_all;
   first.grade = grade_of(first.confidence);
   first.robustness = robustness_of(candidate, evidence);
-  first.share_of_misfit =
-      std::clamp(candidate.gain / std::max(evidence_of_base(candidate, evidence).base.excess(), 1e-300), 0.0, 1.0);
   if (candidate.of_law) {
     first.of_law = evidence.model;
   }

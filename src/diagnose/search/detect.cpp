@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iterator>
 
 #include "diagnose/search/observe.hpp"
+#include "diagnose/search/relatives.hpp"
 #include "diagnose/search/signature.hpp"
 #include "diagnose/search/stage.hpp"
 #include "fit/parallel.hpp"
@@ -26,6 +28,8 @@ struct Probe {
   double change = 0.0;  // of the force, root mean square over the peak force
   double left = 0.0;    // of that, what the parameters of the fit do not imitate
 };
+
+bool is_imitated(const Probe& probe) { return probe.left < imitated * probe.change; }
 
 // At every size at which the model can be simulated, smallest first, to both sides of a neutral value within the box.
 std::vector<Probe> probes_of(const Workbench& bench, const Fit& neutral, const std::vector<std::size_t>& coordinates,
@@ -111,7 +115,7 @@ Unobservable limit_of(const Workbench& bench, const Fit& fit, const Misfit& misf
     result.reason =
         place ? "no recording comes where it is looked for, " + *place
               : "it changes no force on these motions, up to " + value_at(neutral, coordinates, probes.back().size);
-  } else if (last.left < imitated * last.change) {
+  } else if (is_imitated(last)) {
     result.reason = "the other parameters imitate all but a thousandth of it on these recordings";
   } else {
     result.reason = fmt::format(
@@ -123,6 +127,30 @@ Unobservable limit_of(const Workbench& bench, const Fit& fit, const Misfit& misf
 }
 
 }  // namespace
+
+std::vector<std::string> had_by_the_law(const Workbench& bench, const Fit& fit,
+                                        const std::vector<std::string>& effects) {
+  std::vector<std::string> parts;
+  std::ranges::copy_if(effects, std::back_inserter(parts),
+                       [&](const std::string& id) { return is_part_of(id, fit.what.model); });
+  const Eigen::VectorXd at = stacked(bench, fit);
+  if (parts.empty() || !at.allFinite()) {
+    return {};
+  }
+  const Eigen::MatrixXd basis = imitable(bench, fit, at);
+  std::erase_if(parts, [&](const std::string& id) {
+    const Fit neutral = at_neutral_size(bench, fit, id);
+    const std::vector<std::size_t> coordinates = size_of(neutral, id);
+    if (coordinates.empty()) {
+      return true;
+    }
+    const std::vector<Probe> probes = probes_of(bench, neutral, coordinates, at, basis, [](const Probe& probe) {
+      return probe.change >= least_change && !is_imitated(probe);
+    });
+    return probes.empty() || probes.back().change < least_change || !is_imitated(probes.back());
+  });
+  return parts;
+}
 
 std::vector<Unobservable> detection_limits(const Workbench& bench, const Fit& fit, const Misfit& misfit,
                                            const std::vector<std::string>& effects) {

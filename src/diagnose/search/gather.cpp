@@ -325,6 +325,7 @@ Candidate candidate_found(std::size_t k, const Search& search, const Workbench& 
       intervals, [&](const ParameterInterval& p) { return p.bound && !is_plain_end(one.id, p.name, *p.bound); }));
   one.signatures = signatures_of(found.contrasts);
   one.of_law = found.of_law.has_value();
+  one.had_by_law = std::ranges::find(search.had_by_law, one.id) != search.had_by_law.end();
   one.as_channels = found.told || (one.id == channel_lag && as_channels_show(search.augmented, known));
   return one;
 }

@@ -29,4 +29,10 @@ std::optional<std::string> excluded_by_inputs(const std::string& effect, const s
 std::vector<Unobservable> detection_limits(const Workbench& bench, const Fit& fit, const Misfit& misfit,
                                            const std::vector<std::string>& effects);
 
+// Of these effects those that the law of the fit has as a part of its own (relatives.hpp) and imitates all but a
+// thousandth of on the fitted recordings, as its stiffness does a spring's: nothing of them can be missing. Empty where
+// the fit cannot be simulated.
+std::vector<std::string> had_by_the_law(const Workbench& bench, const Fit& fit,
+                                        const std::vector<std::string>& effects);
+
 }  // namespace hysteron

@@ -6,6 +6,7 @@
 
 #include "diagnose/search/grow.hpp"
 #include "diagnose/search/left_out.hpp"
+#include "diagnose/search/observe.hpp"
 #include "diagnose/search/of_fit.hpp"
 #include "diagnose/search/relatives.hpp"
 #include "diagnose/search/settle.hpp"
@@ -56,6 +57,7 @@ Search search(const Workbench& bench, const Workbench& fine, const Hypothesis& b
   result.base_misfit = misfit_of(fine, result.base);
   options.stands(result.quick_base);
 
+  result.had_by_law = had_by_the_law(bench, result.quick_base, options.candidates);
   std::vector<Extension> effects;
   for (const std::string& id : options.candidates) {
     effects.push_back(effect_extension(id));

@@ -20,8 +20,9 @@ struct Search {
   Fit augmented;  // the base itself when nothing was found
   Misfit base_misfit;
   Misfit misfit;
-  std::vector<Found> found;         // effects of the augmented model, strongest first
-  std::vector<std::string> richer;  // parameter laws that were made richer
+  std::vector<Found> found;             // effects of the augmented model, strongest first
+  std::vector<std::string> had_by_law;  // effects that the law has of its own and imitates wholly (observe.hpp)
+  std::vector<std::string> richer;      // parameter laws that were made richer
   // "a richer dependence of c0 and f0 on the drive"; empty where none was.
   [[nodiscard]] std::string richer_dependence() const;
   // As the comparison saw them, on the quick workbench.
