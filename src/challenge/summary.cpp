@@ -158,27 +158,43 @@ json by_size(const json& campaigns, const char* measure, const std::vector<doubl
   return result;
 }
 
+// Of a parameter, or of all.
+struct ParameterErrors {
+  std::vector<double> relative;
+  int inside = 0;
+  int intervals = 0;
+
+  void add(const json& row) {
+    relative.push_back(std::abs(row.at("relative_error").get<double>()));
+    if (row.at("inside_ci95").is_boolean()) {
+      ++intervals;
+      inside += row.at("inside_ci95").get<bool>() ? 1 : 0;
+    }
+  }
+  [[nodiscard]] json summary(const std::string& name) const {
+    return {{"parameter", name},
+            {"count", relative.size()},
+            {"median_relative_error", median(relative)},
+            {"largest_relative_error", *std::ranges::max_element(relative)},
+            {"inside_ci95", rate(inside, intervals)}};
+  }
+};
+
+// By name; "all" is the last.
 json parameters(const json& campaigns) {
-  std::map<std::string, std::vector<double>> errors;
-  std::map<std::string, std::pair<int, int>> covered;
+  std::map<std::string, ParameterErrors> errors;
+  ParameterErrors all;
   for (const json& c : campaigns) {
     for (const json& row : c.at("parameters")) {
-      const std::string key = row.at("effect").get<std::string>() + " " + row.at("name").get<std::string>();
-      errors[key].push_back(std::abs(row.at("relative_error").get<double>()));
-      if (row.at("inside_ci95").is_boolean()) {
-        ++covered[key].second;
-        covered[key].first += row.at("inside_ci95").get<bool>() ? 1 : 0;
-      }
+      errors[row.at("effect").get<std::string>() + " " + row.at("name").get<std::string>()].add(row);
+      all.add(row);
     }
   }
   json result = json::array();
-  for (const auto& [key, values] : errors) {
-    result.push_back({{"parameter", key},
-                      {"count", values.size()},
-                      {"median_relative_error", median(values)},
-                      {"largest_relative_error", *std::ranges::max_element(values)},
-                      {"inside_ci95", rate(covered[key].first, covered[key].second)}});
+  for (const auto& [name, of] : errors) {
+    result.push_back(of.summary(name));
   }
+  if (!errors.empty()) result.push_back(all.summary("all"));
   return result;
 }
 

@@ -48,7 +48,7 @@ std::vector<std::string> titles_of(const std::vector<std::string>& effects) {
   return result;
 }
 
-// "0.40 mm (95 %: 0.38 to 0.42 mm)".
+// "0.40 mm (0.38 to 0.42 mm)".
 std::string interval_text(const ParameterInterval& p) {
   constexpr int digits = 3;
   const std::string value = size_text(p.value, p.unit, digits);
@@ -62,7 +62,7 @@ std::string interval_text(const ParameterInterval& p) {
   if (space != std::string::npos && high.ends_with(low.substr(space))) {
     low.resize(space);
   }
-  return fmt::format("{} (95 %: {} to {})", value, low, high);
+  return fmt::format("{} ({} to {})", value, low, high);
 }
 
 }  // namespace

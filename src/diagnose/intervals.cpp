@@ -1,8 +1,10 @@
 #include "diagnose/intervals.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
+#include "diagnose/search/of_fit.hpp"
 #include "diagnose/search/relatives.hpp"
 
 namespace hysteron {
@@ -38,6 +40,9 @@ void forget_places_not_reached(std::vector<ParameterInterval>& rows, const std::
       continue;
     }
     const double reached = farthest(recordings, card->place);
+    if (row.ci95 && row.ci95->upper >= reached) {
+      row.ci95.reset();
+    }
     if (row.value + *row.half_width >= reached) {
       row.half_width.reset();
       row.ci95.reset();
@@ -47,13 +52,15 @@ void forget_places_not_reached(std::vector<ParameterInterval>& rows, const std::
 
 }  // namespace
 
-const std::vector<Estimate>& Estimates::of(const Fit& fit) {
+const Estimates::Known& Estimates::of(const Fit& fit) {
   const auto known =
       std::ranges::find_if(known_, [&](const Known& one) { return one.what == fit.what && one.point == fit.point; });
   if (known != known_.end()) {
-    return known->estimates;
+    return *known;
   }
-  return known_.emplace_back(Known{fit.what, fit.point, estimates_of(*bench_, fit)}).estimates;
+  const Recurrence again = recurrence_of(*bench_, fit);
+  const double recurring = std::max(again.share - again.mean_by_chance, 0.0) * misfit_of(*bench_, fit).squares;
+  return known_.emplace_back(Known{fit.what, fit.point, estimates_of(*bench_, fit), std::sqrt(recurring)});
 }
 
 std::vector<ParameterInterval> Estimates::intervals(const Fit& fit, const std::string& effect) {
@@ -62,12 +69,19 @@ std::vector<ParameterInterval> Estimates::intervals(const Fit& fit, const std::s
   const std::string own(part == nullptr ? std::string_view{} : part->parameter);
   const std::string prefix = effect + ".";
   std::vector<ParameterInterval> result;
-  for (const Estimate& row : of(fit)) {
+  const Known& known = of(fit);
+  for (const Estimate& row : known.estimates) {
     const bool of_law = !own.empty() && (row.name == own || row.name.starts_with(own + "*"));
-    if (of_law || row.name.starts_with(prefix)) {
-      result.push_back({of_law ? row.name : row.name.substr(prefix.size()), row.unit, row.term.value, row.half_width,
-                        row.ci95, row.at_bound, row.lower});
+    if (!of_law && !row.name.starts_with(prefix)) {
+      continue;
     }
+    std::optional<Interval> ci95;
+    if (row.half_width) {
+      ci95 = interval_of(row.term, fit.layout->cards()[row.term.parameter],
+                         std::hypot(*row.half_width, known.unmodelled * row.per_misfit.value_or(0.0)));
+    }
+    result.push_back({of_law ? row.name : row.name.substr(prefix.size()), row.unit, row.term.value, row.half_width,
+                      ci95, row.at_bound, row.lower});
   }
   forget_places_not_reached(result, effect, bench_->split().fit);
   return result;

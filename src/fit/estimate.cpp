@@ -25,6 +25,7 @@ struct Uncertainty {
   Eigen::MatrixXd to_terms;        // derivatives of the terms
   Eigen::VectorXd std_error;
   Eigen::VectorXd half_width;
+  Eigen::VectorXd per_misfit;
 };
 
 }  // namespace
@@ -50,6 +51,7 @@ Uncertainty unknown(std::size_t dimension) {
   return {std::vector<bool>(dimension, false),
           {},
           Eigen::MatrixXd::Zero(d, d),
+          Eigen::VectorXd::Zero(d),
           Eigen::VectorXd::Zero(d),
           Eigen::VectorXd::Zero(d)};
 }
@@ -89,7 +91,8 @@ Uncertainty uncertainty_of(const Layout& layout, const Response& response, doubl
     }
   }
   const auto m = static_cast<Eigen::Index>(free.size());
-  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(d, d);
+  Eigen::MatrixXd inverse = Eigen::MatrixXd::Zero(d, d);
+  const double variance = response.cost[0] * response.cost[0] / std::max(independent - static_cast<double>(m), 1.0);
   const CorrelationEigen all(full);
   for (Eigen::Index e = 0; e < d; ++e) {
     for (Eigen::Index i = 0; i < d && all.open(e); ++i) {
@@ -100,15 +103,14 @@ Uncertainty uncertainty_of(const Layout& layout, const Response& response, doubl
   }
   if (m > 0) {
     const CorrelationEigen eigen(full(free, free));
-    const double variance = response.cost[0] * response.cost[0] / std::max(independent - static_cast<double>(m), 1.0);
-    const Eigen::MatrixXd inverse = eigen.told_inverse();
+    const Eigen::MatrixXd told = eigen.told_inverse();
     for (Eigen::Index i = 0; i < m; ++i) {
       const auto a = free[static_cast<std::size_t>(i)];
       for (Eigen::Index j = 0; j < m; ++j) {
-        covariance(a, free[static_cast<std::size_t>(j)]) = variance * inverse(i, j) / (eigen.norm[i] * eigen.norm[j]);
+        inverse(a, free[static_cast<std::size_t>(j)]) = told(i, j) / (eigen.norm[i] * eigen.norm[j]);
       }
       // An interval as wide as the box says nothing.
-      if (eigen.norm[i] <= 1e-150 || 4.0 * std::sqrt(covariance(a, a)) > 1.0) {
+      if (eigen.norm[i] <= 1e-150 || 4.0 * std::sqrt(variance * inverse(a, a)) > 1.0) {
         open[static_cast<std::size_t>(a)] = true;
       }
     }
@@ -121,8 +123,9 @@ Uncertainty uncertainty_of(const Layout& layout, const Response& response, doubl
                        layout.slope(static_cast<std::size_t>(c), u[static_cast<std::size_t>(c)]);
     }
   }
-  const Eigen::MatrixXd term_covariance = to_terms * covariance * to_terms.transpose();
-  Eigen::VectorXd std_error = term_covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
+  const Eigen::MatrixXd of_terms = to_terms * inverse * to_terms.transpose();
+  const Eigen::VectorXd per_misfit = of_terms.diagonal().cwiseMax(0.0).cwiseSqrt();
+  Eigen::VectorXd std_error = std::sqrt(variance) * per_misfit;
   Eigen::VectorXd half_width = normal_quantile * std_error;
   if (m > 0 && response.cost[0] < diverged_cost) {
     const Eigen::MatrixXd free_to_terms = to_terms(Eigen::all, free);
@@ -139,10 +142,11 @@ Uncertainty uncertainty_of(const Layout& layout, const Response& response, doubl
       half_width = half_width.cwiseMax(spreads->recordings->quantile * deviation(*spreads->recordings));
     }
   }
-  return {open, free, to_terms, std_error, half_width};
+  return {open, free, to_terms, std_error, half_width, per_misfit};
 }
 
-// Estimate::ci95 of a term whose interval has this half width to first order.
+}  // namespace
+
 std::optional<Interval> interval_of(const Term& term, const Parameter& card, double half_width) {
   const double value = term.value;
   Interval interval{value - half_width, value + half_width};
@@ -154,6 +158,8 @@ std::optional<Interval> interval_of(const Term& term, const Parameter& card, dou
   if (interval.lower <= card.box.lower && interval.upper >= card.box.upper) return std::nullopt;
   return Interval{std::max(interval.lower, card.limits.lower), std::min(interval.upper, card.limits.upper)};
 }
+
+namespace {
 
 void add_estimates(Identification& result, const Uncertainty& uncertainty, const std::vector<double>& u,
                    DriveKind drive_kind) {
@@ -198,6 +204,7 @@ void add_estimates(Identification& result, const Uncertainty& uncertainty, const
       if (!law_open && law_free && determined && std::isfinite(uncertainty.half_width[row])) {
         estimate.std_error = uncertainty.std_error[row];
         estimate.half_width = uncertainty.half_width[row];
+        estimate.per_misfit = uncertainty.per_misfit[row];
         estimate.ci95 = interval_of(term, card, uncertainty.half_width[row]);
       }
       result.estimates.push_back(std::move(estimate));

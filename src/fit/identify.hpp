@@ -35,6 +35,9 @@ struct Estimate {
   std::string meaning;
   std::optional<double> std_error;   // absent when the data do not determine it
   std::optional<double> half_width;  // of the 95 % interval to first order, at least 1.96 std_error; absent likewise
+  // How far a force that is not modelled moves the term for each unit of NRMSE that it has of the term's own shape,
+  // what the other parameters imitate taken off. To first order; absent likewise.
+  std::optional<double> per_misfit;
   // The 95 % interval: first order on the scale that the parameter is looked for on, cut where it can be no further.
   // Absent likewise, and of a constant where it holds the whole search range, which says nothing.
   std::optional<Interval> ci95;
@@ -109,6 +112,9 @@ void estimate(Identification& result, const Objective& objective, const std::vec
 // over; from the curvature alone, without a jackknife, and without sensitivities.
 void estimate(Identification& result, const Response& derivatives, double independent, const std::vector<double>& point,
               DriveKind drive_kind);
+
+// Estimate::ci95 of a term of a parameter with this card whose interval has this half width to first order.
+std::optional<Interval> interval_of(const Term& term, const Parameter& card, double half_width);
 
 // What a reader has to be warned of in estimates: not identifiable. On a bound: Identification::bounds_met.
 std::vector<std::string> warnings_of(const std::vector<Estimate>& estimates);

@@ -157,7 +157,7 @@ std::vector<Table> tables_of(const json& result) {
 
   Table parameters{"Parameters",
                    "Of causes that were named or listed, where truth and catalogue mean the same quantity.",
-                   {"parameter", "count", "median error", "largest error", "inside ci95 [95 %]"},
+                   {"parameter", "count", "median error", "largest error", "inside the interval [95 %]"},
                    {}};
   for (const json& row : s.at("parameters")) {
     parameters.rows.push_back({row.at("parameter").get<std::string>(), std::to_string(row.at("count").get<int>()),

@@ -111,7 +111,7 @@ std::string hidden_markdown(const json& result) {
         {"campaign", "hidden", "size", "share", "verdict", "answer", "outcome", "held out before", "held out after"},
         hidden);
     text += "\n## Their parameters\n\n";
-    text += markdown_table({"parameter", "unit", "hidden", "found", "95 % interval"}, parameters);
+    text += markdown_table({"parameter", "unit", "hidden", "found", "interval"}, parameters);
   }
   std::vector<std::vector<std::string>> bins;
   for (const json& bin : result.at("reliability")) {

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <numeric>
 
 #include "core/error.hpp"
 #include "fit/bounds_met.hpp"
@@ -457,6 +458,33 @@ TEST(Estimates, PassAsManyBlocksAsAreCountedOn) {
     estimate(result, objective, point, DriveKind::none);
     EXPECT_EQ(blocks, blocks_of_estimate(objective)) << model;
   }
+}
+
+// Closed form: where two parameters are linear, a force that is not modelled moves each by its projection on what the
+// other one leaves of the shape, and one that is that very shape by all that per_misfit says.
+TEST(Estimates, MoveByAnUnmodelledForceOfTheirShapeAsTheySay) {
+  IdentifyOptions options;
+  options.budget = 4000;
+  options.layout.fix = {{"f0", 0.0}};
+  Campaign campaign = viscous_campaign(20.0, 3000.0, 12000.0, 0.0);
+  campaign.recordings.resize(1);
+  campaign.roles.resize(1);
+  Recording& recording = campaign.recordings.front();
+  const std::vector<double>& x = recording.displacement;
+  const std::vector<double>& v = recording.velocity;
+  const double mixed = std::inner_product(x.begin(), x.end(), v.begin(), 0.0);
+  const double of_x = std::inner_product(x.begin(), x.end(), x.begin(), 0.0);
+  double squares = 0.0;
+  for (std::size_t n = 0; n < recording.size(); ++n) squares += std::pow(v[n] - mixed / of_x * x[n], 2);
+  const double before = estimate_of(identify(campaign, "viscous", options, {}), "c0").term.value;
+  constexpr double moved = 40.0;  // N s/m
+  for (std::size_t n = 0; n < recording.size(); ++n) recording.force[n] += moved * (v[n] - mixed / of_x * x[n]);
+  const Estimate after = estimate_of(identify(campaign, "viscous", options, {}), "c0");
+  EXPECT_NEAR(after.term.value - before, moved, 1e-6 * moved);
+  const auto size = [](double force) { return std::fabs(force); };
+  const double normaliser = size(*std::ranges::max_element(recording.force, {}, size));
+  const double nrmse = moved * std::sqrt(squares / static_cast<double>(recording.size())) / normaliser;
+  EXPECT_NEAR(nrmse * *after.per_misfit, moved, 1e-6 * moved);
 }
 
 // A spring may push the other way, a stop pulls at nothing.

@@ -22,7 +22,7 @@ struct ParameterInterval {
   std::string unit;
   double value = 0.0;
   std::optional<double> half_width;  // of the 95 % interval to first order; absent on a bound and where unknown
-  std::optional<Interval> ci95;      // absent where the data do not tell it either
+  std::optional<Interval> ci95;      // wider by what unmodelled physics may do (intervals.hpp); absent where unknown
   std::optional<BoxEnd> bound = {};  // end of its box that the value sits on
   double lower = -1e300;             // of its box
 };
