@@ -854,7 +854,7 @@ function effectBlock(e, d) {
   return el("div", { class: `effect ${e.grade || ""}` },
     el("h4", {}, e.in_place_of ? "or " : "", el("code", {}, e.id), isNumber(e.confidence) ? `, confidence ${probability(e.confidence)}${list(e.indistinguishable_from).length ? ` that it is this or ${e.indistinguishable_from.join(" or ")}` : ""}` : "", e.family ? el("span", { class: "muted" }, `, family ${e.family}`) : ""),
     e.sentence ? el("p", {}, prose(e.sentence)) : null,
-    list(e.parameters).length ? plainTable(`Parameters of ${e.id}`, [{ title: "Parameter", head: true }, { title: "Value", num: true }, { title: "Interval", num: true }, { title: "Unit" }],
+    list(e.parameters).length ? plainTable(`Parameters of ${e.id}; the intervals allow for physics that is left out`, [{ title: "Parameter", head: true }, { title: "Value", num: true }, { title: "Interval", num: true }, { title: "Unit" }],
       e.parameters.map((p) => [p.name, fmt(p.value, 4), Array.isArray(p.ci95) ? fmtEnds(p.ci95[0], p.ci95[1], 3).join(" … ") : "–", unitText(p.unit)])) : null,
     el("dl", { class: "facts" }, facts),
     el("div", { class: "plots" }, lookPlot(e, c), c ? contrastPlot(c) : null));
