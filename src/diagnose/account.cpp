@@ -219,7 +219,7 @@ std::vector<Rejected> rejected_of(const Diagnosis& diagnosis) {
     if (is_listed(row.id)) {
       continue;
     }
-    if (candidate_of(row, diagnosis.evidence).had_by_law) {
+    if (row.had_by_law) {
       result.push_back({row.id, "in the augmented model beside what " + diagnosis.evidence.model + " has of its own"});
       continue;
     }

@@ -93,7 +93,7 @@ std::string sentence_of_shapes(const Diagnosis& diagnosis) {
   std::vector<std::string> had;
   for (std::size_t k = 0; k < doubtful.size(); ++k) {
     const std::string shape = with_sizes(doubtful[k].id, diagnosis.shapes[k]);
-    if (candidate_of(doubtful[k], diagnosis.evidence).had_by_law) {
+    if (doubtful[k].had_by_law) {
       had.push_back(shape);
     } else {
       shapes.push_back(faulty ? shape : fmt::format("{} ({})", shape, probability_text(doubtful[k].confidence)));

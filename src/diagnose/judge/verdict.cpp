@@ -34,7 +34,8 @@ std::vector<Named> named(std::size_t index, const Evidence& evidence) {
   first.candidate = index;
   first.share_of_misfit =
       std::clamp(candidate.gain / std::max(evidence_of_base(candidate, evidence).base.excess(), 1e-300), 0.0, 1.0);
-  if (candidate.had_by_law) {
+  first.had_by_law = candidate.had_by_law;
+  if (first.had_by_law) {
     return {first};
   }
   std::vector<const Contender*> others = equally_good(candidate);

@@ -38,6 +38,7 @@ struct Named {
   // The law that took the place of the one asked for and has the candidate as a part of its own.
   std::optional<std::string> of_law = {};
   bool behind_asked = false;  // judged by what was found behind the law asked for
+  bool had_by_law = false;    // Candidate::had_by_law: no cause, whatever it takes off
 };
 
 // By this much probability a set must be surer than the one effect that was found, to be told in its place: a wrong
