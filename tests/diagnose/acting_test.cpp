@@ -42,13 +42,8 @@ class Acting : public ::testing::Test {
   Fit fitted() {
     const Hypothesis what{"viscous", {"end-stop"}, {}};
     const auto layout = std::make_shared<const Layout>(bench_.layout(what));
-    std::vector<double> point = layout->initial();
-    for (const ParameterLaw& law : layout->laws()) {
-      const std::string& name = layout->names()[law.parameter];
-      if (name == "end-stop.k_b") point[law.first] = layout->unit(law.first, 1e5);
-      if (name == "end-stop.x_up") point[law.first] = layout->unit(law.first, 0.0095);
-      if (name == "end-stop.x_low") point[law.first] = layout->unit(law.first, 0.01195);
-    }
+    const std::vector<double> point = testing::point_with(
+        *layout, layout->initial(), {{"end-stop.k_b", 1e5}, {"end-stop.x_up", 0.0095}, {"end-stop.x_low", 0.01195}});
     return bench_.from_starts(what, {layout, {point}, point, {}}, 20, 1);
   }
 };

@@ -35,13 +35,8 @@ TEST(Descents, GoOnAfterStepsThatAreTakenBack) {
   const Workbench bench(scale_of(recordings), Split{recordings, {}, {}, false}, {}, {}, 1, [] { return false; });
   const Hypothesis what{"bouc-wen", {"pinching"}, {}};
   const Starts starts = bench.starts(what, bench.from_anywhere({"bouc-wen", {}, {}}, 4000));
-  std::vector<double> start = starts.neutral;
-  for (const ParameterLaw& law : starts.layout->laws()) {
-    const std::string& name = starts.layout->names()[law.parameter];
-    if (name == "pinching.p") start[law.first] = starts.layout->unit(law.first, 0.1);
-    if (name == "pinching.x_p") start[law.first] = starts.layout->unit(law.first, 1e-3);
-    if (name == "pinching.w") start[law.first] = starts.layout->unit(law.first, 1.3e-3);
-  }
+  const std::vector<double> start = testing::point_with(
+      *starts.layout, starts.neutral, {{"pinching.p", 0.1}, {"pinching.x_p", 1e-3}, {"pinching.w", 1.3e-3}});
   const Fit fit = bench.from_starts(what, {starts.layout, {start}, starts.neutral, {}}, 12, 1);
   EXPECT_LT(fit.cost, 1.2 * noise);
 }

@@ -46,11 +46,8 @@ class Signs : public ::testing::Test {
   Fit descended_from(double force, double swept) {
     const Hypothesis what{"viscous", {"gas-spring", "cubic-stiffness"}, {}};
     const auto layout = std::make_shared<const Layout>(bench_.layout(what));
-    std::vector<double> point = layout->initial();
-    for (const ParameterLaw& law : layout->laws()) {
-      if (layout->names()[law.parameter] == "gas-spring.f_g") point[law.first] = layout->unit(law.first, force);
-      if (layout->names()[law.parameter] == "gas-spring.g") point[law.first] = layout->unit(law.first, swept);
-    }
+    const std::vector<double> point =
+        testing::point_with(*layout, layout->initial(), {{"gas-spring.f_g", force}, {"gas-spring.g", swept}});
     return bench_.from_starts(what, {layout, {point}, point, {}}, 10, 1);
   }
 };

@@ -37,12 +37,7 @@ struct Case {
       : layout(make_model("viscous", effects), scale_of(recordings), options), objective(layout, recordings, {}) {}
 
   [[nodiscard]] std::vector<double> point(const std::map<std::string, double>& values) const {
-    std::vector<double> u = layout.initial();
-    for (std::size_t c = 0; c < u.size(); ++c) {
-      const auto found = values.find(layout.names()[layout.coordinates()[c].parameter]);
-      if (found != values.end()) u[c] = layout.unit(c, found->second);
-    }
-    return u;
+    return testing::point_with(layout, layout.initial(), values);
   }
   [[nodiscard]] Correlations correlated(const std::vector<double>& u) const {
     return correlations(objective.evaluate({u, true}), u);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -54,6 +55,16 @@ inline void set_force(Recording& recording, const Layout& layout, const std::vec
   double peak = 0.0;
   for (const double force : recording.force) peak = std::max(peak, std::fabs(force));
   for (std::size_t n = 0; n < recording.size(); ++n) recording.force[n] += noise * peak * stream.normal(n);
+}
+
+// The point with these values of parameters in place of its own.
+inline std::vector<double> point_with(const Layout& layout, std::vector<double> point,
+                                      const std::map<std::string, double>& values) {
+  for (std::size_t c = 0; c < point.size(); ++c) {
+    const auto found = values.find(layout.names()[layout.coordinates()[c].parameter]);
+    if (found != values.end()) point[c] = layout.unit(c, found->second);
+  }
+  return point;
 }
 
 inline std::vector<double> random_points(const Stream& stream, std::size_t count, std::size_t dimension,
