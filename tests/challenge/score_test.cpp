@@ -168,6 +168,17 @@ TEST(Score, ParametersAreComparedByName) {
   ASSERT_EQ(scored.at("parameters").size(), 1u);
   EXPECT_NEAR(scored.at("parameters")[0].at("relative_error").get<double>(), 0.1, 1e-12);
   EXPECT_EQ(scored.at("parameters")[0].at("inside_ci95"), true);
+  effect["parameters"][0]["ci95"] = {2.1, 2.3};
+  const json missed = score_campaign(answer("plain", {"inertia"}), diagnosis("missing-physics", json::array({effect})));
+  json other = scored;
+  other["parameters"][0]["name"] = "tau";
+  const json rows = summarise(json::array({scored, missed, other})).at("parameters");
+  ASSERT_EQ(rows.size(), 3U);
+  EXPECT_EQ(rows[0].at("inside_ci95").at("hits"), 1);
+  EXPECT_EQ(rows[0].at("inside_ci95").at("trials"), 2);
+  EXPECT_EQ(rows[2].at("parameter"), "all");
+  EXPECT_EQ(rows[2].at("inside_ci95").at("hits"), 2);
+  EXPECT_EQ(rows[2].at("inside_ci95").at("trials"), 3);
 }
 
 TEST(Summary, CountsWhatWasScored) {

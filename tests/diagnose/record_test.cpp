@@ -314,6 +314,28 @@ TEST(Record, WhereNothingIsMissing) {
   EXPECT_EQ(paragraph(*diagnosis).find("no name"), std::string::npos) << paragraph(*diagnosis);
 }
 
+// A spring that the weak range does not act on is told from the law's own, on which it does: none is missing.
+TEST(Record, OfWhatTheLawHasOfItsOwn) {
+  const auto diagnosis = diagnosis_of(campaign_with({"pinching", "linear-stiffness"},
+                                                    {{"k0", 0.0},
+                                                     {"pinching.p", 0.6},
+                                                     {"pinching.x_p", 1e-3},
+                                                     {"pinching.w", 2e-3},
+                                                     {"pinching.q", 2.0},
+                                                     {"linear-stiffness.k", 2e4}},
+                                                    0.005),
+                                      {"pinching", "linear-stiffness", "quadratic-damping"});
+  const json record = diagnosis_json(*diagnosis);
+  ASSERT_EQ(record["effects"].size(), 1U);
+  EXPECT_EQ(record["effects"][0]["id"], "pinching");
+  ASSERT_EQ(record["augmented"]["shapes"].size(), 1U);
+  EXPECT_EQ(record["augmented"]["shapes"][0]["id"], "linear-stiffness");
+  EXPECT_EQ(record["augmented"]["shapes"][0]["confidence"], 0.0);
+  EXPECT_NE(paragraph(*diagnosis).find("beside what bouc-wen has of its own: nothing of it is missing."),
+            std::string::npos)
+      << paragraph(*diagnosis);
+}
+
 TEST(Record, OfACauseThatIsNotAmongTheCandidates) {
   const auto diagnosis = diagnosis_of(campaign_with({"cubic-stiffness"}, {{"cubic-stiffness.k3", 9e7}}, 0.01),
                                       {"force-drift", "quadratic-damping", "sensor-delay"});

@@ -144,10 +144,10 @@ std::vector<std::string> had_by_the_law(const Workbench& bench, const Fit& fit,
     if (coordinates.empty()) {
       return true;
     }
-    const std::vector<Probe> probes = probes_of(bench, neutral, coordinates, at, basis, [](const Probe& probe) {
-      return probe.change >= least_change && !is_imitated(probe);
-    });
-    return probes.empty() || probes.back().change < least_change || !is_imitated(probes.back());
+    const auto acts = [](const Probe& probe) { return probe.change >= least_change; };
+    const auto differs = [&](const Probe& probe) { return acts(probe) && !is_imitated(probe); };
+    const std::vector<Probe> probes = probes_of(bench, neutral, coordinates, at, basis, differs);
+    return std::ranges::none_of(probes, acts) || std::ranges::any_of(probes, differs);
   });
   return parts;
 }
