@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <ranges>
+#include <set>
 
 #include "core/apart.hpp"
 #include "core/drive.hpp"
@@ -70,6 +71,25 @@ void add_note(Diagnosis& diagnosis, const std::string& note) {
   if (!note.empty()) {
     diagnosis.notes.push_back(note);
   }
+}
+
+// Of laws in parameters that the base law lacks; empty without any. Other laws that are tried, or effects, have them.
+std::string note_of_laws_elsewhere(const DiagnoseOptions& options) {
+  const std::vector<std::string> own = make_model(options.model, {}).parameter_names();
+  std::set<std::string> lacking;
+  const auto add = [&](const LawOrders& orders) {
+    for (const auto& [parameter, order] : orders) {
+      if (std::ranges::find(own, parameter) == own.end()) lacking.insert(parameter);
+    }
+  };
+  add(options.layout.by_current);
+  add(options.layout.by_frequency);
+  for (const auto& [condition, orders] : options.layout.by) add(orders);
+  if (lacking.empty()) return {};
+  const bool one = lacking.size() == 1;
+  const std::vector<std::string> names(lacking.begin(), lacking.end());
+  return fmt::format("{} has no {}, so that {} only where another damper law or an effect has {}", options.model,
+                     joined(names, " and no "), one ? "its law acts" : "their laws act", one ? "it" : "them");
 }
 
 // Effects that the inputs excite; the others are noted as not observable.
@@ -211,6 +231,7 @@ std::unique_ptr<Diagnosis> diagnose(const Campaign& campaign, const Split& split
         "the starts of the recordings are told: heat and wear go on from one to the next, by the measured force");
   }
 
+  add_note(diagnosis, note_of_laws_elsewhere(options));
   if (!options.candidates.empty()) {
     add_note(diagnosis, "only these effects were tried: " + joined(options.candidates, ", "));
   }

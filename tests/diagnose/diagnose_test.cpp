@@ -96,6 +96,20 @@ TEST(Diagnosis, ARecordingOfAnotherZeroGivesNoName) {
                                   [](const std::string& note) { return note.starts_with("r2.csv was left out: "); }));
 }
 
+// modified-bouc-wen, which is tried in its place, has one.
+TEST(Diagnosis, TellsOfALawInAParameterThatTheBaseLawLacks) {
+  DiagnoseOptions options;
+  options.model = "bouc-wen";
+  options.seed = seed;
+  options.candidates = {"inertia"};
+  options.layout.by_frequency = {{"c0", 1}, {"c1", 1}};
+  const auto diagnosis = diagnose(campaign_with({}, {}, 0.02), options, [](double, const std::string&) {});
+  EXPECT_EQ(
+      std::ranges::count(diagnosis->notes,
+                         "bouc-wen has no c1, so that its law acts only where another damper law or an effect has it"),
+      1);
+}
+
 TEST(Diagnosis, NamesNothingWhereNothingIsMissing) {
   const auto diagnosis = diagnosis_of(campaign_with({}, {}, 0.02), few);
   EXPECT_EQ(diagnosis->verdict.answer, Answer::complete);
